@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Where shipped data lies, and what there is of it.
+
+#include "flyball/runtime/result.h"
+
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// `kind` is a folder of the share directory: `scenarios`, `presets`, `airframes`, `platforms`,
+/// `viewer`. Looked for in ../share/flyball beside the program's own folder.
+[[nodiscard]] std::string share_folder(const std::string& kind);
+/// Stems of the .toml files of a kind, sorted.
+[[nodiscard]] std::vector<std::string> shipped(const std::string& kind);
+/// The file of a bare name, or the path itself when it has a slash or ends in .toml.
+/// @error `not_found`: lists the command that shows the names.
+[[nodiscard]] Result<std::string> find_shipped(const std::string& kind, const std::string& name_or_path);
+
+}  // namespace flyball

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Flies one scenario from take-off to its end, on the virtual executor.
+
+#include "flyball/apps/scenario.h"
+#include "flyball/apps/summary.h"
+#include "flyball/runtime/recorder.h"
+#include "flyball/runtime/registry.h"
+#include "flyball/sim/world.h"
+
+#include <functional>
+#include <memory>
+
+namespace flyball {
+
+struct MissionRecord {
+  Summary summary{};
+  World world{};
+  /// Channels and fields: see apps/README.md. `state` has 10 rows a second.
+  std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.
+};
+
+struct MissionHooks {
+  /// Called about every 10 s of mission time: progress in words for a terminal.
+  std::function<void(double mission_s, const std::string& what)> progress{};
+  /// Asked often; true ends the mission as `interrupted`.
+  std::function<bool()> stop{};
+};
+
+/// Every kernel, policy, world and workload compiled in.
+[[nodiscard]] const Registry& all_plugins();
+
+/// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out.
+[[nodiscard]] Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks);
+
+}  // namespace flyball

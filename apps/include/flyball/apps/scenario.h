@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// One mission, completely described: what `flyball run` reads, and what each record begins with.
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/parameters.h"
+#include "flyball/runtime/result.h"
+#include "flyball/sim/depth_camera.h"
+#include "flyball/sim/gps.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+struct MissionSettings {
+  std::string workload{"package_delivery"};
+  double time_limit_s{1800.0};
+  double plan_time_limit_s{90.0};     ///< Standing without a path for longer ends the mission: `no_plan`.
+  double max_speed_m_s{10.0};
+  double max_acceleration_m_s2{6.0};  ///< MAVBench: a in eq. 2.
+  double goal_tolerance_m{3.0};       ///< A path that ends farther from the goal is replanned (MAVBench).
+};
+
+struct WorldSettings {
+  std::string generator{"empty"};
+  std::map<std::string, ParameterValue> parameters{};
+};
+
+struct VehicleSettings {
+  std::string airframe{"matrice_100"};
+  double payload_kg{0.5};
+  double physics_step_s{0.001};
+  double battery_charge{1.0};           ///< At the start, 0..1.
+  std::string rotor_power{"regression"};  ///< `regression` (eq. 1) or `thrust`.
+  double drive_efficiency{0.70};        ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
+  double wind_east_m_s{};
+  double wind_north_m_s{};
+};
+
+struct KernelSettings {
+  std::string point_cloud{"depth_to_points"};
+  std::string mapper{"octomap"};
+  std::string collision_check{"swept_cylinder"};
+  std::string planner{"rrt_connect"};
+  std::string smoother{"minimum_snap"};
+  std::string path_tracker{"feedforward_pd"};
+  std::string localizer{"truth"};
+  bool slam_load{true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
+};
+
+struct MapSettings {
+  double resolution_m{0.15};  ///< Default of the knob; a policy sets it in flight.
+  double range_m{7.0};
+  double rate_hz{20.0};
+};
+
+struct PlannerSettings {
+  int budget{40000};              ///< Iterations per request.
+  double corridor_m{10.0};        ///< First search box around start and goal; grows when nothing is found.
+};
+
+struct PlatformSettings {
+  std::string name{"jetson_tx2"};
+  int cores{4};
+  double frequency_hz{2.0352e9};
+};
+
+struct GovernorSettings {
+  std::string policy{"fixed_fine"};  ///< A preset, or a policy with its default parameters.
+  double period_s{0.25};
+};
+
+struct Scenario {
+  std::string name{"unnamed"};
+  std::uint64_t seed{1};
+  MissionSettings mission{};
+  WorldSettings world{};
+  VehicleSettings vehicle{};
+  DepthCameraSpec camera{};
+  GpsSpec gps{};
+  KernelSettings kernels{};
+  MapSettings map{};
+  PlannerSettings planner{};
+  PlatformSettings platform{};
+  GovernorSettings governor{};
+};
+
+/// A value of the configuration as `flyball config` prints it.
+struct ConfigEntry {
+  std::string key;       ///< `map.range_m`
+  std::string value;
+  std::string fallback;
+  std::string origin;    ///< `default`, the file's name with line, or `--set`.
+  std::string description;
+};
+
+struct LoadedScenario {
+  Scenario scenario;
+  std::vector<ConfigEntry> entries;
+};
+
+/// Reads a scenario and applies `KEY=VALUE` overrides on top.
+///
+/// @param name_or_path  `delivery_forest` (shipped) or a path to a .toml file.
+/// @return              Every violation at once: unknown keys, wrong types and units, values out of
+///                      range (both sides of the inequality), each as one sentence.
+[[nodiscard]] std::variant<LoadedScenario, std::vector<Error>> load_scenario(
+    const std::string& name_or_path, const std::vector<std::string>& overrides);
+
+/// The scenario as a .toml file that `load_scenario` reads back to the same values.
+[[nodiscard]] std::string to_toml(const Scenario& scenario);
+
+}  // namespace flyball

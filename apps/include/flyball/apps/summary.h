@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a mission came to.
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace flyball {
+
+enum class MissionStatus : std::uint8_t { succeeded, failed, interrupted };
+enum class MissionFailure : std::uint8_t { none, collision, battery_empty, no_plan, time_limit };
+
+[[nodiscard]] const char* to_string(MissionStatus status);
+[[nodiscard]] const char* to_string(MissionFailure failure);
+
+struct KernelStatistics {
+  std::uint64_t calls{};
+  double mission_ms_mean{};
+  double mission_ms_p95{};
+  double host_ms_mean{};
+};
+
+struct Summary {
+  std::string scenario;
+  std::string policy;
+  std::uint64_t seed{};
+  MissionStatus status{MissionStatus::failed};
+  MissionFailure failure{MissionFailure::none};
+  double mission_time_s{};
+  double energy_rotor_j{};
+  double energy_computer_j{};
+  double battery_start_percent{};
+  double battery_end_percent{};
+  double distance_m{};
+  double mean_speed_m_s{};
+  double max_speed_m_s{};
+  double hover_time_s{};   ///< Airborne below .1 m/s.
+  int replans{};
+  std::uint64_t deadline_overruns{};
+  std::uint64_t decisions{};
+  std::uint64_t knob_changes{};
+  std::uint64_t policy_faults{};
+  double latency_p50_s{};  ///< Sensor to command.
+  double latency_p95_s{};
+  double latency_max_s{};
+  double min_clearance_m{};
+  std::map<std::string, KernelStatistics> kernels{};
+  double host_s{};
+  double real_time_factor{};
+  std::string trace_hash{};
+  std::string numeric_fingerprint{};
+  std::string version{};
+
+  [[nodiscard]] double energy_total_j() const { return energy_rotor_j + energy_computer_j; }
+};
+
+/// Nested as the command line documents it: `energy_j {rotor, computer, total}`, `latency_s {...}`.
+[[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
+/// @return Empty optional-like result when the text is not a summary.
+[[nodiscard]] bool from_json(const std::string& text, Summary& summary);
+
+}  // namespace flyball

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Shortest path: from a start to a goal region through what the map knows and what it does not.
+
+#include "flyball/runtime/kernel.h"
+#include "flyball/runtime/occupancy.h"
+#include "flyball/runtime/result.h"
+#include "flyball/runtime/work.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+struct PlanRequest {
+  Vec3 start_W{Vec3::Zero()};
+  Vec3 goal_W{Vec3::Zero()};
+  Aabb bounds_W{};            ///< The body's centre stays inside.
+  Cylinder body{};            ///< With its tracking tube.
+  int max_iterations{10000};  ///< Planner iterations, over all attempts.
+  double max_slope_rad{0.35}; ///< Of each straight piece; about 20 degrees.
+  std::uint64_t seed{};       ///< Of this one plan.
+};
+
+struct Plan {
+  std::vector<Vec3> waypoints_W{};  ///< From start to goal; empty when none was found.
+  Work work{};                      ///< `iterations`, `collision_queries`; also when none was found.
+  std::string failure{};            ///< Empty on success; else why: `start blocked`, `goal blocked`, `no path within N iterations`.
+};
+
+class PathPlanner : public Kernel {
+ public:
+  /// Unknown space may be crossed, occupied cubes may not. Same request and map, same plan.
+  [[nodiscard]] virtual Plan plan(const PlanRequest& request, const OccupancyView& map) = 0;
+};
+
+}  // namespace flyball

@@ -1,0 +1,92 @@
+# flyball_compile_options(<target>): warnings, and the flags that keep floating point the same in
+# every build type (constant folding and fused multiply-add change bits).
+function(flyball_compile_options target)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -frounding-math
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+    $<$<BOOL:${FLYBALL_WERROR}>:-Werror>)
+endfunction()
+
+# flyball_data(<name> <folder>): the program finds it in ../share/flyball/<name>, seen from its own
+# folder, in the build tree and installed.
+function(flyball_data name folder)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/flyball)
+  file(CREATE_LINK ${folder} ${PROJECT_BINARY_DIR}/share/flyball/${name} SYMBOLIC)
+  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/flyball/${name})
+endfunction()
+
+# flyball_module(<name> SOURCES ... [PUBLIC <targets>] [PRIVATE <targets>])
+#   One folder, one target: flyball_<name>, alias flyball::<name>.
+#   Public headers are exactly the files under <folder>/include/.
+function(flyball_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target flyball_${name})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.h)
+  add_library(${target} ${arg_SOURCES})
+  add_library(flyball::${name} ALIAS ${target})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON CXX_EXTENSIONS OFF
+    POSITION_INDEPENDENT_CODE ON)
+  flyball_compile_options(${target})
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  install(TARGETS ${target} EXPORT FlyballTargets FILE_SET HEADERS)
+endfunction()
+
+# flyball_plugins(<target> <table> <file>...)
+#   Compiles each plug-in file into <target> and generates <table>.cpp, which calls every
+#   FLYBALL_PLUGIN(<stem>) in name order. A file may open with
+#     // flyball-package: <CMake package>     (skipped, with a message, when not found)
+#     // flyball-link:    <target>...
+function(flyball_plugins target table)
+  set(decls "")
+  set(calls "")
+  list(SORT ARGN)
+  foreach(file IN LISTS ARGN)
+    cmake_path(GET file STEM stem)
+    file(STRINGS ${file} package REGEX "^// flyball-package:")
+    file(STRINGS ${file} links REGEX "^// flyball-link:")
+    string(REGEX REPLACE "^// flyball-package: *" "" package "${package}")
+    string(REGEX REPLACE "^// flyball-link: *" "" links "${links}")
+    separate_arguments(links)
+    if(package)
+      separate_arguments(package)
+      list(GET package 0 name)
+      find_package(${package} QUIET)
+      if(NOT ${name}_FOUND)
+        message(STATUS "Flyball: ${stem} left out (${name} not found)")
+        continue()
+      endif()
+      list(JOIN package " " package)
+      set_property(GLOBAL APPEND PROPERTY FLYBALL_DEPENDENCIES "find_dependency(${package})")
+    endif()
+    target_sources(${target} PRIVATE ${file})
+    target_link_libraries(${target} PRIVATE ${links})
+    string(APPEND decls "void flyball_plugin_${stem}(flyball::Registry&);\n")
+    string(APPEND calls "  flyball_plugin_${stem}(registry);\n")
+  endforeach()
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${table}.cpp)
+  file(CONFIGURE OUTPUT ${out} @ONLY CONTENT
+"#include <flyball/runtime/registry.h>
+extern \"C\" {
+@decls@}
+namespace flyball {
+void @table@([[maybe_unused]] Registry& registry) {
+@calls@}
+}
+")
+  target_sources(${target} PRIVATE ${out})
+endfunction()
+
+function(flyball_install_package)
+  include(CMakePackageConfigHelpers)
+  set(dir ${CMAKE_INSTALL_LIBDIR}/cmake/Flyball)
+  get_property(dependencies GLOBAL PROPERTY FLYBALL_DEPENDENCIES)
+  list(REMOVE_DUPLICATES dependencies)
+  list(JOIN dependencies "\n" FLYBALL_DEPENDENCIES)
+  configure_package_config_file(runtime/cmake/FlyballConfig.cmake.in FlyballConfig.cmake INSTALL_DESTINATION ${dir})
+  write_basic_package_version_file(FlyballConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(EXPORT FlyballTargets NAMESPACE flyball:: DESTINATION ${dir})
+  install(FILES ${PROJECT_BINARY_DIR}/FlyballConfig.cmake ${PROJECT_BINARY_DIR}/FlyballConfigVersion.cmake DESTINATION ${dir})
+  export(EXPORT FlyballTargets NAMESPACE flyball:: FILE ${PROJECT_BINARY_DIR}/FlyballTargets.cmake)
+endfunction()

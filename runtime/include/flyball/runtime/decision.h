@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a decision sets, and why.
+
+#include <array>
+#include <cstdint>
+#include <cstddef>
+#include <string_view>
+
+namespace flyball {
+
+enum class Reason : std::uint8_t { fixed, density, deadline, energy, load, fallback };
+
+[[nodiscard]] std::string_view to_string(Reason reason);
+
+/// A value for any subset of knobs. Fixed capacity: deciding allocates nothing.
+class Decision {
+ public:
+  struct Wish {
+    std::string_view knob;  ///< Outlives the decision: a literal, or owned by the policy.
+    double value{};
+  };
+  static constexpr std::size_t capacity = 16;
+
+  Reason reason{Reason::fixed};
+
+  /// Past `capacity` wishes the rest is dropped and `overflowed()` says so.
+  void set(std::string_view knob, double value) noexcept {
+    if (size_ < capacity) {
+      wishes_[size_++] = {knob, value};
+    } else {
+      overflowed_ = true;
+    }
+  }
+  [[nodiscard]] const Wish* begin() const noexcept { return wishes_.data(); }
+  [[nodiscard]] const Wish* end() const noexcept { return wishes_.data() + size_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
+
+ private:
+  std::array<Wish, capacity> wishes_{};
+  std::size_t size_{};
+  bool overflowed_{};
+};
+
+}  // namespace flyball

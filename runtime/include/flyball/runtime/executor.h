@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Runs a graph: on a modeled computer in mission time, or (later) on threads in real time.
+
+#include "flyball/runtime/graph.h"
+#include "flyball/runtime/platform.h"
+
+#include <functional>
+#include <memory>
+
+namespace flyball {
+
+/// One job from release to end.
+struct JobRecord {
+  int node{};
+  MissionTime released{};
+  MissionTime started{};
+  MissionTime ended{};
+  Duration busy{};       ///< Core time that it got.
+  Work work{};
+  bool killed{};         ///< By `OnMiss::skip`.
+  bool missed{};         ///< Its deadline.
+  double host_s{};       ///< Host time of the computation: never part of the trace hash.
+};
+
+class Executor {
+ public:
+  Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+  virtual ~Executor() = default;
+
+  /// Publishes from outside the graph (a sensor, the mission) at the present time.
+  template <class T>
+  void publish(Topic<T> topic, T value) {
+    inject(topic.index, std::make_shared<const T>(std::move(value)));
+  }
+  /// Calls `listener` when a message appears on the topic (the flight controller, a recorder).
+  template <class T>
+  void subscribe(Topic<T> topic, std::function<void(const T&)> listener) {
+    listen(topic.index, [listener = std::move(listener)](const Message& message) {
+      listener(*static_cast<const T*>(message.get()));
+    });
+  }
+  virtual void on_job(std::function<void(const JobRecord&)> listener) = 0;
+  /// A job passed its deadline, told at that moment.
+  virtual void on_miss(std::function<void(int node, OnMiss)> listener) = 0;
+
+  /// Running jobs keep their progress and go on at the new rate after the platform's switching time.
+  virtual void set_operating_point(const OperatingPoint& point) = 0;
+  [[nodiscard]] virtual const OperatingPoint& operating_point() const = 0;
+  /// Core-seconds of work done since the start.
+  [[nodiscard]] virtual double busy_core_s() const = 0;
+  /// Cores in use right now.
+  [[nodiscard]] virtual double busy_cores() const = 0;
+  /// Messages dropped since the start: from full queues, and triggers of a latest-value topic that
+  /// were overtaken while their node was busy.
+  [[nodiscard]] virtual std::uint64_t drops() const = 0;
+
+ protected:
+  virtual void inject(int topic, Message message) = 0;
+  virtual void listen(int topic, std::function<void(const Message&)> listener) = 0;
+};
+
+}  // namespace flyball

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A workload as nodes that talk by typed topics and services; the same graph for every executor.
+
+#include "flyball/runtime/assert.h"
+#include "flyball/runtime/time.h"
+#include "flyball/runtime/work.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <variant>
+#include <vector>
+
+namespace flyball {
+
+/// Handle of a topic that carries T.
+template <class T>
+struct Topic {
+  int index{-1};
+};
+
+/// A request topic and its response topic.
+template <class Request, class Response>
+struct Service {
+  Topic<Request> request;
+  Topic<Response> response;
+};
+
+/// Owners: the topic's slots, and every job that reads the message while it runs.
+using Message = std::shared_ptr<const void>;
+
+struct TopicSpec {
+  std::string name;
+  std::type_index type;
+  std::size_t capacity{1};  ///< 1: latest value. More: a queue; the oldest is dropped and counted.
+};
+
+enum class OnMiss : std::uint8_t {
+  warn,     ///< Count it.
+  skip,     ///< Kill the job; its outputs never appear.
+  degrade,  ///< Count it and tell the governor at once.
+  brake,    ///< Tell the guard to stop the vehicle.
+};
+
+/// A job starts when a message arrives on `topic`, ...
+struct OnMessage {
+  int topic{};
+};
+/// ... or every `period`, first after `phase`.
+struct OnPeriod {
+  Duration period{};
+  Duration phase{};
+};
+
+struct NodeSpec {
+  std::string name;
+  std::string cost;  ///< Kernel name on the platform's price list. Empty: takes no time.
+  std::variant<OnMessage, OnPeriod> trigger{OnPeriod{}};
+  int priority{};        ///< Higher runs first.
+  Duration deadline{};   ///< From release to end; zero: none.
+  OnMiss on_miss{OnMiss::warn};
+  int threads{1};
+  std::vector<int> reads{};   ///< Topics besides the trigger.
+  std::vector<int> writes{};
+};
+
+/// What a job may touch. Its publications appear when the job's time has passed.
+class JobContext {
+ public:
+  JobContext() = default;
+  JobContext(const JobContext&) = delete;
+  JobContext& operator=(const JobContext&) = delete;
+  virtual ~JobContext() = default;
+
+  [[nodiscard]] virtual MissionTime now() const = 0;
+  /// When the trigger fired.
+  [[nodiscard]] virtual MissionTime released() const = 0;
+  /// Newest message; null if none has been published.
+  template <class T>
+  [[nodiscard]] std::shared_ptr<const T> latest(Topic<T> topic) const {
+    return std::static_pointer_cast<const T>(read(topic.index));
+  }
+  /// Oldest unread message of a queue, which is removed; null when empty. For a latest-value topic
+  /// the value is returned once.
+  template <class T>
+  [[nodiscard]] std::shared_ptr<const T> take(Topic<T> topic) {
+    return std::static_pointer_cast<const T>(pop(topic.index));
+  }
+  template <class T>
+  void publish(Topic<T> topic, T value) {
+    push(topic.index, std::make_shared<const T>(std::move(value)));
+  }
+  /// Runs when the job ends, before its publications appear; never when it was killed.
+  virtual void at_end(std::function<void(MissionTime)> action) = 0;
+
+ protected:
+  [[nodiscard]] virtual Message read(int topic) const = 0;
+  [[nodiscard]] virtual Message pop(int topic) = 0;
+  virtual void push(int topic, Message message) = 0;
+};
+
+/// The node's computation; returns the work that it did.
+using Body = std::function<Work(JobContext&)>;
+
+struct Node {
+  NodeSpec spec;
+  Body body;
+};
+
+class Graph {
+ public:
+  explicit Graph(std::string name) : name_{std::move(name)} {}
+
+  /// @pre `name` is new, `capacity >= 1`.
+  template <class T>
+  Topic<T> topic(std::string name, std::size_t capacity = 1) {
+    return {add_topic({std::move(name), typeid(T), capacity})};
+  }
+  template <class Request, class Response>
+  Service<Request, Response> service(const std::string& name, std::size_t capacity = 4) {
+    return {topic<Request>(name + ".request", capacity), topic<Response>(name + ".response", capacity)};
+  }
+  /// @pre `spec.name` is new; its topics exist; `threads >= 1`.
+  void node(NodeSpec spec, Body body);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<TopicSpec>& topics() const { return topics_; }
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] std::string to_text() const;
+  [[nodiscard]] std::string to_dot() const;
+
+ private:
+  int add_topic(TopicSpec spec);
+  std::string name_;
+  std::vector<TopicSpec> topics_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The braking invariant: the committed path always ends stopped inside known-free space.
+/// Not pluggable; a wrong governor costs time, never a collision, as long as obstacles are static,
+/// the map is sound and the brake model holds.
+
+#include "flyball/runtime/occupancy.h"
+#include "flyball/runtime/time.h"
+#include "flyball/runtime/trajectory.h"
+
+#include <deque>
+
+namespace flyball {
+
+/// Largest speed from which the vehicle stops within `distance_m` after reacting for `delta_s`:
+/// v = a (sqrt(delta^2 + 2 d / a) - delta), MAVBench (MICRO 2018) eq. 2. Zero for d <= 0.
+/// @pre `deceleration_m_s2 > 0`, `delta_s >= 0`.
+[[nodiscard]] double safe_speed(double deceleration_m_s2, double delta_s, double distance_m);
+
+/// The tube that the body needs around its reference at a speed: e(v) [m].
+struct TrackingTube {
+  double at_rest_m{0.02};
+  double per_m_s{0.01};  ///< Growth with speed: measured, see tests/sim/flight_controller_test.cpp.
+  [[nodiscard]] double radius_m(double speed_m_s) const { return at_rest_m + per_m_s * speed_m_s; }
+};
+
+/// Distance along `path` from `from_m` to the first place where the body (its centre on the path)
+/// is not in known-free space; at most `horizon_m`.
+/// @cost One body query per `step_m`; `step_m` <= half the finest cell leaves no gap.
+[[nodiscard]] double known_free_distance(const OccupancyView& map,
+                                         const Path& path,
+                                         double from_m,
+                                         double horizon_m,
+                                         const Cylinder& body,
+                                         double step_m = 0.05);
+
+struct GuardSettings {
+  double max_deceleration_m_s2{6.0};  ///< MAVBench's a.
+  Duration tick{std::chrono::milliseconds{20}};
+  Duration brake_lag{std::chrono::milliseconds{200}};  ///< Measured: stops from 1, 3, 6, 9 m/s.
+  Duration command_age{std::chrono::milliseconds{20}};
+};
+
+class Guard {
+ public:
+  explicit Guard(GuardSettings settings) : settings_{settings} {}
+
+  /// t_b = tick + age of the command + brake lag.
+  [[nodiscard]] Duration reaction_time() const;
+  /// The test of each tick: v t_b + v^2 / (2 a) > d_now, so stop along the committed path.
+  [[nodiscard]] bool must_brake(double speed_m_s, double known_free_now_m) const;
+  [[nodiscard]] const GuardSettings& settings() const { return settings_; }
+
+ private:
+  GuardSettings settings_;
+};
+
+/// Upper bound on sensor-to-publish latency: the largest of the last 20, times 1.1; until there is
+/// a sample, the seed.
+class LatencyWindow {
+ public:
+  explicit LatencyWindow(Duration seed) : seed_{seed} {}
+  void add(Duration latency);
+  [[nodiscard]] Duration bound() const;
+
+ private:
+  Duration seed_;
+  std::deque<Duration> recent_;
+};
+
+}  // namespace flyball

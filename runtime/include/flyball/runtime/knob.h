@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a governor may turn: each knob has a name, a unit, legal values, a default, an owner.
+
+#include "flyball/runtime/result.h"
+#include "flyball/runtime/time.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flyball {
+
+struct KnobSpec {
+  std::string name;  ///< `map.resolution_m`
+  std::string unit;
+  std::string owner;  ///< Node, or `platform`, or `mission`.
+  std::vector<double> legal{};  ///< Ascending; empty: every value in [min, max].
+  double min{};
+  double max{};
+  double fallback{};
+  Duration switching_cost{};
+  std::string description{};
+
+  /// The legal value nearest to `wish`, the smaller of two equally near. @pre `wish` is finite.
+  [[nodiscard]] double nearest(double wish) const;
+  [[nodiscard]] bool is_legal(double value) const;
+};
+
+/// Values by knob name, kept for the specs that it was made from.
+class KnobSettings {
+ public:
+  KnobSettings() = default;
+  explicit KnobSettings(std::vector<KnobSpec> specs);
+
+  [[nodiscard]] const std::vector<KnobSpec>& specs() const { return specs_; }
+  /// Null when no knob has this name.
+  [[nodiscard]] const KnobSpec* spec(std::string_view name) const;
+  /// @pre The knob exists.
+  [[nodiscard]] double value(std::string_view name) const;
+  /// @error `not_found`, `invalid_input` (both name the way out); the value is unchanged.
+  Status set(std::string_view name, double value);
+
+ private:
+  std::vector<KnobSpec> specs_;
+  std::vector<double> values_;
+};
+
+}  // namespace flyball

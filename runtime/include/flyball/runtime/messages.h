@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What sensors say and what the flight controller hears.
+
+#include "flyball/runtime/geometry.h"
+#include "flyball/runtime/time.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace flyball {
+
+/// Pinhole camera without distortion.
+struct Intrinsics {
+  int width_px{};
+  int height_px{};
+  double focal_px{};  ///< Same for x and y.
+  double centre_x_px{};
+  double centre_y_px{};
+};
+
+/// One depth frame. `depth_m` is the distance along the optical axis, row by row; infinity where
+/// nothing was hit within the sensor's range.
+struct DepthImage {
+  MissionTime captured{};
+  std::uint64_t sequence{};
+  Intrinsics camera{};
+  double max_range_m{};
+  std::vector<float> depth_m{};
+};
+
+/// A frame as the sensor publishes it. The pixels are computed when somebody looks: frames that
+/// are dropped from a queue cost the simulator nothing. `read` gives the same image at every call.
+struct DepthFrame {
+  MissionTime captured{};
+  std::uint64_t sequence{};
+  int pixels{};
+  std::function<DepthImage()> read;
+};
+
+/// Returns of one frame in the camera frame C.
+struct PointCloud {
+  MissionTime captured{};
+  std::uint64_t sequence{};
+  std::vector<Eigen::Vector3f> hits_C{};   ///< Surface points [m].
+  std::vector<Eigen::Vector3f> clear_C{};  ///< End points of rays without return, at `max_range_m`.
+};
+
+/// What the navigation sensors measured. `truth` fields are for the `truth` localizer and for
+/// error statistics only.
+struct NavigationSample {
+  MissionTime stamp{};
+  Pose X_WB_truth{Pose::Identity()};
+  Vec3 v_WB_truth{Vec3::Zero()};
+  Vec3 w_WB_B_truth{Vec3::Zero()};  ///< Angular velocity [rad/s].
+  bool has_fix{};                   ///< Whether this sample carries a new GPS fix.
+  double latitude_rad{};
+  double longitude_rad{};
+  double height_m{};                ///< Above the WGS-84 ellipsoid.
+  Vec3 v_gps_W{Vec3::Zero()};       ///< Doppler velocity, east-north-up [m/s].
+  Eigen::Quaterniond q_WB_ahrs{Eigen::Quaterniond::Identity()};  ///< From the flight controller.
+};
+
+/// Where the vehicle believes it is.
+struct PoseEstimate {
+  MissionTime stamp{};
+  Pose X_WB{Pose::Identity()};
+  Vec3 v_WB{Vec3::Zero()};
+};
+
+/// What the companion computer streams to the flight controller.
+struct Setpoint {
+  MissionTime stamp{};
+  Vec3 p_WB{Vec3::Zero()};
+  Vec3 v_WB{Vec3::Zero()};
+  Vec3 a_WB{Vec3::Zero()};  ///< Feed-forward.
+  double yaw_rad{};
+  double yaw_rate_rad_s{};
+};
+
+}  // namespace flyball

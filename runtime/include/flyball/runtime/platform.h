@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The computer: its operating points, and what work costs on it in time and power.
+
+#include "flyball/runtime/result.h"
+#include "flyball/runtime/time.h"
+#include "flyball/runtime/units.h"
+#include "flyball/runtime/work.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flyball {
+
+struct OperatingPoint {
+  int cores{1};
+  Hertz frequency{};
+  friend bool operator==(const OperatingPoint& a, const OperatingPoint& b) {
+    return a.cores == b.cores && a.frequency == b.frequency;
+  }
+  friend bool operator!=(const OperatingPoint& a, const OperatingPoint& b) { return !(a == b); }
+};
+
+class Platform {
+ public:
+  Platform() = default;
+  Platform(const Platform&) = delete;
+  Platform& operator=(const Platform&) = delete;
+  virtual ~Platform() = default;
+
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  /// Ascending.
+  [[nodiscard]] virtual const std::vector<Hertz>& frequencies() const = 0;
+  [[nodiscard]] virtual int max_cores() const = 0;
+  /// How long `work` of `kernel` takes on one core. A kernel without a cost takes no time: ask
+  /// `knows` at set-up.
+  [[nodiscard]] virtual Duration job_time(std::string_view kernel,
+                                          const Work& work,
+                                          Hertz frequency) const = 0;
+  /// Amdahl speed-up of `kernel` on `cores` (may be fractional); 1 for at most one core.
+  [[nodiscard]] virtual double speedup(std::string_view kernel, double cores) const = 0;
+  [[nodiscard]] virtual bool knows(std::string_view kernel) const = 0;
+  /// Input power of the whole computer with `busy_cores` busy on average.
+  [[nodiscard]] virtual Watts power(const OperatingPoint& point, double busy_cores) const = 0;
+  /// How long a change of the clock takes; jobs stand still meanwhile.
+  [[nodiscard]] virtual Duration switching_time() const = 0;
+};
+
+/// One kernel's price list: t = scale * sum_i n_i c_i (a / f_GHz + b) / S(cores).
+struct KernelCost {
+  std::map<std::string, double, std::less<>> seconds_per{};  ///< c_i by work name, at 1 GHz.
+  double scale{1.0};
+  double a{1.0};                ///< Share that scales with the clock [GHz].
+  double b{};                   ///< Share that does not (memory).
+  double parallel_fraction{};   ///< 0: the kernel runs on one core only.
+};
+
+/// P_in = board + converter * (P_soc + P_memory + const + linear f + sum_i u_i (core_linear f + core_cubic f^3)),
+/// f in GHz (facts in the platform file).
+struct PowerCost {
+  double board_w{};
+  double converter{1.0};
+  double soc_w{};
+  double memory_w{};
+  double cpu_constant_w{};
+  double cpu_linear_w{};
+  double core_linear_w{};
+  double core_cubic_w{};
+};
+
+struct PlatformModel {
+  std::string name;
+  int max_cores{1};
+  std::vector<Hertz> frequencies{};  ///< Ascending.
+  Duration switching_time{};
+  PowerCost power{};
+  std::map<std::string, KernelCost, std::less<>> kernels{};
+};
+
+/// A platform that is nothing but its numbers.
+class ModeledPlatform final : public Platform {
+ public:
+  explicit ModeledPlatform(PlatformModel model);
+
+  [[nodiscard]] const std::string& name() const override { return model_.name; }
+  [[nodiscard]] const std::vector<Hertz>& frequencies() const override { return model_.frequencies; }
+  [[nodiscard]] int max_cores() const override { return model_.max_cores; }
+  [[nodiscard]] Duration job_time(std::string_view kernel, const Work& work, Hertz frequency) const override;
+  [[nodiscard]] double speedup(std::string_view kernel, double cores) const override;
+  [[nodiscard]] bool knows(std::string_view kernel) const override;
+  [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override;
+  [[nodiscard]] Duration switching_time() const override { return model_.switching_time; }
+  [[nodiscard]] const PlatformModel& model() const { return model_; }
+
+ private:
+  PlatformModel model_;
+};
+
+}  // namespace flyball

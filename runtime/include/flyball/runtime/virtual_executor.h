@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A discrete-event model of the companion computer: `cores` servers at `frequency`.
+
+#include "flyball/runtime/event_queue.h"
+#include "flyball/runtime/executor.h"
+
+#include <memory>
+
+namespace flyball {
+
+/// Preemptive-resume by priority; jobs of equal priority share the cores equally; a job uses at
+/// most its node's `threads`. A job computes for real when it first gets a core, and ends when the
+/// modeled time has passed: progress grows at S(share) / t(f), or share / t(f) below one core, so
+/// that a change of clock or cores alters only that rate. A node runs one job at a time.
+/// The same graph, platform and events give the same schedule on any host.
+class VirtualExecutor final : public Executor {
+ public:
+  /// Graph, platform and queue outlive the executor.
+  VirtualExecutor(const Graph& graph, const Platform& platform, EventQueue& queue, OperatingPoint point);
+  ~VirtualExecutor() override;
+
+  void on_job(std::function<void(const JobRecord&)> listener) override;
+  void on_miss(std::function<void(int node, OnMiss)> listener) override;
+  void set_operating_point(const OperatingPoint& point) override;
+  [[nodiscard]] const OperatingPoint& operating_point() const override;
+  [[nodiscard]] double busy_core_s() const override;
+  [[nodiscard]] double busy_cores() const override;
+  [[nodiscard]] std::uint64_t drops() const override;
+
+ protected:
+  void inject(int topic, Message message) override;
+  void listen(int topic, std::function<void(const Message&)> listener) override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// GPS receiver: geodetic fixes with white noise on a slowly wandering bias.
+
+#include "flyball/runtime/messages.h"
+#include "flyball/runtime/random.h"
+#include "flyball/sim/vehicle.h"
+
+#include <cstdint>
+
+namespace flyball {
+
+struct GpsSpec {
+  double rate_hz{10.0};
+  double white_noise_m{0.05};     ///< RTK-class by default; 1.5 for a plain receiver.
+  double wander_m{0.10};          ///< Standard deviation of the bias.
+  double wander_time_s{60.0};     ///< Its correlation time (first-order Gauss-Markov).
+  double velocity_noise_m_s{0.05};
+};
+
+/// Where W's origin lies on the earth (degrees north, east; metres above the ellipsoid).
+struct EarthOrigin {
+  double latitude_rad{0.8290};
+  double longitude_rad{0.1484};
+  double height_m{400.0};
+};
+
+class Gps {
+ public:
+  Gps(const GpsSpec& spec, const EarthOrigin& origin, std::uint64_t seed);
+  /// One sample of the navigation sensors; `with_fix` adds a GPS fix.
+  /// East-north-up to geodetic on the WGS-84 ellipsoid, exact to 1 mm within 10 km.
+  [[nodiscard]] NavigationSample sample(const VehicleState& state, MissionTime now, bool with_fix);
+
+ private:
+  GpsSpec spec_;
+  EarthOrigin origin_;
+  RandomStream noise_;
+  Vec3 bias_W_{Vec3::Zero()};
+};
+
+}  // namespace flyball

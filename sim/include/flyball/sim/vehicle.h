@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Simbody multibody vehicle: free body, four rotors with first-order lag, drag, ground contact.
+
+#include "flyball/runtime/geometry.h"
+#include "flyball/sim/airframe.h"
+
+#include <array>
+#include <memory>
+
+namespace flyball {
+
+struct VehicleState {
+  Pose X_WB{Pose::Identity()};
+  Vec3 v_WB{Vec3::Zero()};
+  Vec3 w_WB_B{Vec3::Zero()};       ///< Angular velocity in B [rad/s].
+  Vec3 a_WB{Vec3::Zero()};         ///< Of the last step [m/s^2].
+  std::array<double, 4> rotor_rev_s{};
+};
+
+/// Rotors: 0 front left, 1 front right, 2 rear right, 3 rear left (X layout); 0 and 2 turn
+/// clockwise seen from above, so they push the body anticlockwise.
+using RotorSpeeds = std::array<double, 4>;  ///< Commanded, rev/s.
+
+class Vehicle {
+ public:
+  /// @param ground_z_m  Height of the plane that it stands on.
+  Vehicle(const Airframe& airframe, double payload_kg, const Vec3& p_WB, double yaw_rad, double ground_z_m);
+  ~Vehicle();
+  Vehicle(const Vehicle&) = delete;
+  Vehicle& operator=(const Vehicle&) = delete;
+
+  /// One semi-explicit Euler step. @pre `dt_s > 0`.
+  void step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W);
+  [[nodiscard]] const VehicleState& state() const;
+  /// Mass changes at once, motion goes on (the payload leaves at rest relative to the body).
+  void set_payload(double payload_kg);
+  [[nodiscard]] double payload_kg() const;
+  [[nodiscard]] double mass_kg() const;
+
+  /// Since construction [J]: work of the rotors' thrust and torque on the body, and work against
+  /// drag and ground. For the energy balance.
+  [[nodiscard]] double rotor_work_j() const;
+  [[nodiscard]] double drag_loss_j() const;
+  [[nodiscard]] double contact_loss_j() const;
+  [[nodiscard]] double kinetic_j() const;
+  [[nodiscard]] double potential_j() const;
+  /// Mechanical power at the shafts, sum of C_P rho n^3 D^5 [W].
+  [[nodiscard]] double shaft_power_w() const;
+
+ private:
+  struct Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The true world: solid boxes and pillars, and what a scenario declares about it.
+
+#include "flyball/runtime/geometry.h"
+#include "flyball/runtime/parameters.h"
+#include "flyball/runtime/result.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Upright cylinder standing between two heights (a trunk, a lamp post).
+struct Pillar {
+  Vec3 foot_W{Vec3::Zero()};
+  double radius_m{};
+  double height_m{};
+};
+
+/// Inside the box the vehicle flies no faster than this (a scenario's rule, known on board).
+struct SpeedZone {
+  Aabb box_W{};
+  double max_speed_m_s{};
+};
+
+struct World {
+  Aabb bounds_W{};  ///< Where the vehicle may fly: planner bounds.
+  double ground_z_m{};
+  bool has_ground{true};             ///< A solid plane at `ground_z_m`.
+  std::vector<Aabb> boxes{};         ///< Solid; may touch and overlap.
+  std::vector<Pillar> pillars{};
+  std::vector<SpeedZone> zones{};
+  Vec3 start_W{Vec3::Zero()};        ///< On the ground, where the vehicle takes off.
+  Vec3 goal_W{Vec3::Zero()};         ///< On the ground, where it delivers.
+  double cruise_height_m{1.5};       ///< Above ground.
+};
+
+/// Makes a world from a seed and parameters.
+class WorldGenerator {
+ public:
+  WorldGenerator() = default;
+  WorldGenerator(const WorldGenerator&) = delete;
+  WorldGenerator& operator=(const WorldGenerator&) = delete;
+  virtual ~WorldGenerator() = default;
+
+  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
+  /// Same parameters and seed, same world. Start and goal are clear by at least 1 m up to 2.5 m height.
+  /// @error `not_found` (a file), `invalid_input` (parameters that contradict each other).
+  [[nodiscard]] virtual Result<World> make(const Parameters& given, std::uint64_t seed) const = 0;
+};
+
+/// Distance queries against the true world.
+class Clearance {
+ public:
+  explicit Clearance(const World& world);
+  /// Distance from the surface of the upright cylinder around `p_WB` to the nearest solid, at most
+  /// `limit_m`; zero when they touch or overlap. The ground counts unless `ignore_ground`.
+  [[nodiscard]] double distance_m(const Vec3& p_WB, const Cylinder& body, double limit_m,
+                                  bool ignore_ground) const;
+
+ private:
+  World world_;
+  double cell_m_{4.0};
+  int columns_x_{};
+  int columns_y_{};
+  Vec3 origin_{Vec3::Zero()};
+  std::vector<std::vector<int>> boxes_in_;    ///< Box indices per grid column.
+  std::vector<std::vector<int>> pillars_in_;
+};
+
+}  // namespace flyball
