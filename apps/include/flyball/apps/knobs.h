@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The knobs that every workload of this project has.
+
+#include "flyball/apps/scenario.h"
+#include "flyball/runtime/knob.h"
+#include "flyball/runtime/platform.h"
+
+namespace flyball {
+
+/// Defaults are the scenario's values; legal clocks and cores are the platform's.
+[[nodiscard]] std::vector<KnobSpec> standard_knobs(const Scenario& scenario, const Platform& platform);
+
+}  // namespace flyball
