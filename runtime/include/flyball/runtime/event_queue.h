@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <queue>
 #include <vector>
 
 namespace flyball {
@@ -28,6 +27,7 @@ class EventQueue {
   /// Runs events until `done()` or none is left. `done` is asked after each event.
   void run(const std::function<bool()>& done);
   /// Runs `action` every `period`, first at `first`, for as long as the queue runs.
+  /// @pre `period > 0`; `first` is not before `now()`.
   void every(MissionTime first, Duration period, EventOrder order, Action action);
 
  private:
@@ -40,7 +40,7 @@ class EventQueue {
   struct Later {
     bool operator()(const Event& a, const Event& b) const;
   };
-  std::priority_queue<Event, std::vector<Event>, Later> events_;
+  std::vector<Event> events_;  ///< A heap: std::priority_queue cannot move its top out.
   MissionTime now_{};
   std::uint64_t sequence_{};
 };

@@ -29,7 +29,8 @@ struct Trajectory {
 };
 
 /// A curve sampled by arc length (chord step at most `step_m`). Between samples it is linear in
-/// position, tangent and curvature.
+/// position, tangent and curvature. A corner is a place, not a stretch: its sample has the tangent
+/// that leaves it, and `at` just before and behind it answers with the finite curvature there.
 class Path {
  public:
   struct Sample {
@@ -42,7 +43,8 @@ class Path {
   Path() = default;
   /// @pre `step_m > 0`.
   Path(const Trajectory& trajectory, double step_m = 0.05);
-  /// The part of `head` in [from_m, to_m], then `tail`. A kink between them gets infinite curvature.
+  /// The part of `head` in [from_m, to_m], then `tail` (over a straight line when it starts
+  /// elsewhere). A kink between them gets infinite curvature.
   static Path joined(const Path& head, double from_m, double to_m, const Path& tail);
   /// Straight lines between the points; a corner has infinite curvature.
   static Path polyline(const std::vector<Vec3>& points_W, double step_m = 0.05);
@@ -55,6 +57,10 @@ class Path {
 
  private:
   void append(const Vec3& p_W, const Vec3& tangent_W, double curvature_1_m);
+  void append_tail(const Path& tail);
+  /// Leaves the last sample in a new direction.
+  void bend(const Vec3& tangent_W);
+  void finish_ends();
   std::vector<Sample> samples_;
 };
 

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/graph.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace flyball {
+
+namespace {
+
+std::string milliseconds(Duration d) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g ms", 1e3 * to_seconds(d));
+  return text;
+}
+
+std::string_view name_of(OnMiss on_miss) {
+  switch (on_miss) {
+    case OnMiss::warn:
+      return "warn";
+    case OnMiss::skip:
+      return "skip";
+    case OnMiss::degrade:
+      return "degrade";
+    case OnMiss::brake:
+      return "brake";
+  }
+  return "unknown";
+}
+
+/// "on cloud, priority 3, deadline 500 ms (skip)", with `separator` for the comma.
+std::string terms_of(const NodeSpec& spec, const Graph& graph, const std::string& separator) {
+  std::string text;
+  if (const auto* message = std::get_if<OnMessage>(&spec.trigger)) {
+    text = "on " + graph.topics()[static_cast<std::size_t>(message->topic)].name;
+  } else {
+    const auto& every = std::get<OnPeriod>(spec.trigger);
+    text = "every " + milliseconds(every.period);
+    if (every.phase != Duration::zero()) {
+      text += " from " + milliseconds(every.phase);
+    }
+  }
+  text += separator + "priority " + std::to_string(spec.priority);
+  if (spec.deadline != Duration::zero()) {
+    text += separator + "deadline " + milliseconds(spec.deadline) + " (" +
+            std::string{name_of(spec.on_miss)} + ")";
+  }
+  if (spec.threads > 1) {
+    text += separator + std::to_string(spec.threads) + " threads";
+  }
+  return text;
+}
+
+std::string topic_list(const Graph& graph, const std::vector<int>& topics) {
+  std::string list;
+  for (const int topic : topics) {
+    list += (list.empty() ? "" : ", ") + graph.topics()[static_cast<std::size_t>(topic)].name;
+  }
+  return list;
+}
+
+bool contains(const std::vector<int>& topics, int topic) {
+  return std::find(topics.begin(), topics.end(), topic) != topics.end();
+}
+
+bool is_trigger(const NodeSpec& spec, int topic) {
+  const auto* message = std::get_if<OnMessage>(&spec.trigger);
+  return message != nullptr && message->topic == topic;
+}
+
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  }
+  return text + "\"";
+}
+
+std::string edge(const std::string& from, const std::string& to, const std::string& style) {
+  return "  " + quoted(from) + " -> " + quoted(to) + " [" + style + "];\n";
+}
+
+/// One edge per writer and reader; an ellipse stands for whoever is outside the graph.
+std::string edges_of(const Graph& graph, int topic) {
+  const std::string& name = graph.topics()[static_cast<std::size_t>(topic)].name;
+  std::vector<std::string> writers;
+  for (const Node& node : graph.nodes()) {
+    if (contains(node.spec.writes, topic)) {
+      writers.push_back(node.spec.name);
+    }
+  }
+  const std::string outside = "topic " + name;
+  std::string edges;
+  bool is_read = false;
+  const bool is_written = !writers.empty();
+  if (!is_written) {
+    writers.push_back(outside);
+  }
+  for (const Node& node : graph.nodes()) {
+    const bool triggers = is_trigger(node.spec, topic);
+    if (triggers || contains(node.spec.reads, topic)) {
+      is_read = true;
+      for (const std::string& writer : writers) {
+        const std::string style = triggers ? "" : ", style=dashed";
+        edges += edge(writer, node.spec.name, "label=" + quoted(name) + style);
+      }
+    }
+  }
+  for (const std::string& writer : writers) {
+    edges += is_read || !is_written ? "" : edge(writer, outside, "label=" + quoted(name));
+  }
+  const bool has_outside = !is_read || !is_written;
+  return (has_outside ? "  " + quoted(outside) + " [label=" + quoted(name) + ", shape=ellipse];\n"
+                      : "") +
+         edges;
+}
+
+}  // namespace
+
+void Graph::node(NodeSpec spec, Body body) {
+  const char* name = spec.name.c_str();
+  const auto exists = [this](int topic) {
+    return topic >= 0 && topic < static_cast<int>(topics_.size());
+  };
+  for (const Node& other : nodes_) {
+    FLYBALL_ASSERT(other.spec.name != spec.name, "two nodes \"%s\"", name);
+  }
+  FLYBALL_ASSERT(spec.threads >= 1, "node %s, threads=%d", name, spec.threads);
+  FLYBALL_ASSERT(spec.deadline >= Duration::zero(), "node %s has a negative deadline", name);
+  FLYBALL_ASSERT(body != nullptr, "node %s has no body", name);
+  if (const auto* message = std::get_if<OnMessage>(&spec.trigger)) {
+    FLYBALL_ASSERT(exists(message->topic), "node %s, trigger topic %d", name, message->topic);
+  } else {
+    const auto& every = std::get<OnPeriod>(spec.trigger);
+    FLYBALL_ASSERT(every.period > Duration::zero() && every.phase >= Duration::zero(),
+                   "node %s, period %g s, phase %g s", name, to_seconds(every.period),
+                   to_seconds(every.phase));
+  }
+  for (const auto* topics : {&spec.reads, &spec.writes}) {
+    FLYBALL_ASSERT(std::all_of(topics->begin(), topics->end(), exists),
+                   "node %s names a topic that does not exist", name);
+  }
+  nodes_.push_back({std::move(spec), std::move(body)});
+}
+
+int Graph::add_topic(TopicSpec spec) {
+  FLYBALL_ASSERT(spec.capacity >= 1, "topic %s has no room", spec.name.c_str());
+  for (const TopicSpec& other : topics_) {
+    FLYBALL_ASSERT(other.name != spec.name, "two topics \"%s\"", spec.name.c_str());
+  }
+  topics_.push_back(std::move(spec));
+  return static_cast<int>(topics_.size()) - 1;
+}
+
+std::string Graph::to_text() const {
+  std::string text = "graph " + name_ + "\n";
+  for (const Node& node : nodes_) {
+    const NodeSpec& spec = node.spec;
+    text += "  node " + spec.name + ": " + terms_of(spec, *this, ", ");
+    text += ", cost " + (spec.cost.empty() ? "none" : spec.cost) + "\n";
+    text += spec.reads.empty() ? "" : "    reads " + topic_list(*this, spec.reads) + "\n";
+    text += spec.writes.empty() ? "" : "    writes " + topic_list(*this, spec.writes) + "\n";
+  }
+  for (const TopicSpec& topic : topics_) {
+    text += "  topic " + topic.name + ": " +
+            (topic.capacity == 1 ? "latest value" : "queue of " + std::to_string(topic.capacity)) +
+            "\n";
+  }
+  return text;
+}
+
+std::string Graph::to_dot() const {
+  std::string text = "digraph " + quoted(name_) + " {\n  rankdir=LR;\n  node [shape=box];\n";
+  for (const Node& node : nodes_) {
+    // the line break is dot's own escape, so it goes in after quoting
+    std::string label = quoted(node.spec.name);
+    label.pop_back();
+    label += "\\n" + quoted(terms_of(node.spec, *this, "|")).substr(1);
+    for (std::size_t at = label.find('|'); at != std::string::npos; at = label.find('|', at)) {
+      label.replace(at, 1, "\\n");
+    }
+    text += "  " + quoted(node.spec.name) + " [label=" + label + "];\n";
+  }
+  for (int topic = 0; topic < static_cast<int>(topics_.size()); ++topic) {
+    text += edges_of(*this, topic);
+  }
+  return text + "}\n";
+}
+
+}  // namespace flyball

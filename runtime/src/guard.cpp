@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/guard.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+double safe_speed(double deceleration_m_s2, double delta_s, double distance_m) {
+  FLYBALL_ASSERT(deceleration_m_s2 > 0.0 && delta_s >= 0.0, "a=%g, delta=%g", deceleration_m_s2,
+                 delta_s);
+  if (distance_m <= 0.0) {
+    return 0.0;
+  }
+  // eq. 2, multiplied out: its own form subtracts two nearly equal numbers when delta is large
+  const double root = std::sqrt(delta_s * delta_s + 2.0 * distance_m / deceleration_m_s2);
+  return 2.0 * distance_m / (root + delta_s);
+}
+
+double known_free_distance(const OccupancyView& map,
+                           const Path& path,
+                           double from_m,
+                           double horizon_m,
+                           const Cylinder& body,
+                           double step_m) {
+  FLYBALL_ASSERT(step_m > 0.0, "step_m=%g", step_m);
+  if (path.empty()) {
+    return 0.0;
+  }
+  const double start_m = std::clamp(from_m, 0.0, path.length_m());
+  const double reach_m = std::max(0.0, std::min(horizon_m, path.length_m() - start_m));
+  double free_m = 0.0;  // the last place known to be free: between two samples nothing is assumed
+  for (int i = 0;; ++i) {
+    const double ahead_m = std::min(i * step_m, reach_m);
+    if (map.body_state(path.at(start_m + ahead_m).p_W, body) != CellState::free) {
+      return free_m;
+    }
+    free_m = ahead_m;
+    if (ahead_m >= reach_m) {
+      return free_m;
+    }
+  }
+}
+
+Duration Guard::reaction_time() const {
+  return settings_.tick + settings_.command_age + settings_.brake_lag;
+}
+
+bool Guard::must_brake(double speed_m_s, double known_free_now_m) const {
+  const double reaction_m = speed_m_s * to_seconds(reaction_time());
+  const double braking_m = speed_m_s * speed_m_s / (2.0 * settings_.max_deceleration_m_s2);
+  return reaction_m + braking_m > known_free_now_m;
+}
+
+void LatencyWindow::add(Duration latency) {
+  constexpr std::size_t samples = 20;
+  recent_.push_back(latency);
+  if (recent_.size() > samples) {
+    recent_.pop_front();
+  }
+}
+
+Duration LatencyWindow::bound() const {
+  if (recent_.empty()) {
+    return seed_;
+  }
+  const Duration worst = *std::max_element(recent_.begin(), recent_.end());
+  return worst + worst / 10;
+}
+
+}  // namespace flyball

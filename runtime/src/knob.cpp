@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/knob.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace flyball {
+
+namespace {
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string legal_values(const KnobSpec& spec) {
+  if (spec.legal.empty()) {
+    return text_of(spec.min) + " to " + text_of(spec.max);
+  }
+  std::string list;
+  for (const double value : spec.legal) {
+    list += (list.empty() ? "" : ", ") + text_of(value);
+  }
+  return list;
+}
+
+}  // namespace
+
+double KnobSpec::nearest(double wish) const {
+  FLYBALL_ASSERT(std::isfinite(wish), "knob %s, wish=%g", name.c_str(), wish);
+  if (legal.empty()) {
+    return std::clamp(wish, min, max);
+  }
+  double best = legal.front();
+  for (const double value : legal) {
+    if (std::abs(value - wish) < std::abs(best - wish)) {
+      best = value;
+    }
+  }
+  return best;
+}
+
+bool KnobSpec::is_legal(double value) const {
+  if (legal.empty()) {
+    return value >= min && value <= max;  // false for NaN
+  }
+  return std::find(legal.begin(), legal.end(), value) != legal.end();
+}
+
+KnobSettings::KnobSettings(std::vector<KnobSpec> specs) : specs_{std::move(specs)} {
+  for (const KnobSpec& knob : specs_) {
+    FLYBALL_ASSERT(spec(knob.name) == &knob, "two knobs \"%s\"", knob.name.c_str());
+    FLYBALL_ASSERT(knob.is_legal(knob.fallback), "knob %s, default %g is not legal",
+                   knob.name.c_str(), knob.fallback);
+    values_.push_back(knob.fallback);
+  }
+}
+
+const KnobSpec* KnobSettings::spec(std::string_view name) const {
+  const auto found = std::find_if(specs_.begin(), specs_.end(),
+                                  [name](const KnobSpec& knob) { return knob.name == name; });
+  return found == specs_.end() ? nullptr : &*found;
+}
+
+double KnobSettings::value(std::string_view name) const {
+  const KnobSpec* knob = spec(name);
+  FLYBALL_ASSERT(knob != nullptr, "no knob \"%.*s\"", static_cast<int>(name.size()), name.data());
+  return values_[static_cast<std::size_t>(knob - specs_.data())];
+}
+
+Status KnobSettings::set(std::string_view name, double value) {
+  const KnobSpec* knob = spec(name);
+  if (knob == nullptr) {
+    return Error{ErrorCode::not_found, "no knob \"" + std::string{name} + "\"; try: flyball knobs"};
+  }
+  if (!knob->is_legal(value)) {
+    return Error{ErrorCode::invalid_input, "knob " + knob->name + " cannot be " + text_of(value) +
+                                               " " + knob->unit +
+                                               "; legal: " + legal_values(*knob)};
+  }
+  values_[static_cast<std::size_t>(knob - specs_.data())] = value;
+  return Done{};
+}
+
+}  // namespace flyball

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/parameters.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace flyball {
+
+namespace {
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) {
+    list += (list.empty() ? "" : ", ") + word;
+  }
+  return list;
+}
+
+std::string names_of(const std::vector<ParameterSpec>& specs) {
+  std::vector<std::string> names;
+  for (const ParameterSpec& spec : specs) {
+    names.push_back(spec.name);
+  }
+  return names.empty() ? "it has none" : "it has: " + list_of(names);
+}
+
+/// What is wrong with a value, as the end of a sentence; nothing when it is fine.
+std::optional<std::string> fault_of(const ParameterSpec& spec, const ParameterValue& value) {
+  if (value.index() != spec.fallback.index()) {
+    return std::holds_alternative<double>(spec.fallback) ? "must be a number" : "must be a text";
+  }
+  if (const double* number = std::get_if<double>(&value)) {
+    const bool inside = *number >= spec.min && *number <= spec.max;  // false for NaN
+    return inside ? std::nullopt
+                  : std::optional{text_of(*number) + " is not within " + text_of(spec.min) +
+                                  " to " + text_of(spec.max)};
+  }
+  const auto& text = std::get<std::string>(value);
+  const auto& choices = spec.choices;
+  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) {
+    return std::nullopt;
+  }
+  return "\"" + text + "\" is none of: " + list_of(choices);
+}
+
+}  // namespace
+
+std::variant<Parameters, std::vector<Error>> Parameters::resolve(
+    const std::string& owner,
+    const std::vector<ParameterSpec>& specs,
+    const std::map<std::string, ParameterValue>& given) {
+  Parameters resolved;
+  for (const ParameterSpec& spec : specs) {
+    const bool is_new = resolved.values_.emplace(spec.name, spec.fallback).second;
+    FLYBALL_ASSERT(is_new, "%s declares \"%s\" twice", owner.c_str(), spec.name.c_str());
+  }
+  std::vector<Error> errors;
+  for (const auto& [name, value] : given) {
+    const auto spec = std::find_if(specs.begin(), specs.end(),
+                                   [&](const ParameterSpec& s) { return s.name == name; });
+    if (spec == specs.end()) {
+      errors.push_back(
+          {ErrorCode::not_found, owner + " has no parameter \"" + name + "\"; " + names_of(specs)});
+    } else if (const auto fault = fault_of(*spec, value)) {
+      errors.push_back({ErrorCode::invalid_input, owner + ", " + name + ": " + *fault});
+    } else {
+      resolved.values_[name] = value;
+    }
+  }
+  if (!errors.empty()) {
+    return errors;
+  }
+  return resolved;
+}
+
+double Parameters::number(const std::string& name) const {
+  const auto entry = values_.find(name);
+  const bool ok = entry != values_.end() && std::holds_alternative<double>(entry->second);
+  FLYBALL_ASSERT(ok, "no number \"%s\" was declared", name.c_str());
+  return std::get<double>(entry->second);
+}
+
+const std::string& Parameters::text(const std::string& name) const {
+  const auto entry = values_.find(name);
+  const bool ok = entry != values_.end() && std::holds_alternative<std::string>(entry->second);
+  FLYBALL_ASSERT(ok, "no text \"%s\" was declared", name.c_str());
+  return std::get<std::string>(entry->second);
+}
+
+}  // namespace flyball

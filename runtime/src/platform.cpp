@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/platform.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <utility>
+
+namespace flyball {
+
+namespace {
+
+double in_ghz(Hertz frequency) {
+  return frequency.value() * 1e-9;
+}
+
+}  // namespace
+
+ModeledPlatform::ModeledPlatform(PlatformModel model) : model_{std::move(model)} {}
+
+Duration ModeledPlatform::job_time(std::string_view kernel,
+                                   const Work& work,
+                                   Hertz frequency) const {
+  const auto entry = model_.kernels.find(kernel);
+  if (entry == model_.kernels.end()) {
+    return Duration::zero();
+  }
+  FLYBALL_ASSERT(frequency.value() > 0.0, "frequency=%g Hz", frequency.value());
+  const KernelCost& cost = entry->second;
+  double at_one_ghz_s = 0.0;
+  for (const WorkItem& item : work.items()) {
+    if (const auto price = cost.seconds_per.find(item.name); price != cost.seconds_per.end()) {
+      at_one_ghz_s += item.count * price->second;
+    }
+  }
+  const double time_s = cost.scale * at_one_ghz_s * (cost.a / in_ghz(frequency) + cost.b);
+  // 1e9 s are 30 years: a count that large is a broken kernel, and nanoseconds would overflow.
+  FLYBALL_ASSERT(time_s >= 0.0 && time_s < 1e9, "time_s=%g of one job", time_s);
+  return from_seconds(time_s);
+}
+
+double ModeledPlatform::speedup(std::string_view kernel, double cores) const {
+  const auto entry = model_.kernels.find(kernel);
+  if (entry == model_.kernels.end() || cores <= 1.0) {
+    return 1.0;
+  }
+  const double p = entry->second.parallel_fraction;
+  return 1.0 / ((1.0 - p) + p / cores);  // Amdahl 1967
+}
+
+bool ModeledPlatform::knows(std::string_view kernel) const {
+  return model_.kernels.find(kernel) != model_.kernels.end();
+}
+
+Watts ModeledPlatform::power(const OperatingPoint& point, double busy_cores) const {
+  const PowerCost& cost = model_.power;
+  const double f = in_ghz(point.frequency);
+  const double core_w = cost.core_linear_w * f + cost.core_cubic_w * f * f * f;
+  const double cpu_w = cost.cpu_constant_w + cost.cpu_linear_w * f + busy_cores * core_w;
+  return Watts{cost.board_w + cost.converter * (cost.soc_w + cost.memory_w + cpu_w)};
+}
+
+}  // namespace flyball
