@@ -9,14 +9,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 namespace flyball {
 
 struct PolicyGovernorSettings {
-  Duration min_dwell{std::chrono::milliseconds{500}};  ///< A knob changes at most this often.
-  Duration time_limit{std::chrono::milliseconds{100}}; ///< Watchdog for one `decide`, host time.
-  int max_faults{3};                                   ///< In a row; then the fallback for good.
+  Duration min_dwell{std::chrono::milliseconds{500}};   ///< A knob changes at most this often.
+  Duration time_limit{std::chrono::milliseconds{100}};  ///< Watchdog for one `decide`, host time.
+  int max_faults{3};                                    ///< In a row; then the fallback for good.
 };
 
 /// What was wrong with a policy's answer; the record says so.
@@ -24,27 +26,43 @@ enum class PolicyFault : std::uint8_t { none, unknown_knob, not_finite, overflow
 [[nodiscard]] std::string_view to_string(PolicyFault fault);
 
 /// Clamp (to the nearest legal value), rate limit, watchdog, fallback. A faulty answer is replaced
-/// as a whole by the safe default: every knob at its default value.
+/// as a whole by the safe default: every knob at its default value, at once whatever the dwell.
+/// The watchdog judges an answer by the time it took; it cannot interrupt one that never comes.
 class PolicyGovernor final : public Governor {
  public:
   /// A clock for the watchdog, in host time; it decides nothing but a fault. Null: no watchdog (the
   /// virtual executor, where missions must not depend on the host's speed).
   using HostClock = std::function<HostTime()>;
 
-  /// @pre `policy` is not null and started.
-  PolicyGovernor(std::unique_ptr<Policy> policy, KnobSettings knobs, PolicyGovernorSettings settings, HostClock clock);
+  /// @param knobs  What may be set, at the values that are in force now.
+  /// @pre `policy` is not null and started; at most `Decision::capacity` knobs; a knob's default is
+  ///      legal; `min_dwell` is not negative, `max_faults` is at least 1.
+  PolicyGovernor(std::unique_ptr<Policy> policy,
+                 KnobSettings knobs,
+                 PolicyGovernorSettings settings,
+                 HostClock clock);
 
+  /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
+  /// soon after a change is answered with the value in force. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
 
  private:
+  [[nodiscard]] Decision ask(const Observation& seen, PolicyFault& fault) noexcept;
+  [[nodiscard]] PolicyFault fault_in(const Decision& wished) const noexcept;
+  [[nodiscard]] std::size_t index_of(std::string_view knob) const noexcept;
+  [[nodiscard]] Decision made_legal(const Decision& wished, MissionTime now) noexcept;
+  [[nodiscard]] Decision safe_default(MissionTime now) noexcept;
+  [[nodiscard]] bool may_change(std::size_t knob, MissionTime now) const noexcept;
+  void put_in_force(std::size_t knob, double value, MissionTime now) noexcept;
+
   std::unique_ptr<Policy> policy_;
   KnobSettings knobs_;
   PolicyGovernorSettings settings_;
   HostClock clock_;
-  std::vector<double> in_force_;
-  std::vector<MissionTime> changed_;
+  std::vector<double> in_force_;                     ///< By index of the knob in `knobs_`.
+  std::vector<std::optional<MissionTime>> changed_;  ///< Empty until a knob first changes.
   PolicyFault last_fault_{PolicyFault::none};
   int faults_in_row_{};
 };

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/preset.h"
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#define TOML_HEADER_ONLY 1  // NOLINT: toml++'s own switch
+#include <toml++/toml.h>
+
+namespace flyball {
+namespace {
+
+/// Builds a preset from a parsed file and remembers what was wrong with it.
+class Reader {
+ public:
+  explicit Reader(std::string path) : path_{std::move(path)} {}
+
+  Result<Preset> read(const toml::table& file) {
+    for (const auto& [key, node] : file) {
+      read_top(key, node);
+    }
+    if (preset_.policy.empty() && problems_.empty()) {
+      problems_ = path_ + ": no policy; write policy = \"NAME\" (flyball list policies)";
+    }
+    if (!problems_.empty()) {
+      return Error{ErrorCode::invalid_input, problems_};
+    }
+    return std::move(preset_);
+  }
+
+ private:
+  void read_top(const toml::key& key, const toml::node& node) {
+    if (key == "policy") {
+      read_text(key, node, preset_.policy);
+    } else if (key == "description") {
+      read_text(key, node, preset_.description);
+    } else if (key != "parameters") {
+      complain(node,
+               quoted(key) + " is no key of a preset; known: policy, description, [parameters]");
+    } else if (const toml::table* parameters = node.as_table()) {
+      for (const auto& [name, value] : *parameters) {
+        read_parameter(name, value);
+      }
+    } else {
+      complain(node, "parameters is a table; write [parameters] on a line of its own");
+    }
+  }
+
+  void read_text(const toml::key& key, const toml::node& node, std::string& text) {
+    if (const auto value = node.value_exact<std::string>(); value && !value->empty()) {
+      text = *value;
+    } else {
+      complain(node, std::string{key.str()} + " must be a text in quotes that is not empty");
+    }
+  }
+
+  void read_parameter(const toml::key& name, const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) {
+      preset_.parameters[std::string{name.str()}] = *text;
+    } else if (node.is_number()) {
+      preset_.parameters[std::string{name.str()}] = *node.value<double>();
+    } else {
+      complain(node, "parameter " + quoted(name) + " must be a number or a text");
+    }
+  }
+
+  static std::string quoted(const toml::key& key) { return "\"" + std::string{key.str()} + "\""; }
+
+  void complain(const toml::node& node, const std::string& what) {
+    problems_ += (problems_.empty() ? "" : "\n") + path_ + ":" +
+                 std::to_string(node.source().begin.line) + ": " + what;
+  }
+
+  std::string path_;
+  Preset preset_;
+  std::string problems_;
+};
+
+std::optional<std::string> content_of(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return std::nullopt;
+  }
+  std::ifstream file{path};
+  std::string text{std::istreambuf_iterator<char>{file}, {}};
+  return file.good() || file.eof() ? std::optional{std::move(text)} : std::nullopt;
+}
+
+}  // namespace
+
+Result<Preset> load_preset(const std::string& path) {
+  const auto text = content_of(path);
+  if (!text) {
+    return Error{ErrorCode::not_found, "no preset file " + path + "; try: flyball list policies"};
+  }
+  try {
+    return Reader{path}.read(toml::parse(*text));
+  } catch (const toml::parse_error& error) {
+    return Error{ErrorCode::invalid_input, path + ":" + std::to_string(error.source().begin.line) +
+                                               ": " + std::string{error.description()}};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::failed, path + ": " + error.what()};
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// MAVBench's two-level switch (MICRO 2018): a coarse map in the open, where it is cheap and lets
+// the vehicle fly fast, a fine one where obstacles stand close, so that it fits through a door.
+// Nothing but the density of obstacles decides.
+
+#include "flyball/governors/policy.h"
+#include "flyball/runtime/registry.h"
+
+#include <optional>
+
+namespace {
+
+class Density final : public flyball::Policy {
+ public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    // Share of .8 m columns: 2-3 % beside a sparse block, about 7 % with a facade 5 m ahead, over
+    // 15 % in a room. The thresholds stand between the first two.
+    return {{"fine_m", 0.15, 0.05, 2.0, "Resolution where obstacles are dense."},
+            {"coarse_m", 0.80, 0.05, 2.0, "Resolution in the open."},
+            {"enter_density", 0.05, 0.0, 1.0, "At or above this share of columns: fine."},
+            {"leave_density", 0.03, 0.0, 1.0, "At or below this share of columns: coarse."},
+            {"min_fine_s", 5.0, 0.0, 3600.0, "Fine lasts at least this long."}};
+  }
+
+  flyball::Status start(const flyball::Parameters& given,
+                        const flyball::KnobSettings& knobs) override {
+    fine_m_ = given.number("fine_m");
+    coarse_m_ = given.number("coarse_m");
+    enter_ = given.number("enter_density");
+    leave_ = given.number("leave_density");
+    min_fine_ = flyball::from_seconds(given.number("min_fine_s"));
+    fine_since_.reset();
+    if (fine_m_ >= coarse_m_) {
+      return refused("fine_m = " + std::to_string(fine_m_) +
+                     " must be below coarse_m = " + std::to_string(coarse_m_));
+    }
+    if (leave_ > enter_) {
+      return refused("leave_density = " + std::to_string(leave_) +
+                     " must not be above enter_density = " + std::to_string(enter_));
+    }
+    if (knobs.spec(knob) == nullptr) {
+      return refused("there is no knob " + std::string{knob} + "; try: flyball list knobs");
+    }
+    return flyball::Done{};
+  }
+
+  [[nodiscard]] flyball::Decision decide(const flyball::Observation& seen) noexcept override {
+    if (!fine_since_ && seen.obstacle_density >= enter_) {
+      fine_since_ = seen.now;
+    } else if (fine_since_ && seen.obstacle_density <= leave_ &&
+               seen.now - *fine_since_ >= min_fine_) {
+      fine_since_.reset();
+    }
+    flyball::Decision wish;
+    wish.reason = flyball::Reason::density;
+    wish.set(knob, fine_since_ ? fine_m_ : coarse_m_);
+    return wish;
+  }
+
+ private:
+  static constexpr const char* knob = "map.resolution_m";
+  static flyball::Error refused(const std::string& why) {
+    return {flyball::ErrorCode::invalid_input, "policy \"density\": " + why};
+  }
+
+  double fine_m_{};
+  double coarse_m_{};
+  double enter_{};
+  double leave_{};
+  flyball::Duration min_fine_{};
+  std::optional<flyball::MissionTime> fine_since_;  ///< Empty: coarse.
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(density) {
+  registry.add<flyball::Policy>("density", [] { return std::make_unique<Density>(); });
+}
