@@ -11,6 +11,7 @@
 namespace flyball {
 
 /// Defaults are the scenario's values; legal clocks and cores are the platform's.
-[[nodiscard]] std::vector<KnobSpec> standard_knobs(const Scenario& scenario, const Platform& platform);
+[[nodiscard]] std::vector<KnobSpec> standard_knobs(const Scenario& scenario,
+                                                   const Platform& platform);
 
 }  // namespace flyball

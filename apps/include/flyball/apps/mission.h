@@ -35,4 +35,8 @@ struct MissionHooks {
 /// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out.
 [[nodiscard]] Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks);
 
+/// The workload's graph, printed: as text, or for Graphviz.
+/// @error As `fly`.
+[[nodiscard]] Result<std::string> describe_graph(const Scenario& scenario, bool as_dot);
+
 }  // namespace flyball

@@ -11,7 +11,9 @@
 
 namespace flyball {
 
-class MissionContext;  // see apps/src/mission_context.h
+class MissionContext;  // see apps/src/mission_context.h, navigator.h
+struct VehicleTopics;
+class Navigator;
 
 class Workload {
  public:
@@ -20,8 +22,11 @@ class Workload {
   Workload& operator=(const Workload&) = delete;
   virtual ~Workload() = default;
 
-  /// Adds its nodes. `context` outlives the workload.
-  virtual void build(Graph& graph, MissionContext& context) = 0;
+  /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
+  /// the workload outlives the graph's jobs.
+  virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
+  /// For the observation and the record; null when the workload flies without one.
+  [[nodiscard]] virtual const Navigator* navigator() const = 0;
 };
 
 class Registry;

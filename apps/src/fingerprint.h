@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Says whether two hosts compute with the same numerics.
+
+#include <string>
+
+namespace flyball {
+
+/// Hash of probes of libm, Embree and Eigen. Equal fingerprints promise equal trace hashes;
+/// different ones mean "different numerics" (another CPU class or library), not an error.
+[[nodiscard]] std::string numeric_fingerprint();
+
+}  // namespace flyball

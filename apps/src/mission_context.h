@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What the parts of one mission share: the brief, the knobs, the kernels, the record.
+
+#include "flyball/apps/scenario.h"
+#include "flyball/apps/summary.h"
+#include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/localizer.h"
+#include "flyball/kernels/mapper.h"
+#include "flyball/kernels/path_planner.h"
+#include "flyball/kernels/path_tracker.h"
+#include "flyball/kernels/point_cloud.h"
+#include "flyball/kernels/smoother.h"
+#include "flyball/runtime/graph.h"
+#include "flyball/runtime/guard.h"
+#include "flyball/runtime/knob.h"
+#include "flyball/runtime/observation.h"
+#include "flyball/runtime/platform.h"
+#include "flyball/runtime/recorder.h"
+#include "flyball/runtime/registry.h"
+#include "flyball/sim/airframe.h"
+#include "flyball/sim/world.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace flyball {
+
+/// What the scenario declares to the vehicle before take-off. Nothing else of the true world is
+/// known on board.
+struct MissionBrief {
+  Aabb bounds_W{};
+  std::vector<SpeedZone> zones{};
+  Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
+  Vec3 goal_W{Vec3::Zero()};
+  double cruise_height_m{};
+};
+
+struct FlightCommand {
+  enum class Kind : std::uint8_t { take_off, land, hold, release_payload };
+  Kind kind{Kind::hold};
+  double height_m{};
+};
+
+/// What the flight controller reports.
+struct FlightStatus {
+  bool airborne{};
+  bool manoeuvre_done{};  ///< Take-off or landing.
+};
+
+/// Between the companion computer and the vehicle.
+struct VehicleTopics {
+  Topic<DepthFrame> depth;
+  Topic<NavigationSample> navigation;
+  Topic<FlightStatus> status;
+  Topic<Setpoint> setpoint;
+  Topic<FlightCommand> command;
+};
+
+struct MissionKernels {
+  std::unique_ptr<PointCloudBuilder> point_cloud;
+  std::unique_ptr<Mapper> mapper;
+  std::unique_ptr<CollisionChecker> collision_check;
+  std::unique_ptr<PathPlanner> planner;
+  std::unique_ptr<Smoother> smoother;
+  std::unique_ptr<PathTracker> path_tracker;
+  std::unique_ptr<Localizer> localizer;
+};
+
+/// What is on board.
+struct MissionEquipment {
+  Airframe airframe{};
+  KnobSettings knobs{};
+  MissionKernels kernels{};
+};
+
+/// A map as it was published.
+struct MapRevision {
+  std::uint64_t number{};
+  MissionTime captured{};  ///< Of the newest frame in it.
+  MissionTime published{};
+  double resolution_m{};
+};
+
+/// Counters that end up in the summary.
+struct MissionCounters {
+  int replans{};
+  int planner_failures_in_row{};
+  std::uint64_t bound_overruns{};
+  std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
+};
+
+class MissionContext {
+ public:
+  /// Scenario, platform and recorder outlive the context.
+  MissionContext(const Scenario& scenario,
+                 const Platform& platform,
+                 Recorder& recorder,
+                 MissionBrief brief,
+                 MissionEquipment equipment);
+
+  [[nodiscard]] const OccupancyView& map() const { return kernels.mapper->view(); }
+  /// Slowest zone that contains `p_W`, and the knob's limit.
+  [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const;
+  /// The body with its tracking tube at a speed.
+  [[nodiscard]] Cylinder body_at(double speed_m_s) const;
+  void event(MissionTime at, const std::string& what);
+  /// Ends the mission; the first end counts.
+  void finish(MissionTime at, MissionStatus status, MissionFailure failure);
+  [[nodiscard]] bool is_over() const { return status_.has_value(); }
+  [[nodiscard]] MissionStatus status() const {
+    return status_.value_or(MissionStatus::interrupted);
+  }
+  [[nodiscard]] MissionFailure failure() const { return failure_; }
+
+  const Scenario& scenario;
+  const Platform& platform;
+  const MissionBrief brief;
+  const Airframe airframe;
+  const TrackingTube tube{};
+  KnobSettings knobs;
+  MissionKernels kernels;
+  Recorder& recorder;
+  MissionCounters counters{};
+  MissionPhase phase{MissionPhase::wait};
+  Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+
+ private:
+  std::optional<MissionStatus> status_{};
+  MissionFailure failure_{MissionFailure::none};
+};
+
+/// Topics that the closed loop serves.
+[[nodiscard]] VehicleTopics add_vehicle_topics(Graph& graph);
+
+}  // namespace flyball

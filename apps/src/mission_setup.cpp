@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mission_setup.h"
+
+#include "flyball/apps/files.h"
+#include "flyball/apps/mission.h"
+#include "flyball/apps/workload.h"
+#include "flyball/governors/preset.h"
+#include "flyball/kernels/kernels.h"
+#include "flyball/policies/policies.h"
+#include "flyball/sim/platform_file.h"
+#include "flyball/sim/worlds.h"
+
+namespace flyball {
+namespace {
+
+Error join(const std::vector<Error>& errors) {
+  Error all{ErrorCode::invalid_input, ""};
+  for (const auto& error : errors) {
+    all.message += (all.message.empty() ? "" : "\n") + error.message;
+  }
+  return all;
+}
+
+Error unknown(const std::string& what, const std::string& name, const std::string& list) {
+  return {ErrorCode::not_found, "no " + what + " \"" + name + "\"; try: flyball list " + list};
+}
+
+Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario) {
+  const auto file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return file.error();
+  }
+  auto model = load_platform(*file);
+  if (!model) {
+    return model.error();
+  }
+  return std::make_unique<ModeledPlatform>(std::move(*model));
+}
+
+Result<World> make_world(const Scenario& scenario) {
+  const auto generator = all_plugins().make<WorldGenerator>(scenario.world.generator);
+  if (!generator) {
+    return unknown("world", scenario.world.generator, "worlds");
+  }
+  auto parameters = Parameters::resolve("world \"" + scenario.world.generator + "\"",
+                                        generator->parameters(), scenario.world.parameters);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&parameters)) {
+    return join(*errors);
+  }
+  return generator->make(std::get<Parameters>(parameters), scenario.seed);
+}
+
+/// Makes one kernel, or adds a sentence to `missing`.
+template <class Family>
+void make(std::unique_ptr<Family>& kernel,
+          const std::string& family,
+          const std::string& name,
+          std::vector<Error>& missing) {
+  kernel = all_plugins().make<Family>(name);
+  if (!kernel) {
+    missing.push_back(unknown(family, name, "kernels"));
+  }
+}
+
+Result<MissionKernels> make_kernels(const KernelSettings& names) {
+  MissionKernels kernels;
+  std::vector<Error> missing;
+  make(kernels.point_cloud, "point cloud kernel", names.point_cloud, missing);
+  make(kernels.mapper, "mapper", names.mapper, missing);
+  make(kernels.collision_check, "collision check", names.collision_check, missing);
+  make(kernels.planner, "planner", names.planner, missing);
+  make(kernels.smoother, "smoother", names.smoother, missing);
+  make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
+  make(kernels.localizer, "localizer", names.localizer, missing);
+  if (!missing.empty()) {
+    return join(missing);
+  }
+  kernels.localizer->start(GeodeticOrigin{});
+  return kernels;
+}
+
+/// A preset by this name or path, or a bare policy with its default parameters.
+Result<Preset> find_policy(const std::string& name) {
+  const auto file = find_shipped("presets", name);
+  if (file) {
+    return load_preset(*file);
+  }
+  if (all_plugins().make<Policy>(name)) {
+    return Preset{name, {}, {}};
+  }
+  return unknown("policy", name, "policies");
+}
+
+Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
+                                                      const KnobSettings& knobs) {
+  const auto preset = find_policy(scenario.governor.policy);
+  if (!preset) {
+    return preset.error();
+  }
+  auto policy = all_plugins().make<Policy>(preset->policy);
+  if (!policy) {
+    return unknown("policy", preset->policy, "policies");
+  }
+  auto parameters = Parameters::resolve("policy \"" + preset->policy + "\"", policy->parameters(),
+                                        preset->parameters);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&parameters)) {
+    return join(*errors);
+  }
+  if (const Status started = policy->start(std::get<Parameters>(parameters), knobs); !started) {
+    return started.error();
+  }
+  // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
+  // it.
+  return std::make_unique<PolicyGovernor>(std::move(policy), knobs, PolicyGovernorSettings{},
+                                          nullptr);
+}
+
+}  // namespace
+
+const Registry& all_plugins() {
+  static const Registry registry = [] {
+    Registry all;
+    register_kernels(all);
+    register_policies(all);
+    register_worlds(all);
+    register_workloads(all);
+    return all;
+  }();
+  return registry;
+}
+
+Result<MissionSetup> set_up(const Scenario& scenario) {
+  MissionSetup setup;
+  auto platform = make_platform(scenario);
+  if (!platform) {
+    return platform.error();
+  }
+  setup.platform = std::move(*platform);
+  setup.equipment.knobs = KnobSettings{standard_knobs(scenario, *setup.platform)};
+  const auto file = find_shipped("airframes", scenario.vehicle.airframe);
+  auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
+  if (!airframe) {
+    return airframe.error();
+  }
+  setup.equipment.airframe = std::move(*airframe);
+  auto world = make_world(scenario);
+  if (!world) {
+    return world.error();
+  }
+  setup.world = std::move(*world);
+  auto kernels = make_kernels(scenario.kernels);
+  if (!kernels) {
+    return kernels.error();
+  }
+  setup.equipment.kernels = std::move(*kernels);
+  auto governor = make_governor(scenario, setup.equipment.knobs);
+  if (!governor) {
+    return governor.error();
+  }
+  setup.governor = std::move(*governor);
+  return setup;
+}
+
+}  // namespace flyball

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "navigation_nodes.h"
+
+#include "flyball/runtime/random.h"
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
+constexpr double slow_m_s = 1.0;
+
+// What a frame's way through the graph takes by the platform's own price list, before one has been
+// measured: the frustum's volume over the cell's volume bounds the updates, the rays' length over
+// the cell's edge the traversals.
+Work expected_map_work(const MissionContext& context, double resolution_m) {
+  const Intrinsics camera = context.scenario.camera.intrinsics();
+  const double range_m = context.knobs.value("map.range_m");
+  const double rays = static_cast<double>(camera.width_px) * camera.height_px;
+  const double tan_x = 0.5 * camera.width_px / camera.focal_px;
+  const double tan_y = 0.5 * camera.height_px / camera.focal_px;
+  const double volume_m3 = 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
+  Work work;
+  work.add("frame", 1.0);
+  work.add("rays", rays);
+  work.add("traversals", 1.5 * rays * range_m / resolution_m);
+  work.add("updates", volume_m3 / (resolution_m * resolution_m * resolution_m));
+  return work;
+}
+
+void add_check(Graph& graph,
+               const PerceptionTopics& perception,
+               MissionContext& context,
+               Navigator& navigator) {
+  NodeSpec spec;
+  spec.name = "check";
+  spec.cost = context.scenario.kernels.collision_check;
+  spec.trigger = OnMessage{perception.map.index};
+  spec.priority = 25;
+  graph.node(std::move(spec), [perception, &context, &navigator](JobContext& job) {
+    Work work;
+    const auto revision = job.latest(perception.map);
+    if (!revision) {
+      return work;
+    }
+    const Hertz clock{context.knobs.value("cpu.frequency_hz")};
+    const Duration expected = context.platform.job_time(
+        context.scenario.kernels.mapper, expected_map_work(context, revision->resolution_m), clock);
+    navigator.map_published(job.now(), *revision, expected);
+    const PathFollower& follower = navigator.follower();
+    if (!follower.has_path()) {
+      return work;
+    }
+    const PathSpan span{&follower.path(), follower.s_m(), context.knobs.value("map.range_m")};
+    const PathCheck check = context.kernels.collision_check->check(context.map(), span,
+                                                                   context.body_at(slow_m_s), work);
+    job.at_end([&navigator, check, number = navigator.path_number()](MissionTime now) {
+      navigator.path_checked(now, check, number);
+    });
+    return work;
+  });
+}
+
+PlanRequest plan_request(const MissionContext& context, const PlanQuery& query) {
+  PlanRequest request;
+  request.start_W = query.start_W;
+  request.goal_W = query.goal_W;
+  request.bounds_W = context.brief.bounds_W;
+  request.max_iterations = static_cast<int>(context.knobs.value("planner.budget"));
+  request.seed = RandomStream{context.scenario.seed, "planner", query.id}.next();
+  return request;
+}
+
+// First with the wide tube that cruise speed needs, for a part of the budget; then with the narrow
+// one; and where noise has put a cell into the tube itself, with the bare body.
+Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
+  PlanRequest request = plan_request(context, query);
+  Work spent;
+  Plan plan;
+  const auto attempt = [&](const Cylinder& with, int iterations) {
+    request.body = body = with;
+    request.max_iterations = iterations;
+    plan = context.kernels.planner->plan(request, context.map());
+    for (const auto& item : plan.work.items()) {
+      spent.add(item.name, item.count);
+    }
+    return !plan.waypoints_W.empty();
+  };
+  const int budget = request.max_iterations;
+  const bool found =
+      (!query.may_be_tight &&
+       attempt(context.body_at(context.knobs.value("mission.max_speed_m_s")), budget / 8)) ||
+      attempt(context.body_at(slow_m_s), budget);
+  if (!found && plan.failure == "start blocked") {
+    attempt(context.airframe.body(), budget);
+  }
+  plan.work = spent;
+  return plan;
+}
+
+void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
+  NodeSpec spec;
+  spec.name = "plan";
+  spec.cost = context.scenario.kernels.planner;
+  spec.trigger = OnMessage{topics.plan.request.index};
+  spec.priority = 15;
+  spec.deadline = 10s;
+  spec.writes = {topics.plan.response.index};
+  graph.node(std::move(spec), [topics, &context](JobContext& job) {
+    const auto query = job.take(topics.plan.request);
+    if (!query) {
+      return Work{};
+    }
+    PlanAnswer answer;
+    Plan plan = plan_with_tubes(context, *query, answer.body);
+    answer.id = query->id;
+    answer.start_direction_W = query->start_direction_W;
+    answer.failure = plan.failure;
+    answer.iterations = plan.work.count("iterations");
+    answer.waypoints_W = std::move(plan.waypoints_W);
+    const Work work = plan.work;
+    job.publish(topics.plan.response, std::move(answer));
+    return work;
+  });
+}
+
+void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
+  NodeSpec spec;
+  spec.name = "smooth";
+  spec.cost = context.scenario.kernels.smoother;
+  spec.trigger = OnMessage{topics.plan.response.index};
+  spec.priority = 15;
+  spec.writes = {topics.path.index};
+  graph.node(std::move(spec), [topics, &context](JobContext& job) {
+    const auto answer = job.take(topics.plan.response);
+    if (!answer) {
+      return Work{};
+    }
+    PlannedPath planned;
+    planned.id = answer->id;
+    planned.failure = answer->failure;
+    Work work;
+    if (planned.failure.empty()) {
+      SmoothRequest request;
+      request.waypoints_W = answer->waypoints_W;
+      request.start_velocity_W = answer->start_direction_W;
+      request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
+      request.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
+      request.body = answer->body;
+      auto smooth = context.kernels.smoother->smooth(request, context.map());
+      if (smooth) {
+        planned.trajectory = std::move(smooth->trajectory);
+        work = smooth->work;
+      } else {
+        planned.failure = smooth.error().message;
+      }
+    }
+    context.recorder.record(job.now(), "plan",
+                            {{"ok", static_cast<std::int64_t>(planned.failure.empty())},
+                             {"waypoints", static_cast<std::int64_t>(answer->waypoints_W.size())},
+                             {"iterations", answer->iterations},
+                             {"radius_m", answer->body.radius_m},
+                             {"failure", planned.failure}});
+    job.publish(topics.path, std::move(planned));
+    return work;
+  });
+}
+
+void add_follow(Graph& graph,
+                const VehicleTopics& vehicle,
+                const PerceptionTopics& perception,
+                const NavigationTopics& topics,
+                Navigator& navigator) {
+  NodeSpec spec;
+  spec.name = "follow";
+  spec.cost = "track";
+  spec.trigger = OnPeriod{tick_period, tick_period};
+  spec.priority = 40;
+  spec.deadline = tick_period;
+  spec.on_miss = OnMiss::brake;
+  spec.reads = {perception.pose.index, topics.path.index};
+  spec.writes = {vehicle.setpoint.index, topics.plan.request.index};
+  graph.node(std::move(spec), [=, &navigator](JobContext& job) {
+    Work work;
+    work.add("ticks", 1.0);
+    const auto pose = job.latest(perception.pose);
+    if (const auto planned = job.take(topics.path)) {
+      navigator.path_planned(job.now(), *planned);
+    }
+    if (pose) {
+      job.publish(vehicle.setpoint, navigator.tick(job.now(), tick_period, *pose));
+    }
+    if (auto query = navigator.next_query(job.now())) {
+      job.publish(topics.plan.request, *query);
+    }
+    return work;
+  });
+}
+
+}  // namespace
+
+NavigationTopics add_navigation(Graph& graph,
+                                const VehicleTopics& vehicle,
+                                const PerceptionTopics& perception,
+                                MissionContext& context,
+                                Navigator& navigator) {
+  NavigationTopics topics;
+  topics.plan = graph.service<PlanQuery, PlanAnswer>("plan");
+  topics.path = graph.topic<PlannedPath>("path");
+  add_check(graph, perception, context, navigator);
+  add_plan(graph, topics, context);
+  add_smooth(graph, topics, context);
+  add_follow(graph, vehicle, perception, topics, navigator);
+  return topics;
+}
+
+}  // namespace flyball

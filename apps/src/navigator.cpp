@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "navigator.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto retry_after =
+    500ms;  // A new plan of the same map would fail again: wait for frames.
+constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
+constexpr double planning_time_s =
+    0.6;  // How far ahead a plan is spliced; late: the stop is flown.
+constexpr double arrival_m = 0.3;
+
+}  // namespace
+
+Navigator::Navigator(MissionContext& context) : context_{context}, follower_{context} {}
+
+void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
+  follower_.hover_at(p_W, yaw_rad);
+  ++path_number_;
+}
+
+void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
+  goal_W_ = goal_W;
+  context_.goal_now_W = goal_W;
+  without_path_since_ = now;
+  pending_id_ = 0;
+  want_plan(now, "new goal");
+}
+
+void Navigator::clear_goal() {
+  goal_W_.reset();
+  wants_plan_ = false;
+  pending_id_ = 0;
+}
+
+bool Navigator::has_arrived() const {
+  return goal_W_ && follower_.is_at_end() && (follower_.position_W() - *goal_W_).norm() < arrival_m;
+}
+
+LatencyWindow& Navigator::window(std::map<double, LatencyWindow>& windows,
+                                 double resolution_m,
+                                 Duration seed) {
+  return windows.try_emplace(resolution_m, seed).first->second;
+}
+
+void Navigator::map_published(MissionTime now,
+                              const MapRevision& revision,
+                              Duration expected_latency) {
+  auto& latency = window(latency_, revision.resolution_m, expected_latency);
+  auto& interval = window(interval_, revision.resolution_m, expected_latency);
+  newest_latency_ = now - revision.captured;
+  if (newest_latency_ > latency.bound()) {
+    ++context_.counters.bound_overruns;
+  }
+  latency.add(newest_latency_);
+  if (last_published_ != MissionTime{}) {
+    interval.add(now - last_published_);
+  }
+  last_published_ = now;
+  unused_capture_ = revision.captured;
+  follower_.map_published(revision);
+  follower_.set_latency_bound(latency.bound() + interval.bound());
+  follower_.refresh_known_free(context_.map());
+}
+
+void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number) {
+  if (path_number != path_number_ || !check.blocked_at_m || pending_id_ != 0) {
+    return;
+  }
+  want_plan(now, "path blocked");
+}
+
+void Navigator::want_plan(MissionTime now, const std::string& why) {
+  if (!wants_plan_) {
+    wants_plan_ = true;
+    not_before_ = std::max(now, not_before_);
+    context_.event(now, "plan wanted: " + why);
+  }
+}
+
+std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
+  if (!goal_W_ || pending_id_ != 0) {
+    return std::nullopt;
+  }
+  if (follower_.is_at_end() && !has_arrived()) {
+    want_plan(now, "path ends short of the goal");
+  }
+  if (follower_.stalled(now) > stall_patience) {
+    want_plan(now, "stalled before unknown space");
+  }
+  if (!wants_plan_ || now < not_before_) {
+    return std::nullopt;
+  }
+  PlanQuery query;
+  query.id = pending_id_ = next_id_++;
+  query.goal_W = *goal_W_;
+  query.start_W = follower_.position_W();
+  if (follower_.has_path()) {
+    // Ahead of the reference by what planning takes, but inside what the guard lets it reach.
+    const double ahead = follower_.s_m() + follower_.speed_m_s() * planning_time_s;
+    const double reach = follower_.s_m() + follower_.known_free_m();
+    splice_m_ =
+        std::min(std::max(follower_.stop_point_m(), ahead), std::max(reach, follower_.s_m()));
+    follower_.commit_stop(splice_m_);
+    const auto splice = follower_.path().at(splice_m_);
+    query.start_W = splice.p_W;
+    query.start_direction_W = follower_.speed_m_s() > 0.2 ? splice.tangent_W : Vec3::Zero();
+  }
+  query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0;
+  wants_plan_ = false;
+  ++context_.counters.replans;
+  return query;
+}
+
+void Navigator::plan_failed(MissionTime now, std::uint64_t id, const std::string& why) {
+  if (id != pending_id_) {
+    return;
+  }
+  pending_id_ = 0;
+  ++context_.counters.planner_failures_in_row;
+  not_before_ = now + retry_after;
+  want_plan(now, why);
+}
+
+void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
+  if (planned.id != pending_id_) {
+    return;
+  }
+  if (!planned.failure.empty()) {
+    plan_failed(now, planned.id, planned.failure);
+    return;
+  }
+  pending_id_ = 0;
+  context_.counters.planner_failures_in_row = 0;
+  follower_.adopt(Path{planned.trajectory}, splice_m_);
+  ++path_number_;
+  follower_.refresh_known_free(context_.map());
+}
+
+Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where) {
+  const PathReference reference = follower_.tick(now, dt);
+  tracking_error_m_ = (follower_.position_W() - where.X_WB.translation()).norm();
+  if (reference.speed_m_s > 0.02 || !goal_W_ || has_arrived()) {
+    without_path_since_ = now;
+  } else if (to_seconds(now - without_path_since_) > context_.scenario.mission.plan_time_limit_s) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::no_plan);
+  }
+  if (unused_capture_) {
+    context_.counters.latency_s.push_back(to_seconds(now - *unused_capture_));
+    unused_capture_.reset();
+  }
+  if (!follower_.has_path()) {
+    Setpoint hover;
+    hover.stamp = now;
+    hover.p_WB = follower_.position_W();
+    hover.yaw_rad = follower_.yaw_rad();
+    return hover;
+  }
+  return context_.kernels.path_tracker->track(follower_.path(), reference, where, now);
+}
+
+}  // namespace flyball

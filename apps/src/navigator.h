@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Gets the vehicle to a goal through what the map knows: asks for plans, splices them into the
+/// committed path, and keeps the latency that the speed limit follows from.
+
+#include "path_follower.h"
+#include <map>
+#include <string>
+
+namespace flyball {
+
+struct PlanQuery {
+  std::uint64_t id{};
+  Vec3 start_W{Vec3::Zero()};
+  Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
+  Vec3 goal_W{Vec3::Zero()};
+  bool may_be_tight{};  ///< Only the slow tube is asked for.
+};
+
+struct PlanAnswer {
+  std::uint64_t id{};
+  std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
+  Vec3 start_direction_W{Vec3::Zero()};
+  Cylinder body{};  ///< For which it was found.
+  std::string failure{};
+  double iterations{};
+};
+
+struct PlannedPath {
+  std::uint64_t id{};
+  Trajectory trajectory{};
+  std::string failure{};
+};
+
+class Navigator {
+ public:
+  explicit Navigator(MissionContext& context);
+
+  void hover_at(const Vec3& p_W, double yaw_rad);
+  void set_goal(MissionTime now, const Vec3& goal_W);
+  void clear_goal();
+  [[nodiscard]] bool has_arrived() const;
+
+  /// A map was published: known-free space, latency bound, and whether the path is still good.
+  void map_published(MissionTime now, const MapRevision& revision, Duration expected_latency);
+  void path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number);
+  [[nodiscard]] std::uint64_t path_number() const { return path_number_; }
+  /// A plan to ask for now, if any.
+  [[nodiscard]] std::optional<PlanQuery> next_query(MissionTime now);
+  void plan_failed(MissionTime now, std::uint64_t id, const std::string& why);
+  void path_planned(MissionTime now, const PlannedPath& planned);
+
+  /// Set-point for the flight controller; `revision` is the newest that the vehicle has.
+  [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
+  [[nodiscard]] const PathFollower& follower() const { return follower_; }
+  [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
+  [[nodiscard]] double tracking_error_m() const { return tracking_error_m_; }
+
+ private:
+  void want_plan(MissionTime now, const std::string& why);
+  [[nodiscard]] LatencyWindow& window(std::map<double, LatencyWindow>& windows,
+                                      double resolution_m,
+                                      Duration seed);
+
+  MissionContext& context_;
+  PathFollower follower_;
+  std::optional<Vec3> goal_W_{};
+  std::uint64_t next_id_{1};
+  std::uint64_t pending_id_{};  ///< 0: none.
+  double splice_m_{};
+  bool wants_plan_{};
+  MissionTime not_before_{};
+  MissionTime without_path_since_{};
+  std::uint64_t path_number_{};
+  std::map<double, LatencyWindow> latency_{};  ///< By map resolution.
+  std::map<double, LatencyWindow> interval_{};
+  MissionTime last_published_{};
+  Duration newest_latency_{};
+  std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
+  double tracking_error_m_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "path_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Below this speed the body needs only its slow tube: narrow passages are flown so.
+constexpr double slow_m_s = 1.0;
+// Half of what the guard may brake with; the rest is for curves and for the guard.
+constexpr double comfort_m_s2 = 3.0;
+constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
+constexpr double look_ahead_s = 1.0;
+constexpr double look_ahead_min_m = 1.0;
+constexpr auto odometer_memory = 10s;
+
+double towards(double value, double target, double step) {
+  return value < target ? std::min(target, value + step) : std::max(target, value - step);
+}
+
+GuardSettings guard_settings(const MissionContext& context) {
+  GuardSettings settings;
+  settings.max_deceleration_m_s2 = context.scenario.mission.max_acceleration_m_s2;
+  return settings;
+}
+
+}  // namespace
+
+PathFollower::PathFollower(const MissionContext& context)
+    : context_{context}, guard_{guard_settings(context)} {}
+
+void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
+  path_ = Path{};
+  hover_W_ = p_W;
+  yaw_rad_ = yaw_rad;
+  s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
+  slow_free_until_m_ = fast_free_until_m_ = 0.0;
+  stalled_since_.reset();
+}
+
+void PathFollower::adopt(const Path& tail, double splice_m) {
+  path_ = path_.empty() ? tail : Path::joined(path_, s_m_, std::max(s_m_, splice_m), tail);
+  s_m_ = 0.0;
+  stop_at_m_ = path_.length_m();
+  const double longitudinal = std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2);
+  profile_ = SpeedProfile{path_, {comfort_m_s2, longitudinal}, [this](const Vec3& p_W) {
+                            return context_.speed_limit_m_s(p_W);
+                          }};
+  stalled_since_.reset();
+}
+
+void PathFollower::commit_stop(double s_m) {
+  stop_at_m_ = std::clamp(s_m, s_m_, path_.length_m());
+}
+
+void PathFollower::refresh_known_free(const OccupancyView& map) {
+  if (!has_path()) {
+    return;
+  }
+  // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
+  constexpr double step_m = 0.075;
+  const double horizon_m = context_.knobs.value("map.range_m") + 2.0;
+  const double fast_m_s = context_.knobs.value("mission.max_speed_m_s");
+  const auto look = [&](double speed) {
+    return s_m_ + known_free_distance(map, path_, s_m_, horizon_m, context_.body_at(speed), step_m);
+  };
+  slow_free_until_m_ = look(slow_m_s);
+  fast_free_until_m_ = look(fast_m_s);
+}
+
+double PathFollower::distance_since(MissionTime captured) const {
+  const auto after =
+      std::lower_bound(odometer_.begin(), odometer_.end(), captured,
+                       [](const auto& entry, MissionTime t) { return entry.first < t; });
+  return after == odometer_.end() ? 0.0 : travelled_m_ - after->second;
+}
+
+double PathFollower::cruise_speed(double free_until_m) const {
+  const double from_capture_m = free_until_m - s_m_ + distance_since(newest_capture_);
+  const double delta_s = to_seconds(latency_bound_ + guard_.reaction_time());
+  return safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, from_capture_m);
+}
+
+double PathFollower::target_speed() const {
+  const double fast = cruise_speed(fast_free_until_m_);
+  const double slow = std::min(slow_m_s, cruise_speed(slow_free_until_m_));
+  const double stop = std::sqrt(2.0 * comfort_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
+  const double knob = context_.knobs.value("mission.max_speed_m_s");
+  return std::min({std::max(fast, slow), profile_.at(s_m_), stop, knob});
+}
+
+double PathFollower::braked_speed(double dt_s) const {
+  const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
+  if (guard_.must_brake(speed_m_s_, slow_free_until_m_ - s_m_)) {
+    return std::max(0.0, least);
+  }
+  if (speed_m_s_ > slow_m_s && guard_.must_brake(speed_m_s_, fast_free_until_m_ - s_m_)) {
+    return std::max(slow_m_s, least);
+  }
+  return speed_m_s_ + comfort_m_s2 * dt_s;
+}
+
+PathReference PathFollower::tick(MissionTime now, Duration dt) {
+  const double dt_s = to_seconds(dt);
+  double acceleration = 0.0;
+  if (has_path()) {
+    target_m_s_ = target_speed();
+    const double wished = towards(speed_m_s_, target_m_s_, comfort_m_s2 * dt_s);
+    const double next = std::min(wished, braked_speed(dt_s));
+    acceleration = (next - speed_m_s_) / dt_s;
+    const double moved =
+        std::min(0.5 * (next + speed_m_s_) * dt_s, std::max(0.0, stop_at_m_ - s_m_));
+    s_m_ += moved;
+    travelled_m_ += moved;
+    // The last millimetres of a square-root approach would take for ever.
+    speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
+    turn(dt_s, now);
+  }
+  odometer_.emplace_back(now, travelled_m_);
+  while (odometer_.front().first + odometer_memory < now) {
+    odometer_.pop_front();
+  }
+  return {s_m_, speed_m_s_, acceleration, yaw_rad_};
+}
+
+// Yaw looks where the path goes next, at least as far as the first place that must be seen before
+// it can be flown to: so the vehicle turns in place before it leaves its field of view.
+void PathFollower::turn(double dt_s, MissionTime now) {
+  const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
+  Vec3 direction = path_.at(s_m_ + ahead_m).p_W - path_.at(s_m_).p_W;
+  direction.z() = 0.0;
+  if (direction.norm() > 0.1) {
+    double wanted = yaw_of(direction);
+    // Stalled before something unknown: look left and right of it.
+    if (const double s = to_seconds(stalled(now)); s > 2.0) {
+      wanted += 0.8 * std::sin(1.0 * (s - 2.0));
+    }
+    const double error = wrap_angle(wanted - yaw_rad_);
+    yaw_rad_ =
+        wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+  }
+  if (speed_m_s_ > 0.02 || is_at_end()) {
+    stalled_since_.reset();
+  } else if (!stalled_since_) {
+    stalled_since_ = now;
+  }
+}
+
+Vec3 PathFollower::position_W() const {
+  return has_path() ? path_.at(s_m_).p_W : hover_W_;
+}
+
+double PathFollower::stop_point_m() const {
+  const double v = speed_m_s_;
+  return s_m_ + v * to_seconds(guard_.reaction_time()) +
+         v * v / (2.0 * std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2));
+}
+
+bool PathFollower::is_at_end() const {
+  return has_path() && speed_m_s_ == 0.0 && path_.length_m() - s_m_ < 0.01;
+}
+
+Duration PathFollower::stalled(MissionTime now) const {
+  return stalled_since_ ? now - *stalled_since_ : Duration{0};
+}
+
+}  // namespace flyball

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The reference that moves along the committed path, as fast as map, latency and guard allow.
+
+#include "flyball/kernels/path_tracker.h"
+#include "flyball/runtime/guard.h"
+
+#include "mission_context.h"
+#include "speed_profile.h"
+#include <deque>
+
+namespace flyball {
+
+/// Distance is used twice and never mixed (latency counts once): the cruise set-point measures it
+/// from the capture pose of the newest frame and reacts within delta; the guard measures it from
+/// here, now, and reacts within t_b.
+class PathFollower {
+ public:
+  explicit PathFollower(const MissionContext& context);
+
+  /// Hovers at a place; forgets the path.
+  void hover_at(const Vec3& p_W, double yaw_rad);
+  /// Flies the committed path up to `splice_m`, then `tail`, which begins there.
+  void adopt(const Path& tail, double splice_m);
+  /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
+  void commit_stop(double s_m);
+
+  /// Looks up anew how far the path is known to be free. Call after each change of map or path.
+  void refresh_known_free(const OccupancyView& map);
+  void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
+  /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b.
+  void set_latency_bound(Duration bound) { latency_bound_ = bound; }
+
+  /// Moves the reference by `dt`.
+  PathReference tick(MissionTime now, Duration dt);
+
+  [[nodiscard]] bool has_path() const { return !path_.empty(); }
+  [[nodiscard]] const Path& path() const { return path_; }
+  [[nodiscard]] double s_m() const { return s_m_; }
+  [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
+  [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
+  [[nodiscard]] Vec3 position_W() const;
+  [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
+  /// From the reference to the first place that is not known free, for the body at a crawl.
+  [[nodiscard]] double known_free_m() const { return std::max(0.0, slow_free_until_m_ - s_m_); }
+  /// Where the guard's brake would end from here.
+  [[nodiscard]] double stop_point_m() const;
+  [[nodiscard]] bool is_at_end() const;
+  /// How long the reference has stood still on a path that goes on.
+  [[nodiscard]] Duration stalled(MissionTime now) const;
+  [[nodiscard]] const Guard& guard() const { return guard_; }
+  [[nodiscard]] Duration latency_bound() const { return latency_bound_; }
+
+ private:
+  [[nodiscard]] double cruise_speed(double free_until_m) const;
+  [[nodiscard]] double target_speed() const;
+  [[nodiscard]] double braked_speed(double dt_s) const;
+  void turn(double dt_s, MissionTime now);
+  [[nodiscard]] double distance_since(MissionTime captured) const;
+
+  const MissionContext& context_;
+  Guard guard_;
+  Path path_{};
+  SpeedProfile profile_{};
+  Vec3 hover_W_{Vec3::Zero()};
+  double s_m_{};
+  double speed_m_s_{};
+  double target_m_s_{};
+  double yaw_rad_{};
+  double stop_at_m_{};
+  double slow_free_until_m_{};
+  double fast_free_until_m_{};
+  double travelled_m_{};
+  Duration latency_bound_{};
+  MissionTime newest_capture_{};
+  std::optional<MissionTime> stalled_since_{};
+  std::deque<std::pair<MissionTime, double>> odometer_{};
+};
+
+}  // namespace flyball

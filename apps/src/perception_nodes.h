@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// From camera to map, as in the paper's dataflows: localization, point cloud, OctoMap.
+
+#include "mission_context.h"
+#include <deque>
+
+namespace flyball {
+
+/// Poses of the last seconds, to look up where the camera was when it saw a frame.
+class PoseHistory {
+ public:
+  void add(const PoseEstimate& pose);
+  /// Interpolated; the nearest end outside of what is kept. Null when empty.
+  [[nodiscard]] std::optional<PoseEstimate> at(MissionTime t) const;
+
+ private:
+  std::deque<PoseEstimate> poses_;
+};
+
+/// The camera sits in the body's centre and looks ahead; its mount takes out roll and pitch.
+[[nodiscard]] Pose camera_pose(const Pose& X_WB);
+
+struct PerceptionTopics {
+  Topic<PoseEstimate> pose;
+  Topic<PointCloud> cloud;
+  Topic<MapRevision> map;
+};
+
+/// Adds the nodes `localize`, `slam_load` (if the scenario wants it), `points` and `map`.
+PerceptionTopics add_perception(Graph& graph,
+                                const VehicleTopics& vehicle,
+                                MissionContext& context);
+
+}  // namespace flyball
