@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/apps/knobs.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+ModeledPlatform two_clocks() {
+  PlatformModel model;
+  model.name = "two_clocks";
+  model.max_cores = 3;
+  model.frequencies = {Hertz{1e9}, Hertz{2e9}};
+  return ModeledPlatform{model};
+}
+
+TEST(StandardKnobs, every_default_is_legal_for_the_default_scenario) {
+  const ModeledPlatform platform = two_clocks();
+  Scenario scenario;
+  scenario.platform.cores = 2;
+  scenario.platform.frequency_hz = 1e9;
+  for (const auto& spec : standard_knobs(scenario, platform)) {
+    EXPECT_TRUE(spec.is_legal(spec.fallback)) << spec.name << " = " << spec.fallback;
+    EXPECT_FALSE(spec.description.empty()) << spec.name;
+    EXPECT_FALSE(spec.unit.empty()) << spec.name;
+  }
+}
+
+TEST(StandardKnobs, clocks_and_cores_are_the_platforms) {
+  const ModeledPlatform platform = two_clocks();
+  const KnobSettings knobs{standard_knobs(Scenario{}, platform)};
+  EXPECT_EQ(knobs.spec("cpu.frequency_hz")->legal, (std::vector<double>{1e9, 2e9}));
+  EXPECT_EQ(knobs.spec("cpu.cores")->legal, (std::vector<double>{1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace flyball
