@@ -40,7 +40,6 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
                  "min_dwell=%g s, max_faults=%d", to_seconds(settings_.min_dwell),
                  settings_.max_faults);
   for (const KnobSpec& spec : knobs_.specs()) {
-    FLYBALL_ASSERT(spec.is_legal(spec.fallback), "%s = %g", spec.name.c_str(), spec.fallback);
     in_force_.push_back(knobs_.value(spec.name));
   }
 }

@@ -34,6 +34,8 @@ double KnobSpec::nearest(double wish) const {
   if (legal.empty()) {
     return std::clamp(wish, min, max);
   }
+  // Far outside, the differences below all round to the same number.
+  wish = std::clamp(wish, legal.front(), legal.back());
   double best = legal.front();
   for (const double value : legal) {
     if (std::abs(value - wish) < std::abs(best - wish)) {

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Holds every registered policy, and every shipped preset, to the contract in policy.h without
+// naming any of them.
+
+#include "flyball/policies/policies.h"
+
+#include "flyball/governors/preset.h"
+#include "flyball/runtime/registry.h"
+
+#include "counting_new.h"
+#include "policy_conformance.h"
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+const flyball::Registry& policies() {
+  static const flyball::Registry registry = [] {
+    flyball::Registry filled;
+    flyball::register_policies(filled);
+    return filled;
+  }();
+  return registry;
+}
+
+std::string breaches_of(const std::string& name,
+                        const std::map<std::string, flyball::ParameterValue>& parameters) {
+  flyball::PolicyConformance conformance{
+      {[&name] { return policies().make<flyball::Policy>(name); }, parameters,
+       flyball::allocation_count}};
+  std::string text;
+  for (const std::string& breach : conformance.breaches()) {
+    text += name + " " + breach + "\n";
+  }
+  return text;
+}
+
+TEST(Policies, keep_their_contract_with_default_parameters) {
+  const auto names = policies().names<flyball::Policy>();
+  ASSERT_FALSE(names.empty());
+  for (const std::string& name : names) {
+    EXPECT_EQ("", breaches_of(name, {}));
+  }
+}
+
+TEST(Policies, keep_their_contract_with_every_shipped_preset) {
+  std::size_t count = 0;
+  for (const auto& file : std::filesystem::directory_iterator{FLYBALL_TEST_DATA "/presets"}) {
+    const auto preset = flyball::load_preset(file.path().string());
+    ASSERT_TRUE(preset.ok()) << preset.error().message;
+    EXPECT_FALSE(preset->description.empty()) << file.path();
+    EXPECT_EQ("", breaches_of(preset->policy, preset->parameters)) << file.path();
+    ++count;
+  }
+  EXPECT_GE(count, 3U);
+}
+
+TEST(Policies, start_or_say_why_not_when_a_mission_has_no_knobs) {
+  for (const std::string& name : policies().names<flyball::Policy>()) {
+    const auto policy = policies().make<flyball::Policy>(name);
+    const auto given = flyball::Parameters::resolve(name, policy->parameters(), {});
+    const auto status = policy->start(std::get<flyball::Parameters>(given), {});
+    EXPECT_TRUE(status.ok() || !status.error().message.empty()) << name;
+  }
+}
+
+/// Breaks the contract in the way that its parameter says.
+class Culprit final : public flyball::Policy {
+ public:
+  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    if (crime_ == "parameter") {
+      return {{"speed_m_s", 9.0, 0.0, 1.0, "Out of its own bounds."}};
+    }
+    return {};
+  }
+  flyball::Status start(const flyball::Parameters& /*given*/,
+                        const flyball::KnobSettings& /*knobs*/) override {
+    return flyball::Done{};
+  }
+  [[nodiscard]] flyball::Decision decide(const flyball::Observation& /*seen*/) noexcept override {
+    flyball::Decision wish;
+    wish.set(crime_ == "knob" ? "map.colour" : "map.resolution_m",
+             crime_ == "nan" ? std::nan("") : 0.15);
+    for (int i = 0; crime_ == "overflow" && i < 20; ++i) {
+      wish.set("map.range_m", 7.0);
+    }
+    if (crime_ == "random") {
+      wish.set("map.range_m", static_cast<double>(++decisions));
+    }
+    if (crime_ == "allocate") {
+      delete new double{1.0};  // NOLINT(cppcoreguidelines-owning-memory): the crime
+      memory_ = std::vector<double>(3, 1.0);
+    }
+    return wish;
+  }
+
+ private:
+  inline static int decisions = 0;
+  std::string crime_;
+  std::vector<double> memory_;
+};
+
+TEST(PolicyConformance, finds_each_kind_of_breach) {
+  const std::map<std::string, std::string> findings{
+      {"knob", "names no knob: \"map.colour\""},
+      {"nan", "wishes a number that is not finite for map.resolution_m"},
+      {"overflow", "wishes more than a decision holds"},
+      {"random", "decides differently on equal input"},
+      {"allocate", "allocates in decide()"},
+      {"parameter", "the default of \"speed_m_s\" is out of its own bounds"}};
+  for (const auto& [crime, finding] : findings) {
+    flyball::PolicyConformance conformance{
+        {[crime = crime] { return std::make_unique<Culprit>(crime); },
+         {},
+         flyball::allocation_count}};
+    const auto breaches = conformance.breaches();
+    EXPECT_TRUE(std::count(breaches.begin(), breaches.end(), finding) == 1) << crime;
+  }
+}
+
+TEST(PolicyConformance, passes_a_policy_without_fault) {
+  flyball::PolicyConformance conformance{
+      {[] { return std::make_unique<Culprit>("none"); }, {}, flyball::allocation_count}};
+  EXPECT_TRUE(conformance.breaches().empty());
+}
+
+}  // namespace

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/preset.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using flyball::ErrorCode;
+
+class Preset : public testing::Test {
+ protected:
+  flyball::Result<flyball::Preset> load(const std::string& text) const {
+    std::ofstream{path_} << text;
+    return flyball::load_preset(path_);
+  }
+  ~Preset() override {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+  // One file per test: tests may run side by side.
+  std::string path_ = testing::TempDir() + "flyball_" +
+                      testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+};
+
+TEST_F(Preset, has_a_policy_and_its_parameters) {
+  const auto preset = load(R"(
+description = "Fine where it matters"
+policy = "density"
+[parameters]
+fine_m = 0.15
+budget = 3
+mode = "careful"
+)");
+  ASSERT_TRUE(preset.ok()) << preset.error().message;
+  EXPECT_EQ("density", preset->policy);
+  EXPECT_EQ("Fine where it matters", preset->description);
+  const std::map<std::string, flyball::ParameterValue> expected{
+      {"fine_m", 0.15}, {"budget", 3.0}, {"mode", std::string{"careful"}}};
+  EXPECT_EQ(expected, preset->parameters);
+}
+
+TEST_F(Preset, needs_no_parameters) {
+  const auto preset = load("policy = 'fixed'");
+  ASSERT_TRUE(preset.ok());
+  EXPECT_TRUE(preset->parameters.empty());
+}
+
+TEST_F(Preset, names_file_and_line_of_each_problem_at_once) {
+  const auto preset =
+      load("policy = 'fixed'\ncolour = 1\n[parameters]\nfine_m = true\nat = 12:00:00\n");
+  ASSERT_FALSE(preset.ok());
+  EXPECT_EQ(ErrorCode::invalid_input, preset.error().code);
+  for (const std::string part :
+       {":2: \"colour\"", ":4: parameter \"fine_m\"", ":5: parameter \"at\""}) {
+    EXPECT_NE(std::string::npos, preset.error().message.find(path_ + part))
+        << preset.error().message;
+  }
+}
+
+TEST_F(Preset, refuses_values_of_the_wrong_kind) {
+  for (const std::string text : {"policy = 3", "policy = ''", "policy = 'a'\ndescription = 4",
+                                 "policy = 'a'\nparameters = 5", "[policy]\nname = 'a'",
+                                 "policy = 'a'\n[[parameters]]\na = 1"}) {
+    const auto preset = load(text);
+    ASSERT_FALSE(preset.ok()) << text;
+    EXPECT_EQ(ErrorCode::invalid_input, preset.error().code);
+    EXPECT_EQ(0U, preset.error().message.find(path_ + ":")) << preset.error().message;
+  }
+}
+
+TEST_F(Preset, refuses_a_file_without_a_policy) {
+  for (const std::string text : {"", "description = 'nothing else'"}) {
+    const auto preset = load(text);
+    ASSERT_FALSE(preset.ok());
+    EXPECT_NE(std::string::npos, preset.error().message.find("no policy"));
+  }
+}
+
+TEST_F(Preset, says_where_a_file_is_not_toml) {
+  const auto preset = load("policy = 'fixed'\n\nresolution 0.15\n");
+  ASSERT_FALSE(preset.ok());
+  EXPECT_EQ(ErrorCode::invalid_input, preset.error().code);
+  EXPECT_EQ(0U, preset.error().message.find(path_ + ":3: ")) << preset.error().message;
+}
+
+TEST_F(Preset, is_not_found_where_no_file_is) {
+  for (const std::string& path : {path_ + ".missing", testing::TempDir()}) {
+    const auto preset = flyball::load_preset(path);
+    ASSERT_FALSE(preset.ok());
+    EXPECT_EQ(ErrorCode::not_found, preset.error().code);
+    EXPECT_NE(std::string::npos, preset.error().message.find(path));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "started_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using flyball::start_policy;
+using Given = std::map<std::string, flyball::ParameterValue>;
+
+const Given two_levels{{"fine_m", 0.15},
+                       {"coarse_m", 0.80},
+                       {"enter_density", 0.05},
+                       {"leave_density", 0.03},
+                       {"min_fine_s", 5.0}};
+
+/// The resolution that it wishes at a time for a density.
+double resolution_m(flyball::Policy& policy, double t_s, double density) {
+  flyball::Observation seen;
+  seen.now = flyball::MissionTime{flyball::from_seconds(t_s)};
+  seen.obstacle_density = density;
+  const auto decision = policy.decide(seen);
+  EXPECT_EQ(1U, decision.size());
+  EXPECT_EQ("map.resolution_m", decision.begin()->knob);
+  EXPECT_EQ(flyball::Reason::density, decision.reason);
+  return decision.begin()->value;
+}
+
+TEST(Density, is_coarse_in_the_open_and_fine_among_obstacles) {
+  const auto density = start_policy("density", two_levels);
+  ASSERT_TRUE(density.status.ok());
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.0));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 1.0, 0.025));  // beside a sparse block
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 2.0, 0.07));   // a facade 5 m ahead
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 30.0, 0.16));  // in a room
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 60.0, 0.0));
+}
+
+TEST(Density, does_not_flutter_between_its_two_thresholds) {
+  const auto density = start_policy("density", two_levels);
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.049));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 10.0, 0.050));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 20.0, 0.031));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 30.0, 0.030));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 40.0, 0.049));
+}
+
+TEST(Density, stays_fine_for_its_minimum_time) {
+  const auto density = start_policy("density", two_levels);
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 10.0, 0.2));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 14.99, 0.0));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 15.0, 0.0));
+}
+
+TEST(Density, is_not_moved_by_failures_of_the_planner) {
+  const auto density = start_policy("density", two_levels);
+  flyball::Observation seen;
+  seen.planner_failures = 9;
+  EXPECT_EQ(0.80, density.policy->decide(seen).begin()->value);
+}
+
+TEST(Density, keeps_its_level_when_the_density_is_not_a_number) {
+  const auto density = start_policy("density", two_levels);
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, std::nan("")));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 1.0, 0.2));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 30.0, std::nan("")));
+}
+
+TEST(Density, has_the_levels_of_the_paper_by_default) {
+  const auto density = start_policy("density", {});
+  ASSERT_TRUE(density.status.ok());
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.02));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 1.0, 0.06));
+}
+
+TEST(Density, refuses_levels_and_thresholds_in_the_wrong_order) {
+  EXPECT_FALSE(start_policy("density", {{"fine_m", 0.80}, {"coarse_m", 0.15}}).status.ok());
+  EXPECT_FALSE(start_policy("density", {{"fine_m", 0.30}, {"coarse_m", 0.30}}).status.ok());
+  EXPECT_FALSE(start_policy("density", {{"leave_density", 0.06}}).status.ok());
+  EXPECT_TRUE(start_policy("density", {{"leave_density", 0.05}}).status.ok());
+}
+
+TEST(Density, refuses_a_mission_without_a_map) {
+  const auto density = start_policy("density", {}, flyball::KnobSettings{});
+  ASSERT_FALSE(density.status.ok());
+  EXPECT_NE(std::string::npos, density.status.error().message.find("map.resolution_m"));
+}
+
+}  // namespace
