@@ -63,13 +63,23 @@ class Clearance {
                                   bool ignore_ground) const;
 
  private:
-  World world_;
+  struct Column {
+    int first_box{};
+    int first_pillar{};
+  };
+  [[nodiscard]] double nearest_in(int column, const Vec3& p_WB, const Cylinder& body, double best_m) const;
+
+  double ground_z_m_{};
+  bool has_ground_{};
+  std::vector<Aabb> boxes_{};
+  std::vector<Pillar> pillars_{};
   double cell_m_{4.0};
-  int columns_x_{};
-  int columns_y_{};
+  int columns_x_{1};
+  int columns_y_{1};
   Vec3 origin_{Vec3::Zero()};
-  std::vector<std::vector<int>> boxes_in_;    ///< Box indices per grid column.
-  std::vector<std::vector<int>> pillars_in_;
+  std::vector<Column> columns_{};   ///< Row by row, one more at the end.
+  std::vector<int> boxes_in_{};     ///< Box indices, column by column.
+  std::vector<int> pillars_in_{};
 };
 
 }  // namespace flyball

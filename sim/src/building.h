@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A one-storey building of rooms, doors and furniture, for the world generators.
+
+#include "flyball/runtime/random.h"
+#include "flyball/runtime/result.h"
+#include "flyball/sim/world.h"
+
+#include <vector>
+
+namespace flyball {
+
+/// Rooms stand in `rows` along x and `columns` along y. Wall centres lie on multiples of .15 m, and
+/// walls are .15 m thick, so that their faces are in the middle of .15 m voxels: depth noise then
+/// does not thicken them.
+struct BuildingPlan {
+  double facade_x_m{};  ///< Centre of the outer wall that faces -x; a multiple of .15.
+  int rows{4};
+  int columns{3};            ///< Odd: the entrance is in the middle one.
+  double room_depth_m{9.0};  ///< Between wall centres, along x; a multiple of .15.
+  double room_width_m{10.2};
+  double door_width_m{0.82};
+  double entrance_y_m{};  ///< Wish; kept .5 m away from the corners of the room behind it.
+  bool fine_doors{true};  ///< See `door_centre_m`.
+  int furniture_per_room{4};
+  Vec3 keep_clear_W{Vec3::Zero()};  ///< No furniture within 1.3 m.
+};
+
+/// Opening in a wall, as seen from above.
+struct Doorway {
+  Aabb opening_W{};     ///< Through the wall, from the ground to the lintel.
+  bool wall_along_y{};  ///< The wall's direction.
+};
+
+struct Building {
+  std::vector<Aabb> boxes{};
+  std::vector<Doorway> doors{};  ///< The entrance first.
+  Aabb extent_W{};
+};
+
+/// Where the centre of a door goes that was wished at `wish_m`, within [low_m, high_m].
+///
+/// Fine doors have their centre on the centre of a .15 m voxel (cells are [k r, (k + 1) r)), so
+/// that .75 m of an .82 m door stay free in full voxels, and no .80 m cell lies wholly inside the
+/// opening, so that at .80 m it is shut. For a width that makes the second impossible the first
+/// holds alone.
+[[nodiscard]] double door_centre_m(const BuildingPlan& plan,
+                                   double wish_m,
+                                   double low_m,
+                                   double high_m);
+
+/// @pre The plan's rooms are larger than a door and 2 m.
+[[nodiscard]] Building make_building(const BuildingPlan& plan, RandomStream& random);
+
+}  // namespace flyball

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/depth_camera.h"
+
+#include "flyball/runtime/assert.h"
+#include "flyball/runtime/random.h"
+
+#include "solid_mesh.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <embree3/rtcore.h>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace flyball {
+namespace {
+
+#if defined(__SSE__)
+// sse, avx, avx2 and avx512 kernels round differently, so one is named; every x86 that Embree's own
+// packages support has avx.
+constexpr const char* device_settings = "isa=avx,threads=1,set_affinity=0";
+
+// Embree is much slower on denormal numbers, which no depth needs; the caller's mode comes back.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_{_mm_getcsr()} { _mm_setcsr(saved_ | 0x8040U); }  // FTZ | DAZ
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+#else
+constexpr const char* device_settings = "threads=1,set_affinity=0";
+struct FlushDenormals {};
+#endif
+
+constexpr int lanes = 8;      // Embree's avx kernels are 8 wide.
+constexpr int tile_rows = 2;  // A packet is a tile of 4 x 2 pixels: rays that hit the same solids.
+constexpr int tile_columns = lanes / tile_rows;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr double min_depth_m = 0.05;  // Noise does not push a surface into the lens.
+
+// Standard deviation of MAVBench's RGB-D model (its code).
+double rgbd_sigma_m(double d) {
+  return d < 6.0 ? std::max(0.0, 0.0035 * d - 0.0023) : 0.0657 * d - 0.4193;
+}
+
+// Sum of eight 16-bit uniforms, scaled to variance 1: within .2 % of the normal distribution's
+// quantiles out to 2 sigma, never beyond 4.9 sigma. Box-Muller takes longer than the ray, and its
+// logarithm differs between processors in the last bit; this does not.
+double cheap_normal(RandomStream& random) {
+  std::uint32_t sum = 0;
+  for (int word = 0; word < 2; ++word) {
+    const std::uint64_t bits = random.next();
+    for (unsigned shift = 0; shift < 64; shift += 16) {
+      sum += static_cast<std::uint32_t>((bits >> shift) & 0xffffU);
+    }
+  }
+  constexpr double mean = 8.0 * 0.5 * 65535.0;
+  constexpr double sigma = 53509.9;  // sqrt(8 (65536^2 - 1) / 12)
+  return (static_cast<double>(sum) - mean) / sigma;
+}
+
+struct EmbreeDevice {
+  RTCDevice handle{rtcNewDevice(device_settings)};
+  EmbreeDevice() {
+    FLYBALL_ASSERT(handle != nullptr, "Embree error %d for \"%s\"",
+                   static_cast<int>(rtcGetDeviceError(nullptr)), device_settings);
+  }
+  ~EmbreeDevice() { rtcReleaseDevice(handle); }
+  EmbreeDevice(const EmbreeDevice&) = delete;
+  EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+};
+
+void attach_quads(RTCDevice device, RTCScene scene, const SolidMesh& mesh) {
+  if (mesh.quads.empty()) {
+    return;
+  }
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(mesh.vertices_W[0]), mesh.vertices_W.size());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                          sizeof(mesh.quads[0]), mesh.quads.size());
+  FLYBALL_ASSERT(vertices != nullptr && indices != nullptr, "Embree has no memory for %zu quads",
+                 mesh.quads.size());
+  std::copy(mesh.vertices_W.begin(), mesh.vertices_W.end(),
+            static_cast<std::array<float, 3>*>(vertices));
+  std::copy(mesh.quads.begin(), mesh.quads.end(),
+            static_cast<std::array<std::uint32_t, 4>*>(indices));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace
+
+Intrinsics DepthCameraSpec::intrinsics() const {
+  Intrinsics camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_field_rad);
+  camera.centre_x_px = 0.5 * (width_px - 1);
+  camera.centre_y_px = 0.5 * (height_px - 1);
+  return camera;
+}
+
+struct DepthCamera::Scene {
+  Scene(const World& world, const DepthCameraSpec& camera_spec, std::uint64_t noise_seed)
+      : spec{camera_spec}, camera{camera_spec.intrinsics()}, seed{noise_seed} {
+    const FlushDenormals flush;
+    scene = rtcNewScene(device.handle);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // No ray slips between two faces of a solid.
+    attach_quads(device.handle, scene, solid_mesh(world, camera_spec.max_range_m));
+    rtcCommitScene(scene);
+    const RTCError error = rtcGetDeviceError(device.handle);
+    FLYBALL_ASSERT(error == RTC_ERROR_NONE, "Embree error %d", static_cast<int>(error));
+  }
+  ~Scene() { rtcReleaseScene(scene); }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  void trace_tile(const Eigen::Isometry3f& X_WC, int x0, int y0, std::vector<float>& depth_m) const;
+  void add_noise(std::uint64_t sequence, std::vector<float>& depth_m) const;
+
+  DepthCameraSpec spec;
+  Intrinsics camera;
+  std::uint64_t seed;
+  EmbreeDevice device;
+  RTCScene scene{};
+};
+
+// Ray directions have length 1 along the optical axis, so that Embree's `tfar` is the depth.
+void DepthCamera::Scene::trace_tile(const Eigen::Isometry3f& X_WC,
+                                    int x0,
+                                    int y0,
+                                    std::vector<float>& depth_m) const {
+  alignas(32) RTCRayHit8 rays;
+  alignas(32) std::array<int, lanes> valid;
+  const auto focal = static_cast<float>(camera.focal_px);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    const int x = x0 + lane % tile_columns;
+    const int y = y0 + lane / tile_columns;
+    valid[i] = x < camera.width_px && y < camera.height_px ? -1 : 0;
+    const Eigen::Vector3f d_C{
+        (static_cast<float>(x) - static_cast<float>(camera.centre_x_px)) / focal,
+        (static_cast<float>(y) - static_cast<float>(camera.centre_y_px)) / focal, 1.0F};
+    const Eigen::Vector3f d_W = X_WC.linear() * d_C;
+    rays.ray.org_x[i] = X_WC.translation().x();
+    rays.ray.org_y[i] = X_WC.translation().y();
+    rays.ray.org_z[i] = X_WC.translation().z();
+    rays.ray.dir_x[i] = d_W.x();
+    rays.ray.dir_y[i] = d_W.y();
+    rays.ray.dir_z[i] = d_W.z();
+    rays.ray.tnear[i] = 0.0F;
+    rays.ray.tfar[i] = static_cast<float>(spec.max_range_m);
+    rays.ray.time[i] = 0.0F;
+    rays.ray.mask[i] = ~0U;
+    rays.ray.id[i] = 0;
+    rays.ray.flags[i] = 0;
+    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid.data(), scene, &context, &rays);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    if (valid[i] != 0) {
+      const int pixel = (y0 + lane / tile_columns) * camera.width_px + x0 + lane % tile_columns;
+      const bool hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      depth_m[static_cast<std::size_t>(pixel)] = hit ? rays.ray.tfar[i] : infinity;
+    }
+  }
+}
+
+void DepthCamera::Scene::add_noise(std::uint64_t sequence, std::vector<float>& depth_m) const {
+  if (!spec.rgbd_noise && spec.extra_noise_m <= 0.0) {
+    return;
+  }
+  RandomStream random{seed, "depth_noise", sequence};
+  for (float& depth : depth_m) {
+    if (depth == infinity) {
+      continue;
+    }
+    const double d = static_cast<double>(depth);
+    const double rgbd = spec.rgbd_noise ? rgbd_sigma_m(d) : 0.0;
+    const double sigma_m = std::sqrt(rgbd * rgbd + spec.extra_noise_m * spec.extra_noise_m);
+    const double noisy = std::max(d + sigma_m * cheap_normal(random), min_depth_m);
+    depth = noisy <= spec.max_range_m ? static_cast<float>(noisy) : infinity;
+  }
+}
+
+DepthCamera::DepthCamera(const World& world, const DepthCameraSpec& spec, std::uint64_t seed)
+    : scene_{std::make_unique<Scene>(world, spec, seed)} {}
+
+DepthCamera::~DepthCamera() = default;
+
+const DepthCameraSpec& DepthCamera::spec() const {
+  return scene_->spec;
+}
+
+DepthImage DepthCamera::capture(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const {
+  DepthImage image;
+  image.captured = now;
+  image.sequence = sequence;
+  image.camera = scene_->camera;
+  image.max_range_m = scene_->spec.max_range_m;
+  image.depth_m.assign(static_cast<std::size_t>(image.camera.width_px) *
+                           static_cast<std::size_t>(image.camera.height_px),
+                       infinity);
+  const FlushDenormals flush;
+  const Eigen::Isometry3f X_WC_float = X_WC.cast<float>();
+  for (int y = 0; y < image.camera.height_px; y += tile_rows) {
+    for (int x = 0; x < image.camera.width_px; x += tile_columns) {
+      scene_->trace_tile(X_WC_float, x, y, image.depth_m);
+    }
+  }
+  scene_->add_noise(sequence, image.depth_m);
+  return image;
+}
+
+}  // namespace flyball
