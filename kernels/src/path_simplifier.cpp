@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "path_simplifier.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace flyball {
+namespace {
+
+using Polygon = std::vector<Vec3>;
+using Step = Polygon::difference_type;
+
+constexpr int shortcuts = 40;            // Tries; more shortened the test scene's paths by < 1 %.
+constexpr double worthwhile_m = 0.01;
+constexpr double too_close_m = 0.2;
+constexpr double enough_clearance_m = 1.0;
+constexpr int centring_rounds = 2;
+
+/// From each point straight to the farthest one that can be reached.
+void drop_vertices(Polygon& points, MotionChecker& checker) {
+  Polygon kept{points.front()};
+  std::size_t here = 0;
+  while (here + 1 < points.size()) {
+    std::size_t next = points.size() - 1;
+    while (next > here + 1 && !checker.is_flyable(points[here], points[next])) {
+      --next;
+    }
+    kept.push_back(points[next]);
+    here = next;
+  }
+  points = std::move(kept);
+}
+
+struct Place {
+  std::size_t piece{};
+  Vec3 p_W{Vec3::Zero()};
+  double s_m{};
+};
+
+double length_m(const Polygon& points) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    sum_m += (points[i] - points[i - 1]).norm();
+  }
+  return sum_m;
+}
+
+Place place_at(const Polygon& points, double s_m) {
+  double left_m = s_m;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vec3 piece = points[i + 1] - points[i];
+    const double piece_m = piece.norm();
+    if (left_m < piece_m || i + 2 == points.size()) {
+      const double share = piece_m > 0.0 ? std::min(1.0, left_m / piece_m) : 0.0;
+      return {i, points[i] + share * piece, s_m};
+    }
+    left_m -= piece_m;
+  }
+  return {};
+}
+
+void shortcut(Polygon& points, MotionChecker& checker, RandomStream& random) {
+  for (int i = 0; i < shortcuts && points.size() > 2; ++i) {
+    const double total_m = length_m(points);
+    const double one_m = random.uniform(0.0, total_m);
+    const double other_m = random.uniform(0.0, total_m);
+    const Place from = place_at(points, std::min(one_m, other_m));
+    const Place to = place_at(points, std::max(one_m, other_m));
+    const double saved_m = to.s_m - from.s_m - (to.p_W - from.p_W).norm();
+    if (from.piece == to.piece || saved_m < worthwhile_m ||
+        !checker.is_flyable(from.p_W, to.p_W) ||
+        !checker.is_flyable(points[from.piece], from.p_W) ||
+        !checker.is_flyable(to.p_W, points[to.piece + 1])) {
+      continue;
+    }
+    const auto first = points.begin() + static_cast<Step>(from.piece) + 1;
+    const auto last = points.begin() + static_cast<Step>(to.piece) + 1;
+    points.insert(points.erase(first, last), {from.p_W, to.p_W});
+  }
+}
+
+/// Moves one corner to the first of a few places that is farther from obstacles.
+bool centre(Polygon& points, std::size_t i, MotionChecker& checker) {
+  const double now_m = checker.clearance_m(points[i], enough_clearance_m);
+  if (now_m >= enough_clearance_m) {
+    return false;
+  }
+  // Away from the inside of the corner first: that is where its obstacle stands.
+  const Vec3 inside = 0.5 * (points[i - 1] + points[i + 1]) - points[i];
+  const double away_rad = inside.head<2>().norm() > 1e-6 ? yaw_of(-inside) : 0.0;
+  constexpr double quarter_rad = 1.5707963267948966;
+  constexpr std::array<double, 3> turns_rad{0.0, quarter_rad, -quarter_rad};
+  constexpr std::array<double, 3> steps_m{0.6, 0.3, 0.1};
+  for (const double step_m : steps_m) {
+    for (const double turn_rad : turns_rad) {
+      const double yaw_rad = away_rad + turn_rad;
+      const Vec3 moved = points[i] + step_m * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
+      if (checker.clearance_m(moved, enough_clearance_m) > now_m + worthwhile_m &&
+          checker.is_flyable(points[i - 1], moved) && checker.is_flyable(moved, points[i + 1])) {
+        points[i] = moved;
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void centre_all(Polygon& points, MotionChecker& checker) {
+  for (int round = 0; round < centring_rounds; ++round) {
+    bool moved = false;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      moved = centre(points, i, checker) || moved;
+    }
+    if (!moved) {
+      return;
+    }
+  }
+}
+
+void merge_close(Polygon& points, MotionChecker& checker) {
+  for (std::size_t i = 1; i + 1 < points.size();) {
+    const bool close = (points[i] - points[i - 1]).norm() < too_close_m ||
+                       (points[i + 1] - points[i]).norm() < too_close_m;
+    if (close && checker.is_flyable(points[i - 1], points[i + 1])) {
+      points.erase(points.begin() + static_cast<Step>(i));
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3> simplify(std::vector<Vec3> points_W,
+                           MotionChecker& checker,
+                           RandomStream random) {
+  FLYBALL_ASSERT(points_W.size() >= 2, "points=%zu", points_W.size());
+  drop_vertices(points_W, checker);
+  shortcut(points_W, checker, random);
+  drop_vertices(points_W, checker);
+  centre_all(points_W, checker);
+  merge_close(points_W, checker);
+  return points_W;
+}
+
+}  // namespace flyball
