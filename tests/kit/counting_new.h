@@ -22,17 +22,18 @@ inline thread_local std::size_t allocations_of_thread = 0;
 }  // namespace flyball
 
 // NOLINTBEGIN(cppcoreguidelines-no-malloc, misc-definitions-in-headers): see above
-void* operator new(std::size_t size) {
+// Not inlined: the compiler would see malloc and free in place of the operators and warn of a mix.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++flyball::allocations_of_thread;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) {
     return memory;
   }
   throw std::bad_alloc{};
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
   std::free(memory);
 }
 // NOLINTEND(cppcoreguidelines-no-malloc, misc-definitions-in-headers)

@@ -196,7 +196,8 @@ class PolicyConformance {
     for (const Observation& seen : observations) {
       static_cast<void>(policy->decide(seen));
     }
-    require(candidate_.allocations() == before, "allocates in decide()");
+    const std::size_t after = candidate_.allocations();
+    require(after == before, "allocates in decide()");
   }
 
   void check_legal_under_governor(const std::vector<Observation>& observations, bool plausible) {
