@@ -67,7 +67,8 @@ class Flattening {
     const Vec3 from = piece.derivative(0, from_s);
     const Vec3 middle = piece.derivative(0, middle_s);
     const Vec3 to = piece.derivative(0, to_s);
-    if (depth == max_depth || (middle - from).norm() + (to - middle).norm() <= limit_m_) {
+    const bool is_long = (middle - from).norm() + (to - middle).norm() > limit_m_;
+    if (depth == max_depth || !is_long) {
       add_point(to);
       return;
     }

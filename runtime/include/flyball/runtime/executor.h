@@ -16,7 +16,7 @@ namespace flyball {
 struct JobRecord {
   int node{};
   MissionTime released{};
-  MissionTime started{};
+  MissionTime started{};  ///< The same as `ended` when it was killed before it got a core.
   MissionTime ended{};
   Duration busy{};       ///< Core time that it got.
   Work work{};
@@ -45,7 +45,7 @@ class Executor {
     });
   }
   virtual void on_job(std::function<void(const JobRecord&)> listener) = 0;
-  /// A job passed its deadline, told at that moment.
+  /// A job passed its deadline, told at that moment, once. Under `skip` it is killed next.
   virtual void on_miss(std::function<void(int node, OnMiss)> listener) = 0;
 
   /// Running jobs keep their progress and go on at the new rate after the platform's switching time.
@@ -55,8 +55,8 @@ class Executor {
   [[nodiscard]] virtual double busy_core_s() const = 0;
   /// Cores in use right now.
   [[nodiscard]] virtual double busy_cores() const = 0;
-  /// Messages dropped since the start: from full queues, and triggers of a latest-value topic that
-  /// were overtaken while their node was busy.
+  /// Dropped since the start: messages from full queues, triggers of a latest-value topic that were
+  /// overtaken before a job read them, and periods that began while their node was busy.
   [[nodiscard]] virtual std::uint64_t drops() const = 0;
 
  protected:

@@ -65,7 +65,9 @@ struct NodeSpec {
   Duration deadline{};   ///< From release to end; zero: none.
   OnMiss on_miss{OnMiss::warn};
   int threads{1};
-  std::vector<int> reads{};   ///< Topics besides the trigger.
+  /// Topics besides the trigger. A job that touches one that is not declared is a broken
+  /// precondition: the printed graph tells the truth. Each node reads a queue at its own pace.
+  std::vector<int> reads{};
   std::vector<int> writes{};
 };
 

@@ -11,6 +11,8 @@
 
 namespace flyball {
 
+struct VirtualComputer;  // see runtime/src/virtual_computer.h
+
 /// Preemptive-resume by priority; jobs of equal priority share the cores equally; a job uses at
 /// most its node's `threads`. A job computes for real when it first gets a core, and ends when the
 /// modeled time has passed: progress grows at S(share) / t(f), or share / t(f) below one core, so
@@ -35,8 +37,9 @@ class VirtualExecutor final : public Executor {
   void listen(int topic, std::function<void(const Message&)> listener) override;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  /// Owners: this, and for its duration an event that runs. Events that wait hold it weakly,
+  /// because the queue outlives the executor.
+  std::shared_ptr<VirtualComputer> computer_;
 };
 
 }  // namespace flyball

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// One job on the modeled computer: how far it is, and what it will say when it ends.
+
+#include "flyball/runtime/executor.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace flyball {
+
+struct Job {
+  std::uint64_t id{};  ///< In the order of release.
+  bool has_started{};
+  JobRecord record{};
+
+  double left{1.0};     ///< Share of the work that is still to do.
+  double one_core_s{};  ///< Time of the whole work on one core at the present clock.
+  double share{};       ///< Cores granted now.
+  double speed{};       ///< How many times faster than one core that is.
+  double busy_s{};      ///< Core time so far.
+
+  /// Only the newest end that was scheduled counts.
+  std::uint64_t end_schedule{};
+  bool has_end{};
+
+  std::vector<std::pair<int, Message>> outputs{};
+  std::vector<std::function<void(MissionTime)>> at_end{};
+
+  void advance(double elapsed_s) {
+    busy_s += share * elapsed_s;
+    left = one_core_s > 0.0 ? std::max(0.0, left - elapsed_s * speed / one_core_s) : 0.0;
+  }
+  /// @pre `speed > 0`.
+  [[nodiscard]] Duration time_to_end() const {
+    // A picosecond less, so that rounding in the last bit does not cost a whole nanosecond.
+    constexpr double rounding_s = 1e-12;
+    return from_seconds(std::max(0.0, left * one_core_s / speed - rounding_s));
+  }
+};
+
+}  // namespace flyball

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Everything that may change who runs asks for a dispatch, which comes once, behind all that
+// happens at the same moment; so a job never starts before a more urgent one that was released
+// with it, and it reads all messages of that moment.
+
+#include "flyball/runtime/assert.h"
+
+#include "core_shares.h"
+#include "virtual_computer.h"
+#include <algorithm>
+#include <chrono>
+
+namespace flyball {
+
+namespace {
+
+/// What a job may do while it computes.
+class RunningJob final : public JobContext {
+ public:
+  RunningJob(VirtualComputer& computer, int node, Job& job)
+      : computer_{computer}, node_{node}, job_{job} {}
+
+  [[nodiscard]] MissionTime now() const override { return computer_.queue.now(); }
+  [[nodiscard]] MissionTime released() const override { return job_.record.released; }
+  void at_end(std::function<void(MissionTime)> action) override {
+    job_.at_end.push_back(std::move(action));
+  }
+  [[nodiscard]] bool has_taken_trigger() const { return has_taken_trigger_; }
+
+ protected:
+  [[nodiscard]] Message read(int topic) const override {
+    (void)inbox(topic);
+    return computer_.topics[VirtualComputer::index(topic)].newest;
+  }
+  [[nodiscard]] Message pop(int topic) override {
+    Inbox& box = inbox(topic);
+    has_taken_trigger_ = has_taken_trigger_ || &box == &node().inboxes.front();
+    return box.take();
+  }
+  void push(int topic, Message message) override {
+    const NodeSpec& spec = computer_.spec(node_);
+    FLYBALL_ASSERT(std::count(spec.writes.begin(), spec.writes.end(), topic) == 1,
+                   "node %s does not declare that it writes topic %d", spec.name.c_str(), topic);
+    job_.outputs.emplace_back(topic, std::move(message));
+  }
+
+ private:
+  [[nodiscard]] NodeState& node() const { return computer_.nodes[VirtualComputer::index(node_)]; }
+  [[nodiscard]] Inbox& inbox(int topic) const {
+    auto& boxes = node().inboxes;
+    const auto box = std::find_if(boxes.begin(), boxes.end(),
+                                  [topic](const Inbox& b) { return b.topic() == topic; });
+    FLYBALL_ASSERT(box != boxes.end(), "node %s does not declare that it reads topic %d",
+                   computer_.spec(node_).name.c_str(), topic);
+    return *box;
+  }
+
+  VirtualComputer& computer_;
+  int node_;
+  Job& job_;
+  bool has_taken_trigger_{};
+};
+
+}  // namespace
+
+void VirtualComputer::request_dispatch() {
+  if (!is_dispatch_pending) {
+    is_dispatch_pending = true;
+    at(queue.now(), EventOrder::trigger, [](VirtualComputer& computer) { computer.dispatch(); });
+  }
+}
+
+void VirtualComputer::dispatch() {
+  is_dispatch_pending = false;
+  advance();
+  const std::vector<int> urgent = nodes_by_urgency();
+  std::vector<CoreClaim> claims;
+  claims.reserve(urgent.size());
+  for (const int node : urgent) {
+    claims.push_back({spec(node).priority, useful_cores(node)});
+  }
+  const bool is_stalled = queue.now() < stalled_until;
+  const std::vector<double> shares = share_cores(claims, is_stalled ? 0.0 : point.cores);
+  for (std::size_t i = 0; i < urgent.size(); ++i) {
+    if (shares[i] > 0.0 && !nodes[index(urgent[i])].job->has_started) {
+      compute(urgent[i]);
+    }
+  }
+  for (std::size_t i = 0; i < urgent.size(); ++i) {
+    apply_share(urgent[i], shares[i]);
+  }
+}
+
+std::vector<int> VirtualComputer::nodes_by_urgency() const {
+  std::vector<int> urgent;
+  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+    if (nodes[index(node)].job) {
+      urgent.push_back(node);
+    }
+  }
+  std::sort(urgent.begin(), urgent.end(), [this](int a, int b) {
+    return spec(a).priority != spec(b).priority ? spec(a).priority > spec(b).priority
+                                                : nodes[index(a)].job->id < nodes[index(b)].job->id;
+  });
+  return urgent;
+}
+
+double VirtualComputer::useful_cores(int node) const {
+  const NodeSpec& wanted = spec(node);
+  // A second core that brings nothing is left to others.
+  return platform.speedup(wanted.cost, 2.0) > 1.0 ? wanted.threads : 1.0;
+}
+
+void VirtualComputer::compute(int node) {
+  NodeState& here = nodes[index(node)];
+  Job& job = *here.job;
+  job.has_started = true;
+  job.record.started = queue.now();
+  RunningJob context{*this, node, job};
+  const auto begin = std::chrono::steady_clock::now();
+  job.record.work = graph.nodes()[index(node)].body(context);
+  const std::chrono::duration<double> host = std::chrono::steady_clock::now() - begin;
+  job.record.host_s = host.count();
+  if (here.has_trigger_inbox && !context.has_taken_trigger()) {
+    (void)here.inboxes.front().take();  // read by `latest`, or of no interest: one job, one message
+  }
+  job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
+}
+
+Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
+  const NodeSpec& wanted = spec(node);
+  return wanted.cost.empty() ? Duration::zero()
+                             : platform.job_time(wanted.cost, work, point.frequency);
+}
+
+void VirtualComputer::apply_share(int node, double share) {
+  Job& job = *nodes[index(node)].job;
+  const double speed = share <= 1.0 ? share : platform.speedup(spec(node).cost, share);
+  if (job.has_end && speed == job.speed) {
+    job.share = share;
+    return;  // its end stays exactly where it is
+  }
+  job.share = share;
+  job.speed = speed;
+  job.has_end = false;
+  ++job.end_schedule;
+  if (job.speed > 0.0) {
+    schedule_end(node);
+  }
+}
+
+void VirtualComputer::schedule_end(int node) {
+  Job& job = *nodes[index(node)].job;
+  job.has_end = true;
+  const auto end = [node, id = job.id, schedule = job.end_schedule](VirtualComputer& computer) {
+    const auto& present = computer.nodes[index(node)].job;
+    if (present && present->id == id && present->end_schedule == schedule) {
+      computer.end_job(node);
+    }
+  };
+  at(queue.now() + job.time_to_end(), EventOrder::job, end);
+}
+
+void VirtualComputer::advance() {
+  const double elapsed_s = to_seconds(queue.now() - advanced_to);
+  advanced_to = queue.now();
+  if (elapsed_s <= 0.0) {
+    return;
+  }
+  busy_core_s += busy_cores() * elapsed_s;
+  for (NodeState& node : nodes) {
+    if (node.job && node.job->has_started) {
+      node.job->advance(elapsed_s);
+    }
+  }
+}
+
+double VirtualComputer::busy_cores() const {
+  double sum = 0.0;
+  for (const NodeState& node : nodes) {
+    sum += node.job ? node.job->share : 0.0;
+  }
+  return sum;
+}
+
+void VirtualComputer::set_operating_point(const OperatingPoint& wanted) {
+  FLYBALL_ASSERT(wanted.cores >= 1 && wanted.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
+                 wanted.cores, wanted.frequency.value());
+  advance();
+  const bool changes_clock = wanted.frequency != point.frequency;
+  point = wanted;
+  if (changes_clock) {
+    for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+      auto& job = nodes[index(node)].job;
+      if (job && job->has_started) {
+        job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
+        job->has_end = false;  // at the same share it still ends at another time
+      }
+    }
+    stalled_until = queue.now() + platform.switching_time();
+    at(stalled_until, EventOrder::trigger,
+       [](VirtualComputer& computer) { computer.request_dispatch(); });
+  }
+  request_dispatch();
+}
+
+}  // namespace flyball

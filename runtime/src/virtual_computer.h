@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The inside of the virtual executor. Messages and jobs come and go in virtual_executor.cpp; how
+/// jobs share the cores is in job_scheduling.cpp.
+
+#include "flyball/runtime/virtual_executor.h"
+
+#include "inbox.h"
+#include "job.h"
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace flyball {
+
+struct NodeState {
+  std::optional<Job> job{};
+  std::vector<Inbox> inboxes{};  ///< The trigger's first, if a message is the trigger.
+  bool has_trigger_inbox{};
+};
+
+struct TopicState {
+  Message newest{};
+  std::vector<int> readers{};  ///< Nodes, ascending.
+  /// A deque: a listener may add another one while it runs.
+  std::deque<std::function<void(const Message&)>> listeners{};
+};
+
+struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
+  VirtualComputer(const Graph& graph_,
+                  const Platform& platform_,
+                  EventQueue& queue_,
+                  OperatingPoint point_);
+  void start();
+
+  // Messages and jobs.
+  void publish(int topic, const Message& message);
+  void deliver(int node, int topic, const Message& message);
+  void trigger_periodically(int node);
+  void release(int node, MissionTime at);
+  void release_next(int node);
+  void pass_deadline(int node, std::uint64_t job);
+  void end_job(int node);
+  void kill_job(int node);
+  Job take_job(int node);
+  void tell(const JobRecord& record);
+
+  // Scheduling.
+  void request_dispatch();
+  void dispatch();
+  void compute(int node);
+  void apply_share(int node, double share);
+  void schedule_end(int node);
+  void advance();
+  void set_operating_point(const OperatingPoint& wanted);
+  [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
+  [[nodiscard]] double useful_cores(int node) const;
+  [[nodiscard]] std::vector<int> nodes_by_urgency() const;
+  [[nodiscard]] double busy_cores() const;
+
+  /// Schedules `action` for as long as this executor lives: the queue outlives it.
+  void at(MissionTime time, EventOrder order, std::function<void(VirtualComputer&)> action);
+  [[nodiscard]] const NodeSpec& spec(int node) const { return graph.nodes()[index(node)].spec; }
+  [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  const Graph& graph;
+  const Platform& platform;
+  EventQueue& queue;
+  OperatingPoint point;
+  std::vector<NodeState> nodes;
+  std::vector<TopicState> topics;
+  std::deque<std::function<void(const JobRecord&)>> job_listeners;
+  std::deque<std::function<void(int, OnMiss)>> miss_listeners;
+  std::uint64_t jobs_released{};
+  std::uint64_t drops{};
+  double busy_core_s{};
+  MissionTime advanced_to{};
+  MissionTime stalled_until{};
+  bool is_dispatch_pending{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/virtual_executor.h"
+
+#include "flyball/runtime/assert.h"
+
+#include "virtual_computer.h"
+#include <algorithm>
+#include <utility>
+
+namespace flyball {
+
+VirtualComputer::VirtualComputer(const Graph& graph_,
+                                 const Platform& platform_,
+                                 EventQueue& queue_,
+                                 OperatingPoint point_)
+    : graph{graph_},
+      platform{platform_},
+      queue{queue_},
+      point{point_},
+      nodes(graph_.nodes().size()),
+      topics(graph_.topics().size()),
+      advanced_to{queue_.now()} {
+  FLYBALL_ASSERT(point.cores >= 1 && point.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
+                 point.cores, point.frequency.value());
+  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+    std::vector<int> reads = spec(node).reads;
+    if (const auto* message = std::get_if<OnMessage>(&spec(node).trigger)) {
+      nodes[index(node)].has_trigger_inbox = true;
+      reads.insert(reads.begin(), message->topic);
+    }
+    for (const int topic : reads) {
+      auto& readers = topics[index(topic)].readers;
+      if (readers.empty() || readers.back() != node) {
+        readers.push_back(node);
+        nodes[index(node)].inboxes.emplace_back(topic, graph.topics()[index(topic)].capacity);
+      }
+    }
+  }
+}
+
+void VirtualComputer::start() {
+  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+    if (const auto* every = std::get_if<OnPeriod>(&spec(node).trigger)) {
+      at(queue.now() + every->phase, EventOrder::trigger,
+         [node](VirtualComputer& computer) { computer.trigger_periodically(node); });
+    }
+  }
+}
+
+void VirtualComputer::at(MissionTime time,
+                         EventOrder order,
+                         std::function<void(VirtualComputer&)> action) {
+  queue.schedule(time, order, [weak = weak_from_this(), action = std::move(action)] {
+    if (const auto computer = weak.lock()) {
+      action(*computer);
+    }
+  });
+}
+
+void VirtualComputer::trigger_periodically(int node) {
+  at(queue.now() + std::get<OnPeriod>(spec(node).trigger).period, EventOrder::trigger,
+     [node](VirtualComputer& computer) { computer.trigger_periodically(node); });
+  if (nodes[index(node)].job) {
+    ++drops;
+  } else {
+    release(node, queue.now());
+  }
+}
+
+void VirtualComputer::publish(int topic, const Message& message) {
+  TopicState& here = topics[index(topic)];
+  here.newest = message;
+  for (const int node : here.readers) {
+    deliver(node, topic, message);
+  }
+  const std::size_t listeners = here.listeners.size();
+  for (std::size_t i = 0; i < listeners; ++i) {
+    here.listeners[i](message);
+  }
+}
+
+void VirtualComputer::deliver(int node, int topic, const Message& message) {
+  NodeState& reader = nodes[index(node)];
+  const auto inbox = std::find_if(reader.inboxes.begin(), reader.inboxes.end(),
+                                  [topic](const Inbox& box) { return box.topic() == topic; });
+  const bool is_trigger = reader.has_trigger_inbox && inbox == reader.inboxes.begin();
+  // Looking at the newest value now and then drops nothing; an overtaken trigger does.
+  if (inbox->add(message, queue.now()) && (is_trigger || inbox->capacity() > 1)) {
+    ++drops;
+  }
+  if (is_trigger && !reader.job) {
+    release(node, queue.now());
+  }
+}
+
+void VirtualComputer::release(int node, MissionTime at_time) {
+  Job job;
+  job.id = jobs_released++;
+  job.record.node = node;
+  job.record.released = at_time;
+  if (const Duration deadline = spec(node).deadline; deadline > Duration::zero()) {
+    // `trigger`: behind the jobs that end at the same moment, for those are in time
+    at(std::max(queue.now(), at_time + deadline), EventOrder::trigger,
+       [node, id = job.id](VirtualComputer& computer) { computer.pass_deadline(node, id); });
+  }
+  nodes[index(node)].job = std::move(job);
+  request_dispatch();
+}
+
+void VirtualComputer::release_next(int node) {
+  const NodeState& here = nodes[index(node)];
+  if (!here.has_trigger_inbox) {
+    return;
+  }
+  if (const auto arrived = here.inboxes.front().oldest_arrival()) {
+    release(node, *arrived);
+  }
+}
+
+void VirtualComputer::pass_deadline(int node, std::uint64_t job) {
+  auto& late = nodes[index(node)].job;
+  if (!late || late->id != job) {
+    return;
+  }
+  late->record.missed = true;
+  const OnMiss on_miss = spec(node).on_miss;
+  for (std::size_t i = 0; i < miss_listeners.size(); ++i) {
+    miss_listeners[i](node, on_miss);
+  }
+  if (on_miss == OnMiss::skip) {
+    kill_job(node);
+  }
+}
+
+Job VirtualComputer::take_job(int node) {
+  advance();
+  Job job = std::move(*nodes[index(node)].job);
+  nodes[index(node)].job.reset();
+  job.record.ended = queue.now();
+  job.record.busy = Duration{std::llround(job.busy_s * 1e9)};
+  request_dispatch();
+  return job;
+}
+
+void VirtualComputer::end_job(int node) {
+  const Job job = take_job(node);
+  release_next(node);
+  for (const auto& action : job.at_end) {
+    action(queue.now());
+  }
+  for (const auto& [topic, message] : job.outputs) {
+    publish(topic, message);
+  }
+  tell(job.record);
+}
+
+void VirtualComputer::kill_job(int node) {
+  Job job = take_job(node);
+  job.record.killed = true;
+  if (!job.has_started) {
+    job.record.started = job.record.ended;
+    if (nodes[index(node)].has_trigger_inbox) {
+      (void)nodes[index(node)].inboxes.front().take();  // nobody will read it any more
+    }
+  }
+  release_next(node);
+  tell(job.record);
+}
+
+void VirtualComputer::tell(const JobRecord& record) {
+  for (std::size_t i = 0; i < job_listeners.size(); ++i) {
+    job_listeners[i](record);
+  }
+}
+
+VirtualExecutor::VirtualExecutor(const Graph& graph,
+                                 const Platform& platform,
+                                 EventQueue& queue,
+                                 OperatingPoint point)
+    : computer_{std::make_shared<VirtualComputer>(graph, platform, queue, point)} {
+  computer_->start();
+}
+
+VirtualExecutor::~VirtualExecutor() = default;
+
+void VirtualExecutor::on_job(std::function<void(const JobRecord&)> listener) {
+  computer_->job_listeners.push_back(std::move(listener));
+}
+
+void VirtualExecutor::on_miss(std::function<void(int node, OnMiss)> listener) {
+  computer_->miss_listeners.push_back(std::move(listener));
+}
+
+void VirtualExecutor::set_operating_point(const OperatingPoint& point) {
+  computer_->set_operating_point(point);
+}
+
+const OperatingPoint& VirtualExecutor::operating_point() const {
+  return computer_->point;
+}
+
+double VirtualExecutor::busy_core_s() const {
+  const double since_s = to_seconds(computer_->queue.now() - computer_->advanced_to);
+  return computer_->busy_core_s + computer_->busy_cores() * since_s;
+}
+
+double VirtualExecutor::busy_cores() const {
+  return computer_->busy_cores();
+}
+
+std::uint64_t VirtualExecutor::drops() const {
+  return computer_->drops;
+}
+
+void VirtualExecutor::inject(int topic, Message message) {
+  computer_->publish(topic, message);
+}
+
+void VirtualExecutor::listen(int topic, std::function<void(const Message&)> listener) {
+  computer_->topics[VirtualComputer::index(topic)].listeners.push_back(std::move(listener));
+}
+
+}  // namespace flyball
