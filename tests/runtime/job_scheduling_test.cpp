@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Closed forms of who runs when on the modeled computer.
+
+#include "computer_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(JobScheduling, a_job_alone_takes_its_time) {
+  ComputerRig rig;
+  const int a = rig.add({100.0});
+  rig.start(1);
+  rig.trigger(a, 7.0);
+  rig.run();
+  ASSERT_EQ(rig.records.size(), 1U);
+  EXPECT_EQ(rig.of(a).released, at_ms(7.0));
+  EXPECT_EQ(rig.of(a).started, at_ms(7.0));
+  EXPECT_EQ(rig.of(a).ended, at_ms(107.0));
+  EXPECT_EQ(rig.of(a).busy, at_ms(100.0).time_since_epoch());
+  EXPECT_FALSE(rig.of(a).killed || rig.of(a).missed);
+}
+
+TEST(JobScheduling, equal_priorities_share_one_core_equally) {
+  ComputerRig rig;
+  const int a = rig.add({100.0});
+  const int b = rig.add({30.0});
+  rig.start(1);
+  rig.trigger(a, 0.0);
+  rig.trigger(b, 0.0);
+  rig.run();
+  // b has half a core until 60 ms; a then has 70 ms left alone
+  EXPECT_NEAR(rig.end_ms(b), 60.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(a), 130.0, end_tolerance_ms);
+  EXPECT_NEAR(ms(rig.of(b).busy), 30.0, 1e-6);
+}
+
+TEST(JobScheduling, a_preempted_job_resumes_where_it_was) {
+  ComputerRig rig;
+  const int low = rig.add({100.0, 0});
+  const int high = rig.add({40.0, 1});
+  rig.start(1);
+  rig.trigger(low, 0.0);
+  rig.trigger(high, 30.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(high), 70.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(low), 140.0, end_tolerance_ms);
+  EXPECT_EQ(rig.of(low).started, at_ms(0.0));
+  EXPECT_NEAR(ms(rig.of(low).busy), 100.0, 1e-6);
+}
+
+TEST(JobScheduling, a_less_urgent_job_does_not_compute_before_it_has_a_core) {
+  ComputerRig rig;
+  const int low = rig.add({10.0, 0});
+  const int high = rig.add({40.0, 1});
+  rig.start(1);
+  rig.trigger(low, 0.0, 1);  // first in the queue, and yet not first to run
+  rig.trigger(high, 0.0, 2);
+  rig.run();
+  EXPECT_EQ(rig.taken, (std::vector<int>{2, 1}));
+  EXPECT_EQ(rig.of(low).started, at_ms(40.0));
+  EXPECT_EQ(rig.of(low).released, at_ms(0.0));
+}
+
+TEST(JobScheduling, three_equal_jobs_on_two_cores_get_two_thirds_each) {
+  ComputerRig rig;
+  std::vector<int> jobs{rig.add({60.0}), rig.add({60.0}), rig.add({60.0})};
+  rig.start(2);
+  for (const int job : jobs) {
+    rig.trigger(job, 0.0);
+  }
+  rig.run();
+  for (const int job : jobs) {
+    EXPECT_NEAR(rig.end_ms(job), 90.0, end_tolerance_ms);
+  }
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.180, 1e-9);
+}
+
+TEST(JobScheduling, a_threaded_job_and_another_never_use_a_core_twice) {
+  ComputerRig rig;
+  const int wide = rig.add({100.0, 0, "amdahl", 4});
+  const int narrow = rig.add({30.0, 0});
+  rig.start(4);
+  rig.trigger(wide, 0.0);
+  rig.trigger(narrow, 0.0);
+  double both = 0.0;
+  rig.queue.schedule(at_ms(1.0), EventOrder::observer, [&] { both = rig.computer->busy_cores(); });
+  rig.run();
+  // narrow takes one core, wide three: S(3) = 1 / (.2 + .8 / 3); then four: S(4) = 1 / (.2 + .8 /
+  // 4)
+  const double s3 = 1.0 / (0.2 + 0.8 / 3.0);
+  const double s4 = 1.0 / (0.2 + 0.8 / 4.0);
+  EXPECT_NEAR(both, 4.0, 1e-12);
+  EXPECT_NEAR(rig.end_ms(narrow), 30.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(wide), 30.0 + (100.0 - 30.0 * s3) / s4, end_tolerance_ms);
+}
+
+TEST(JobScheduling, threads_of_a_serial_kernel_leave_the_other_cores_free) {
+  ComputerRig rig;
+  const int serial = rig.add({50.0, 1, "serial", 4});
+  const int other = rig.add({50.0, 0});
+  rig.start(2);
+  rig.trigger(serial, 0.0);
+  rig.trigger(other, 0.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(serial), 50.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(other), 50.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.1, 1e-9);
+}
+
+TEST(JobScheduling, a_faster_clock_half_way_speeds_up_the_rest) {
+  ComputerRig rig;
+  const int a = rig.add({100.0});
+  const int b = rig.add({100.0, 0, "memory"});
+  rig.start(2);
+  rig.trigger(a, 0.0);
+  rig.trigger(b, 0.0);
+  rig.set_point(50.0, 2, 2.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(a), 75.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(b), 50.0 + 50.0 * 0.75, end_tolerance_ms);  // .5 / 2 + .5
+}
+
+TEST(JobScheduling, cores_taken_away_half_way_are_shared) {
+  ComputerRig rig;
+  const int a = rig.add({100.0});
+  const int b = rig.add({100.0});
+  rig.start(2);
+  rig.trigger(a, 0.0);
+  rig.trigger(b, 0.0);
+  rig.set_point(40.0, 1, 1.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(a), 160.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(b), 160.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.2, 1e-9);
+}
+
+TEST(JobScheduling, jobs_stand_still_while_the_clock_switches) {
+  ComputerRig rig{3.0};
+  const int a = rig.add({100.0});
+  const int b = rig.add({10.0});
+  rig.start(1);
+  rig.trigger(a, 0.0);
+  rig.set_point(50.0, 1, 2.0);
+  rig.trigger(b, 51.0);  // released in the gap: it computes behind it
+  rig.run();
+  EXPECT_EQ(rig.of(b).started, at_ms(53.0));
+  EXPECT_NEAR(rig.end_ms(b), 63.0, end_tolerance_ms);  // 5 ms at half a core
+  EXPECT_NEAR(rig.end_ms(a), 83.0, end_tolerance_ms);  // 25 ms, 5 ms of which shared
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.080, 1e-9);
+}
+
+TEST(JobScheduling, a_change_of_cores_alone_costs_no_switching_time) {
+  ComputerRig rig{3.0};
+  const int a = rig.add({100.0});
+  rig.start(1);
+  rig.trigger(a, 0.0);
+  rig.set_point(50.0, 4, 1.0);
+  rig.run();
+  EXPECT_EQ(rig.of(a).ended, at_ms(100.0));
+}
+
+TEST(JobScheduling, many_interruptions_do_not_let_a_job_end_early) {
+  ComputerRig rig;
+  const int low = rig.add({1000.0, 0});
+  const int high = rig.add({0.01 / 3.0, 1});
+  rig.start(1);
+  rig.trigger(low, 0.0);
+  for (int i = 0; i < 9000; ++i) {
+    rig.trigger(high, 0.1 * i + 0.05);
+  }
+  rig.run();
+  double interrupted_ms = 0.0;
+  for (const JobRecord& record : rig.records) {
+    interrupted_ms += record.node == high ? ms(record.ended - record.started) : 0.0;
+  }
+  EXPECT_EQ(rig.records.size(), 9001U);
+  EXPECT_NEAR(rig.end_ms(low), 1000.0 + interrupted_ms, end_tolerance_ms);
+}
+
+TEST(JobScheduling, busy_core_time_integrates_what_was_granted) {
+  ComputerRig rig;
+  const int a = rig.add({100.0});
+  const int b = rig.add({60.0});
+  rig.start(2);
+  rig.trigger(a, 0.0);
+  rig.trigger(b, 20.0);
+  std::vector<double> busy_s;
+  std::vector<double> busy_cores;
+  for (const double when : {10.0, 50.0, 90.0, 200.0}) {
+    rig.queue.schedule(at_ms(when), EventOrder::observer, [&] {
+      busy_s.push_back(rig.computer->busy_core_s());
+      busy_cores.push_back(rig.computer->busy_cores());
+    });
+  }
+  rig.run();
+  EXPECT_EQ(busy_cores, (std::vector<double>{1.0, 2.0, 1.0, 0.0}));
+  const std::vector<double> expected{0.010, 0.080, 0.150, 0.160};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(busy_s[i], expected[i], 1e-9);
+  }
+}
+
+TEST(JobScheduling, the_same_graph_and_events_give_the_same_records) {
+  const auto fly = [] {
+    ComputerRig rig{0.3};
+    for (int i = 0; i < 6; ++i) {
+      rig.add({7.3 + 3.1 * i, i % 3, i % 2 == 0 ? "amdahl" : "memory", 1 + i % 3, 40.0,
+               i == 4 ? OnMiss::skip : OnMiss::warn, 1 + static_cast<std::size_t>(i % 2)});
+    }
+    rig.start(2);
+    for (int k = 0; k < 200; ++k) {
+      rig.trigger(k % 6, 4.7 * k, k);
+    }
+    rig.set_point(300.0, 3, 2.0);
+    rig.set_point(600.0, 1, 0.5);
+    rig.run();
+    std::vector<std::int64_t> trace;
+    for (const JobRecord& record : rig.records) {
+      trace.insert(trace.end(), {record.node, record.released.time_since_epoch().count(),
+                                 record.started.time_since_epoch().count(),
+                                 record.ended.time_since_epoch().count(), record.busy.count(),
+                                 record.killed, record.missed});
+    }
+    trace.push_back(static_cast<std::int64_t>(rig.computer->drops()));
+    return trace;
+  };
+  const auto first = fly();
+  EXPECT_GT(first.size(), 7U * 100U);
+  EXPECT_EQ(first, fly());
+}
+
+}  // namespace
+}  // namespace flyball
