@@ -18,43 +18,72 @@ class FlightController {
  public:
   FlightController(const Airframe& airframe, double ground_z_m);
 
-  /// Climbs at 1.5 m/s above the present place, then holds.
+  /// Climbs at 1.5 m/s over the present place until its centre is `height_m` above the ground, then
+  /// holds there.
   void take_off(const VehicleState& state, double height_m);
   /// Sinks at 1 m/s, .4 m/s below 1 m, then turns the rotors off: idle.
   void land(const VehicleState& state);
+  /// Stops along the present velocity, then stays.
   void hold(const VehicleState& state);
   void fly_velocity(const Vec3& v_WB, double yaw_rad);
-  /// Between set-points the last one is extrapolated; after 1 s without one it holds (PX4's
-  /// off-board loss).
+  /// Between set-points the last one is extrapolated, a braking one to its stop; after 1 s without
+  /// one it holds (PX4's off-board loss).
   void follow(const Setpoint& setpoint);
 
-  /// Rotor speeds for the next step. `total_mass_kg` is what it believes to carry.
-  [[nodiscard]] RotorSpeeds update(const VehicleState& state, double total_mass_kg, MissionTime now, double dt_s);
-  [[nodiscard]] FlightMode mode() const;
-  /// Take-off: within .1 m of its height and slow. Land: rotors off.
+  /// Rotor speeds for the next step, good for `dt_s` of .5 to 4 ms. `total_mass_kg` is what it
+  /// believes to carry; a wrong belief is corrected within a second, as is wind.
+  [[nodiscard]] RotorSpeeds update(const VehicleState& state,
+                                   double total_mass_kg,
+                                   MissionTime now,
+                                   double dt_s);
+  [[nodiscard]] FlightMode mode() const { return mode_; }
+  /// Take-off: within .1 m of its height and slow. Hold: slow. Land: rotors off. Else false.
   [[nodiscard]] bool is_done(const VehicleState& state) const;
 
  private:
+  /// Tuned on the Matrice 100, see tests/sim/flight_controller_test.cpp; the angular ones are rates
+  /// of a closed loop, so they fit any airframe whose rotors are as quick.
   struct Gains {
-    double position{2.0};        ///< 1/s
-    double velocity{4.0};        ///< 1/s
-    double velocity_integral{0.6};
-    double attitude{12.0};       ///< 1/s
-    double rate{28.0};           ///< 1/s
-    double yaw{3.0};             ///< 1/s
+    double position{2.0};       ///< 1/s
+    double velocity{4.0};       ///< 1/s
+    double disturbance_s{0.3};  ///< Time constant of the wind and mass observer.
+    double attitude{12.0};      ///< 1/s
+    double rate{28.0};          ///< 1/s
+    double yaw{3.0};            ///< 1/s
+    double yaw_rate{8.0};       ///< 1/s: reaction torque is weak, so slower than `rate`
+    double rotor_s{0.015};      ///< Time constant that the commands' lead makes of the rotors'.
     double max_tilt_rad{0.75};
     double max_yaw_rate_rad_s{1.5707963267948966};
+    double max_yaw_acceleration_rad_s2{4.0};
   };
   [[nodiscard]] Setpoint target(const VehicleState& state, MissionTime now, double dt_s);
+  [[nodiscard]] Setpoint extrapolated(double age_s) const;
+  void start_reference(const VehicleState& state);
+  void climb(double dt_s);
+  void sink(const VehicleState& state, double dt_s);
+  void stop(double dt_s);
+  void slew_velocity(double dt_s);
+  void slew_yaw(const Setpoint& wanted, double dt_s);
+  void observe(const VehicleState& state, double total_mass_kg, double dt_s);
+  [[nodiscard]] Vec3 specific_force(const VehicleState& state, const Setpoint& wanted) const;
+  [[nodiscard]] Vec3 torque(const VehicleState& state, const Vec3& force_W) const;
   [[nodiscard]] RotorSpeeds mix(double thrust_n, const Vec3& torque_B) const;
+  [[nodiscard]] double feet_height_m(const VehicleState& state) const;
 
   Airframe airframe_;
   double ground_z_m_;
   Gains gains_{};
   FlightMode mode_{FlightMode::idle};
-  Setpoint setpoint_{};
+  Setpoint setpoint_{};   ///< The newest of `follow`.
+  Setpoint reference_{};  ///< Of the modes that make their own.
+  bool reference_is_fresh_{false};
+  Vec3 goal_velocity_{Vec3::Zero()};
   double goal_height_m_{};
-  Vec3 velocity_error_sum_{Vec3::Zero()};
+  double yaw_rad_{};  ///< Reference within the rate limit.
+  double yaw_rate_rad_s_{};
+  double touching_s_{};
+  Vec3 disturbance_{
+      Vec3::Zero()};  ///< What accelerates the vehicle beside thrust and gravity [m/s^2].
 };
 
 }  // namespace flyball

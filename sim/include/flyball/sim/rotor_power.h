@@ -10,13 +10,18 @@
 namespace flyball {
 
 /// MAVBench (MICRO 2018) eq. 1, after Tseng et al. (arXiv 1703.10049):
-/// P = b1|v_xy| + b2|a_xy| + b3|v_xy||a_xy| + b4|v_z| + b5|a_z| + b6|v_z||a_z| + b7 m + b8 (v_xy . w_xy) + b9.
-/// A regression, so |v| is clamped at 15 m/s, the acceleration passes a .5 s low-pass, and P >= .5 b9.
+/// P = b1|v_xy| + b2|a_xy| + b3|v_xy||a_xy| + b4|v_z| + b5|a_z| + b6|v_z||a_z| + b7 m + b8 (v_xy .
+/// w_xy) + b9. A regression, so |v| is clamped at 15 m/s, the acceleration passes a .5 s low-pass,
+/// and P >= .5 b9.
 class RegressionPower {
  public:
-  explicit RegressionPower(const Airframe& airframe) : airframe_{airframe} {}
+  /// @pre `airframe.has_regression()`.
+  explicit RegressionPower(const Airframe& airframe);
   /// Advances the low-pass by `dt_s` and returns the power [W]. Rotors at rest take none.
-  [[nodiscard]] double update(const VehicleState& state, double payload_kg, const Vec3& wind_W, double dt_s);
+  [[nodiscard]] double update(const VehicleState& state,
+                              double payload_kg,
+                              const Vec3& wind_W,
+                              double dt_s);
 
  private:
   Airframe airframe_;

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/sim/airframe.h"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <toml++/toml.h>
+
+namespace flyball {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+/// Takes values out of a table, notes what is wrong with each, and what nobody asked for.
+class Reader {
+ public:
+  explicit Reader(const toml::table& table) : table_{table} {}
+
+  void read(const char* key, double& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+      return;
+    }
+    const auto number = node->value<double>();
+    number ? (void)(value = *number) : complain(key, "a number");
+  }
+
+  void read(const char* key, int& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+      return;
+    }
+    const auto number = node->value_exact<int64_t>();
+    number ? (void)(value = static_cast<int>(*number)) : complain(key, "an integer");
+  }
+
+  void read(const char* key, std::string& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+      return;
+    }
+    const auto words = node->value<std::string>();
+    words ? (void)(value = *words) : complain(key, "a text");
+  }
+
+  /// `count` numbers; an optional key may be absent.
+  void read_list(const char* key, double* values, std::size_t count, bool optional) {
+    if (optional && !table_.contains(key)) {
+      asked_.insert(key);
+      return;
+    }
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+      return;
+    }
+    const toml::array* list = node->as_array();
+    if (list == nullptr || list->size() != count || !list->is_homogeneous<double>()) {
+      complain(key, "a list of " + std::to_string(count) + " numbers with decimal points");
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = *list->get(i)->value<double>();
+    }
+  }
+
+  /// What is wrong so far, one sentence each.
+  std::vector<std::string> complaints() {
+    for (const auto& [key, node] : table_) {
+      if (asked_.count(std::string{key.str()}) == 0) {
+        complaints_.push_back("unknown key \"" + std::string{key.str()} + "\"");
+      }
+    }
+    return complaints_;
+  }
+
+ private:
+  const toml::node* find(const char* key) {
+    asked_.insert(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) {
+      complaints_.push_back(std::string{key} + " is missing");
+    }
+    return node;
+  }
+  void complain(const char* key, const std::string& wanted) {
+    complaints_.push_back(std::string{key} + " must be " + wanted);
+  }
+
+  const toml::table& table_;
+  std::set<std::string> asked_;
+  std::vector<std::string> complaints_;
+};
+
+Airframe read(Reader& reader) {
+  Airframe a;
+  reader.read("name", a.name);
+  reader.read("mass_kg", a.mass_kg);
+  reader.read("rotor_mass_kg", a.rotor_mass_kg);
+  reader.read("arm_m", a.arm_m);
+  reader.read("rotor_diameter_m", a.rotor_diameter_m);
+  reader.read("thrust_coefficient", a.thrust_coefficient);
+  reader.read("power_coefficient", a.power_coefficient);
+  reader.read("max_rotor_rpm", a.max_rotor_rpm);
+  reader.read("rotor_lag_s", a.rotor_lag_s);
+  reader.read_list("body_size_m", a.body_size_m.data(), 3, false);
+  reader.read("body_diameter_m", a.body_diameter_m);
+  reader.read("body_height_m", a.body_height_m);
+  reader.read("drag_area_m2", a.drag_area_m2);
+  reader.read_list("power_b", a.power_b.data(), a.power_b.size(), true);
+  reader.read("battery_v", a.battery_v);
+  reader.read("battery_ah", a.battery_ah);
+  reader.read("battery_cells", a.battery_cells);
+  return a;
+}
+
+Error all_of(const std::string& path, const std::vector<std::string>& complaints) {
+  std::string message = "airframe file \"" + path + "\": ";
+  for (std::size_t i = 0; i < complaints.size(); ++i) {
+    message += (i == 0 ? "" : "; ") + complaints[i];
+  }
+  return {ErrorCode::invalid_input, message};
+}
+
+}  // namespace
+
+Vec3 Airframe::inertia_kg_m2() const {
+  const Vec3 square = body_size_m.cwiseAbs2();
+  const double box_mass_kg = mass_kg - 4.0 * rotor_mass_kg;
+  const Vec3 box = box_mass_kg / 12.0 *
+                   Vec3{square.y() + square.z(), square.x() + square.z(), square.x() + square.y()};
+  // In the X layout each rotor stands arm / sqrt(2) from the x and from the y axis.
+  const double rotors = 4.0 * rotor_mass_kg * arm_m * arm_m;
+  return box + rotors * Vec3{0.5, 0.5, 1.0};
+}
+
+std::array<Vec3, 4> Airframe::rotor_points_B() const {
+  const double l = arm_m / std::sqrt(2.0);
+  return {Vec3{l, l, 0.0}, Vec3{l, -l, 0.0}, Vec3{-l, -l, 0.0}, Vec3{-l, l, 0.0}};
+}
+
+double Airframe::thrust_per_n2() const {
+  return thrust_coefficient * air_density_kg_m3 * std::pow(rotor_diameter_m, 4);
+}
+
+double Airframe::torque_per_n2() const {
+  return power_per_n3() / (2.0 * pi);
+}
+
+double Airframe::power_per_n3() const {
+  return power_coefficient * air_density_kg_m3 * std::pow(rotor_diameter_m, 5);
+}
+
+std::vector<Error> Airframe::validate() const {
+  std::vector<Error> errors;
+  const auto require = [&errors](bool good, const std::string& sentence) {
+    if (!good) {
+      errors.push_back({ErrorCode::invalid_input, sentence});
+    }
+  };
+  // std::map: the sentences come in the same order everywhere.
+  const std::map<std::string, double> positive{{"mass_kg", mass_kg},
+                                               {"arm_m", arm_m},
+                                               {"rotor_diameter_m", rotor_diameter_m},
+                                               {"thrust_coefficient", thrust_coefficient},
+                                               {"power_coefficient", power_coefficient},
+                                               {"max_rotor_rpm", max_rotor_rpm},
+                                               {"rotor_lag_s", rotor_lag_s},
+                                               {"body_size_m", body_size_m.minCoeff()},
+                                               {"body_diameter_m", body_diameter_m},
+                                               {"body_height_m", body_height_m},
+                                               {"battery_v", battery_v},
+                                               {"battery_ah", battery_ah},
+                                               {"battery_cells", battery_cells}};
+  for (const auto& [key, value] : positive) {
+    require(std::isfinite(value) && value > 0.0, key + " = " + text(value) + " must be > 0");
+  }
+  require(drag_area_m2 >= 0.0, "drag_area_m2 = " + text(drag_area_m2) + " must be >= 0");
+  require(rotor_mass_kg >= 0.0 && 4.0 * rotor_mass_kg < mass_kg,
+          "four rotors of " + text(rotor_mass_kg) +
+              " kg must weigh >= 0 and less than mass_kg = " + text(mass_kg));
+  const double weight_n = mass_kg * gravity_m_s2;
+  const double lift_n = 4.0 * thrust_per_n2() * max_rotor_rev_s() * max_rotor_rev_s();
+  require(lift_n > 1.2 * weight_n, "the rotors' " + text(lift_n) +
+                                       " N must exceed 1.2 times the weight, " +
+                                       text(1.2 * weight_n) + " N");
+  return errors;
+}
+
+Result<Airframe> load_airframe(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) {
+    return Error{ErrorCode::not_found, "no airframe file \"" + path + "\""};
+  }
+  try {
+    const toml::table table = toml::parse_file(path);
+    Reader reader{table};
+    Airframe airframe = read(reader);
+    std::vector<std::string> complaints = reader.complaints();
+    if (complaints.empty()) {
+      for (const Error& error : airframe.validate()) {
+        complaints.push_back(error.message);
+      }
+    }
+    if (!complaints.empty()) {
+      return all_of(path, complaints);
+    }
+    return airframe;
+  } catch (const toml::parse_error& error) {
+    return all_of(path, {"line " + std::to_string(error.source().begin.line) + ": " +
+                         std::string{error.description()}});
+  }
+}
+
+}  // namespace flyball
