@@ -11,6 +11,7 @@
 #include "staged_search.h"
 
 #include <ompl/base/MotionValidator.h>
+#include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateSampler.h>
@@ -133,7 +134,7 @@ inline ompl::base::ProblemDefinitionPtr make_problem(const ompl::base::SpaceInfo
 inline std::vector<Vec3> solution_of(const ompl::base::ProblemDefinition& problem) {
   std::vector<Vec3> points_W;
   if (problem.hasExactSolution()) {
-    const auto* path = problem.getSolutionPath()->as<ompl::geometric::PathGeometric>();
+    auto* path = problem.getSolutionPath()->as<ompl::geometric::PathGeometric>();
     for (const auto* state : path->getStates()) {
       points_W.push_back(position_of(state));
     }
