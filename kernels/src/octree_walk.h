@@ -7,7 +7,6 @@
 
 #include "overlap.h"
 #include <array>
-#include <cmath>
 
 #include <octomap/OcTree.h>
 
@@ -17,37 +16,38 @@ class OctreeWalk {
  public:
   /// The tree outlives the walk.
   explicit OctreeWalk(const octomap::OcTree& tree)
-      : tree_{tree}, resolution_m_{tree.getResolution()} {}
+      : tree_{tree}, resolution_m_{tree.getResolution()}, cells_per_m_{1.0 / resolution_m_} {}
 
   /// Shows each occupied leaf's cube, cut to `region`, that overlaps the shape, near ones first.
   /// Ends when `show(part)` returns true, and says whether it did.
   template <class Shape, class Show>
   bool any_occupied(const Aabb& region, const Shape& shape, Show&& show) const {
     const octomap::OcTreeNode* root = tree_.getRoot();
-    return root != nullptr && tree_.isNodeOccupied(root) &&
-           occupied_below(*root, whole, scope(region, shape), show);
+    return root != nullptr &&
+           occupied_below({root, {0, 0, 0}, all_keys}, scope(region, shape), show);
   }
 
   /// The same for the cubes of which the tree knows nothing.
   template <class Shape, class Show>
   bool any_unknown(const Aabb& region, const Shape& shape, Show&& show) const {
     const octomap::OcTreeNode* root = tree_.getRoot();
-    if (root == nullptr || !boxes_inside(region)) {
+    if (root == nullptr || !contains(region)) {
       return show(region);
     }
-    return tree_.nodeHasChildren(root) && unknown_below(*root, whole, scope(region, shape), show);
+    return unknown_below({root, {0, 0, 0}, all_keys}, scope(region, shape), show);
   }
 
  private:
   using Keys = std::array<int, 3>;
+  static constexpr int all_keys = 1 << 16;
+  static constexpr int half_keys = all_keys / 2;
 
-  /// A node's cube: its lowest key and its edge, in cells.
+  /// A node with its cube: lowest key and edge, in cells. No node: a cube that is not known.
   struct Cube {
+    const octomap::OcTreeNode* node;
     Keys base;
     int edge;
   };
-  static constexpr int half_keys = 1 << 15;
-  static constexpr Cube whole{{0, 0, 0}, 1 << 16};
 
   template <class Shape>
   struct Scope {
@@ -58,122 +58,125 @@ class OctreeWalk {
     Keys focus;
   };
 
-  [[nodiscard]] double keys_from_m(double x) const { return x / resolution_m_ + half_keys; }
-  static int clamped(double key) {
-    return static_cast<int>(std::clamp(key, 0.0, 2.0 * half_keys - 1.0));
+  [[nodiscard]] int key(double x) const {
+    return static_cast<int>(std::clamp(x * cells_per_m_ + half_keys, 0.0, all_keys - 1.0));
   }
 
   template <class Shape>
   [[nodiscard]] Scope<Shape> scope(const Aabb& region, const Shape& shape) const {
-    Scope<Shape> result{region, shape, {}, {}, {}};
-    const Vec3 focus = shape.focus();
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      result.first[i] = clamped(std::floor(keys_from_m(region.min[axis] + touch_m)));
-      result.last[i] = clamped(std::ceil(keys_from_m(region.max[axis] - touch_m)) - 1.0);
-      result.focus[i] = clamped(std::floor(keys_from_m(focus[axis])));
-    }
-    return result;
+    const auto keys = [this](const Vec3& p) { return Keys{key(p.x()), key(p.y()), key(p.z())}; };
+    const Vec3 margin = Vec3::Constant(touch_m);
+    return {region, shape, keys(region.min + margin), keys(region.max - margin),
+            keys(shape.focus())};
   }
 
   /// Beyond its 65536 cells a tree knows nothing; a region that reaches there is unknown as a
   /// whole.
-  [[nodiscard]] bool boxes_inside(const Aabb& region) const {
+  [[nodiscard]] bool contains(const Aabb& region) const {
     const double edge_m = half_keys * resolution_m_;
     return (region.min.array() >= -edge_m).all() && (region.max.array() <= edge_m).all();
   }
 
-  [[nodiscard]] Aabb part_of(const Cube& cube, const Aabb& region) const {
-    const auto at = [&](int axis, int offset) {
-      return (cube.base[static_cast<std::size_t>(axis)] + offset - half_keys) * resolution_m_;
+  [[nodiscard]] Aabb box_of(const Cube& cube) const {
+    const auto corner = [&](int offset) {
+      return Vec3{(cube.base[0] + offset - half_keys) * resolution_m_,
+                  (cube.base[1] + offset - half_keys) * resolution_m_,
+                  (cube.base[2] + offset - half_keys) * resolution_m_};
     };
-    const Aabb box{{at(0, 0), at(1, 0), at(2, 0)},
-                   {at(0, cube.edge), at(1, cube.edge), at(2, cube.edge)}};
-    return intersection(box, region);
+    return {corner(0), corner(cube.edge)};
   }
 
-  static Cube child_of(const Cube& cube, unsigned octant) {
+  [[nodiscard]] Cube child_of(const Cube& cube, unsigned octant) const {
     const int half = cube.edge / 2;
-    return {{cube.base[0] + ((octant & 1U) != 0 ? half : 0),
+    const bool exists = tree_.nodeChildExists(cube.node, octant);
+    return {exists ? tree_.getNodeChild(cube.node, octant) : nullptr,
+            {cube.base[0] + ((octant & 1U) != 0 ? half : 0),
              cube.base[1] + ((octant & 2U) != 0 ? half : 0),
              cube.base[2] + ((octant & 4U) != 0 ? half : 0)},
             half};
   }
 
-  /// Bit i is set when octant i holds a cell of the scope.
-  template <class Shape>
-  static unsigned octants_in(const Cube& cube, const Scope<Shape>& scope) {
-    constexpr std::array<unsigned, 3> low{0x55, 0x33, 0x0f};
-    unsigned mask = 0xff;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int middle = cube.base[i] + cube.edge / 2;
-      mask &= scope.last[i] < middle ? low[i] : 0xffU;
-      mask &= scope.first[i] >= middle ? ~low[i] : 0xffU;
-    }
-    return mask;
-  }
-
-  /// The octant that contains the focus or lies nearest to it.
-  template <class Shape>
-  static unsigned nearest_octant(const Cube& cube, const Scope<Shape>& scope) {
+  /// The octant of a cube in which a key lies or, from outside, to which it is nearest.
+  static unsigned octant_of(const Cube& cube, const Keys& key) {
     unsigned octant = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      octant |= scope.focus[i] >= cube.base[i] + cube.edge / 2 ? 1U << i : 0U;
+      octant |= key[i] >= cube.base[i] + cube.edge / 2 ? 1U << i : 0U;
     }
     return octant;
   }
 
-  /// Calls `visit(octant, cube)` for the children in the scope, near ones first.
+  /// Goes down from a known cube, as long as one octant holds all of the scope, `more(cube)` is
+  /// true and the cube has children. Most of a query's levels pass here, so this is kept tight.
+  template <class Shape, class More>
+  Cube descended(Cube cube, const Scope<Shape>& scope, More&& more) const {
+    int differing = 0;
+    Keys first{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      first[i] = std::max(scope.first[i], cube.base[i]);
+      differing |= first[i] ^ std::min(scope.last[i], cube.base[i] + cube.edge - 1);
+    }
+    while (cube.node != nullptr && cube.edge / 2 > differing && more(cube) &&
+           tree_.nodeHasChildren(cube.node)) {
+      cube = child_of(cube, octant_of(cube, first));
+    }
+    return cube;
+  }
+
+  /// Visits the children that overlap the shape, near ones first.
   template <class Shape, class Visit>
-  static bool any_child(const Cube& cube, const Scope<Shape>& scope, Visit&& visit) {
-    const unsigned mask = octants_in(cube, scope);
-    const unsigned nearest = nearest_octant(cube, scope);
+  bool any_child(const Cube& cube, const Scope<Shape>& scope, Visit&& visit) const {
+    const unsigned nearest = octant_of(cube, scope.focus);
+    const unsigned low = octant_of(cube, scope.first);
+    const unsigned high = octant_of(cube, scope.last);
     for (unsigned n = 0; n < 8; ++n) {
       const unsigned octant = n ^ nearest;
-      if ((mask >> octant & 1U) != 0 && visit(octant, child_of(cube, octant))) {
+      if ((octant & low) != low || (octant & ~high) != 0) {
+        continue;
+      }
+      const Cube child = child_of(cube, octant);
+      if (scope.shape.overlaps(box_of(child)) && visit(child)) {
         return true;
       }
     }
     return false;
   }
 
+  template <class Shape, class Show>
+  bool show_part(const Cube& cube, const Scope<Shape>& scope, Show& show) const {
+    const Aabb part = intersection(box_of(cube), scope.region);
+    return scope.shape.overlaps(part) && show(part);
+  }
+
   // An inner node holds the largest log-odds below it, so free space ends the recursion early.
   template <class Shape, class Show>
-  bool occupied_below(const octomap::OcTreeNode& node,
-                      const Cube& cube,
-                      const Scope<Shape>& scope,
-                      Show& show) const {
-    if (!tree_.nodeHasChildren(&node)) {
-      return show(part_of(cube, scope.region));
+  bool occupied_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
+    const auto is_occupied = [this](const Cube& cube) { return tree_.isNodeOccupied(cube.node); };
+    const Cube cube = descended(top, scope, is_occupied);
+    if (cube.node == nullptr || !is_occupied(cube)) {
+      return false;
     }
-    return any_child(cube, scope, [&](unsigned octant, const Cube& child) {
-      if (!tree_.nodeChildExists(&node, octant)) {
-        return false;
-      }
-      const octomap::OcTreeNode* below = tree_.getNodeChild(&node, octant);
-      return tree_.isNodeOccupied(below) && scope.shape.overlaps(part_of(child, scope.region)) &&
-             occupied_below(*below, child, scope, show);
+    if (!tree_.nodeHasChildren(cube.node)) {
+      return show_part(cube, scope, show);
+    }
+    return any_child(cube, scope, [&](const Cube& child) {
+      return child.node != nullptr && occupied_below(child, scope, show);
     });
   }
 
   template <class Shape, class Show>
-  bool unknown_below(const octomap::OcTreeNode& node,
-                     const Cube& cube,
-                     const Scope<Shape>& scope,
-                     Show& show) const {
-    return any_child(cube, scope, [&](unsigned octant, const Cube& child) {
-      if (!tree_.nodeChildExists(&node, octant)) {
-        const Aabb part = part_of(child, scope.region);
-        return scope.shape.overlaps(part) && show(part);
-      }
-      const octomap::OcTreeNode* below = tree_.getNodeChild(&node, octant);
-      return tree_.nodeHasChildren(below) && scope.shape.overlaps(part_of(child, scope.region)) &&
-             unknown_below(*below, child, scope, show);
-    });
+  bool unknown_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
+    const Cube cube = descended(top, scope, [](const Cube&) { return true; });
+    if (cube.node == nullptr) {
+      return show_part(cube, scope, show);
+    }
+    return tree_.nodeHasChildren(cube.node) && any_child(cube, scope, [&](const Cube& child) {
+             return unknown_below(child, scope, show);
+           });
   }
 
   const octomap::OcTree& tree_;
   double resolution_m_;
+  double cells_per_m_;
 };
 
 }  // namespace flyball
