@@ -16,10 +16,10 @@ inline MissionTime at_ms(double ms) {
   return MissionTime{Duration{static_cast<std::int64_t>(std::llround(ms * 1e6))}};
 }
 inline double ms(Duration d) {
-  return 1e3 * to_seconds(d);
+  return static_cast<double>(d.count()) / 1e6;
 }
 inline double ms(MissionTime t) {
-  return 1e3 * to_seconds(t);
+  return ms(t.time_since_epoch());
 }
 
 /// `serial`, `memory` (half of its time does not scale with the clock) and `amdahl` (80 %
