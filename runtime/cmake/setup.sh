@@ -1,0 +1,127 @@
+# shellcheck shell=bash
+# shellcheck disable=SC2154 # top: set by who sources this
+# Sourced by ./fly, ./check and .ci/run: what a machine needs before it can build, and how to build.
+# Expects `top`, the folder of the checkout, and `set -euo pipefail`.
+
+# The one list of packages: name, and the version of Debian 12 that everything is tested with.
+build_packages() {
+  cat << 'LIST'
+g++                     12.2.0
+cmake                   3.25.1
+ninja-build             1.11.1
+ccache                  4.8
+libeigen3-dev           3.4.0
+liboctomap-dev          1.9.7
+libompl-dev             1.5.2
+libsimbody-dev          3.7
+libembree-dev           3.13.5
+libmrpt-topography-dev  2.5.8
+libmrpt-poses-dev       2.5.8
+libtomlplusplus-dev     3.3.0
+libcli11-dev            2.1.2
+nlohmann-json3-dev      3.11.2
+libgtest-dev            1.12.1
+LIST
+}
+lint_packages() {
+  cat << 'LIST'
+clang-format            14.0.6
+clang-tidy              14.0.6
+LIST
+}
+
+fail() {
+  printf 'flyball: %s\n' "$*" >&2
+  exit 1
+}
+
+# Names from `name version` lines on stdin that are not installed.
+missing_of() {
+  local name status
+  while read -r name _; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$name" 2> /dev/null || true)
+    [[ $status == installed ]] || printf '%s\n' "$name"
+  done
+}
+
+# ensure_packages LIST...: installs what is missing of these lists, and touches nothing else.
+ensure_packages() {
+  local lists missing
+  lists=$(for list in "$@"; do "$list"; done)
+  if [[ ! -r /etc/os-release ]] || ! (. /etc/os-release && [[ ${ID:-} == debian && ${VERSION_ID:-} == 12 ]]); then
+    may_go_on_elsewhere "$lists"
+    return
+  fi
+  mapfile -t missing < <(missing_of <<< "$lists")
+  ((${#missing[@]})) || return 0
+  printf 'flyball: packages to install: %s\n' "${missing[*]}" >&2
+  if [[ -t 0 && -t 2 ]]; then
+    local answer
+    read -r -p 'Install them with apt-get? [Y/n] ' answer
+    [[ -z $answer || $answer == [Yy]* ]] || fail 'not installed; nothing was changed'
+  fi
+  install_packages "${missing[@]}"
+}
+
+# Another system has other package names: whoever has a compiler, CMake and the libraries may build.
+may_go_on_elsewhere() {
+  if command -v cmake > /dev/null && command -v ninja > /dev/null && command -v ccache > /dev/null; then
+    return
+  fi
+  printf 'flyball: this is not Debian 12, so nothing is installed for you. Install these (names and versions of Debian 12) and call again:\n%s\n' "$1" >&2
+  exit 1
+}
+
+install_packages() {
+  local as_root=()
+  if ((EUID != 0)); then
+    command -v sudo > /dev/null || fail "neither root nor sudo; as root: apt-get install -y --no-install-recommends --no-upgrade $*"
+    as_root=(sudo)
+  fi
+  local name candidate
+  for name in "$@"; do
+    candidate=$(apt-cache policy "$name" 2> /dev/null | sed -n 's/^  Candidate: //p')
+    if [[ -z $candidate || $candidate == '(none)' ]]; then
+      "${as_root[@]}" apt-get update -q >&2
+      break
+    fi
+  done
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends --no-upgrade "$@" >&2
+}
+
+# As many compilers as there are cores, but not more than memory has room for: 2 GiB each.
+build_jobs() {
+  local cores free_kib limit jobs
+  cores=$(nproc)
+  free_kib=$(sed -n 's/^MemAvailable: *\([0-9]*\) kB$/\1/p' /proc/meminfo)
+  limit=$(cat /sys/fs/cgroup/memory.max 2> /dev/null || true)
+  if [[ $limit =~ ^[0-9]+$ ]] && ((limit / 1024 < free_kib)); then
+    free_kib=$((limit / 1024))
+  fi
+  jobs=$((free_kib / (2 * 1024 * 1024)))
+  ((jobs < 1)) && jobs=1
+  printf '%s\n' "$((jobs < cores ? jobs : cores))"
+}
+
+# configure PRESET: only when that was not done yet; later changes are ninja's business.
+configure() {
+  local folder=$top/build/$1 fresh=() home
+  if [[ -f $folder/CMakeCache.txt ]]; then
+    home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt")
+    # A checkout that was moved or copied: its cache points elsewhere.
+    [[ $home == "$top" ]] || fresh=(--fresh)
+  fi
+  if ((${#fresh[@]} == 0)) && [[ $folder/build.ninja -nt $top/CMakePresets.json ]]; then
+    return
+  fi
+  (cd "$top" && cmake "${fresh[@]}" --preset "$1" > /dev/null)
+}
+
+# build PRESET [TARGET...]: everything when no target is named.
+build() {
+  local preset=$1 targets=()
+  shift
+  (($#)) && targets=(--target "$@")
+  (cd "$top" && cmake --build --preset "$preset" -j "$(build_jobs)" "${targets[@]}" >&2)
+}
