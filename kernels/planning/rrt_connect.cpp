@@ -4,17 +4,18 @@
 // RRT-Connect (Kuffner and LaValle 2000, doi:10.1109/ROBOT.2000.844730): two trees, one from each
 // end, that grow towards samples and towards each other. The first path that is found is taken.
 
-#include "ompl_search.h"
-#include "staged_search.h"
-
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
+
+#include "ompl_search.h"
+#include "staged_search.h"
 
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
 namespace {
 
-constexpr double range_m = 4.0;  // Longer steps are blocked more often, shorter ones cost iterations.
+constexpr double range_m =
+    4.0;  // Longer steps are blocked more often, shorter ones cost iterations.
 
 flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::RRTConnect;

@@ -4,16 +4,15 @@
 // RRT* (Karaman and Frazzoli 2011, doi:10.1177/0278364911406761): one tree that is rewired towards
 // shorter paths. After the first path it improves for as many iterations again, and a few more.
 
-#include "ompl_search.h"
-#include "staged_search.h"
-
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
 
-#include <ompl/geometric/planners/rrt/RRTstar.h>
-
+#include "ompl_search.h"
+#include "staged_search.h"
 #include <algorithm>
 #include <cmath>
+
+#include <ompl/geometric/planners/rrt/RRTstar.h>
 
 namespace {
 

@@ -115,11 +115,8 @@ std::array<Vec3, directions> half_turn() {
 }
 
 /// Where the ray from `from` changes between free at `free_m` and occupied at `occupied_m`.
-double border_m(const ColumnGrid& grid,
-                const Vec3& from,
-                const Vec3& along,
-                double free_m,
-                double occupied_m) {
+double border_m(
+    const ColumnGrid& grid, const Vec3& from, const Vec3& along, double free_m, double occupied_m) {
   constexpr int halvings = 20;  // A quarter of a cell becomes less than a micrometre.
   for (int i = 0; i < halvings; ++i) {
     const double middle_m = 0.5 * (free_m + occupied_m);

@@ -6,15 +6,15 @@
 /// process-wide seed, so that equally near neighbours could change from one plan to the next; here
 /// the one that was added first wins.
 
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/datastructures/NearestNeighbors.h>
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/datastructures/NearestNeighbors.h>
 
 namespace flyball {
 

@@ -9,6 +9,10 @@
 #include "ompl_kd_tree.h"
 #include "plan_sampler.h"
 #include "staged_search.h"
+#include <exception>
+#include <functional>
+#include <memory>
+#include <vector>
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -18,11 +22,6 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
-
-#include <exception>
-#include <functional>
-#include <memory>
-#include <vector>
 
 namespace flyball {
 
@@ -107,15 +106,16 @@ inline ompl::base::SpaceInformationPtr make_space(const SearchStage& stage,
     bounds.setHigh(i, stage.box_W.max[i]);
   }
   space->setBounds(bounds);
-  space->setStateSamplerAllocator([&sampler, seed = stage.seed](const ob::StateSpace* of) {
-    return std::make_shared<OmplStateSampler>(of, sampler, seed);
-  });
   auto information = std::make_shared<ob::SpaceInformation>(space);
   information->setStateValidityChecker(
       [&checker](const ob::State* state) { return checker.is_free(position_of(state)); });
   information->setMotionValidator(
       std::make_shared<OmplMotionValidator>(information.get(), checker));
   information->setup();
+  // Only now: set-up draws samples too, for projections that tree planners do not use.
+  space->setStateSamplerAllocator([&sampler, seed = stage.seed](const ob::StateSpace* of) {
+    return std::make_shared<OmplStateSampler>(of, sampler, seed);
+  });
   return information;
 }
 
@@ -163,8 +163,8 @@ StageResult search_with_ompl(const SearchStage& stage,
     planner.setProblemDefinition(problem);
     configure(planner);
     planner.template setNearestNeighbors<KdTree>();
-    planner.solve(ompl::base::PlannerTerminationCondition{
-        [&] { return is_done(planner, sampler); }});
+    planner.solve(
+        ompl::base::PlannerTerminationCondition{[&] { return is_done(planner, sampler); }});
     result.points_W = solution_of(*problem);
     result.iterations = iterations(planner, sampler);
   } catch (const std::exception& error) {

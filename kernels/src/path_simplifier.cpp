@@ -14,7 +14,7 @@ namespace {
 using Polygon = std::vector<Vec3>;
 using Step = Polygon::difference_type;
 
-constexpr int shortcuts = 40;            // Tries; more shortened the test scene's paths by < 1 %.
+constexpr int shortcuts = 40;  // Tries; more shortened the test scene's paths by < 1 %.
 constexpr double worthwhile_m = 0.01;
 constexpr double too_close_m = 0.2;
 constexpr double enough_clearance_m = 1.0;
@@ -71,8 +71,7 @@ void shortcut(Polygon& points, MotionChecker& checker, RandomStream& random) {
     const Place from = place_at(points, std::min(one_m, other_m));
     const Place to = place_at(points, std::max(one_m, other_m));
     const double saved_m = to.s_m - from.s_m - (to.p_W - from.p_W).norm();
-    if (from.piece == to.piece || saved_m < worthwhile_m ||
-        !checker.is_flyable(from.p_W, to.p_W) ||
+    if (from.piece == to.piece || saved_m < worthwhile_m || !checker.is_flyable(from.p_W, to.p_W) ||
         !checker.is_flyable(points[from.piece], from.p_W) ||
         !checker.is_flyable(to.p_W, points[to.piece + 1])) {
       continue;

@@ -4,11 +4,10 @@
 /// @file
 /// A planner's zigzag in, few way-points out.
 
-#include "motion_checker.h"
-
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/random.h"
 
+#include "motion_checker.h"
 #include <vector>
 
 namespace flyball {

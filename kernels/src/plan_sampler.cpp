@@ -11,10 +11,10 @@ namespace {
 // Measured with tests/kernels/rrt_test.cpp: an open plan needs fewer, a door more.
 constexpr int plain_draws = 48;
 constexpr double gap_share = 0.5;
-constexpr double level_share = 0.75;     // Of the plain samples: near the line's height.
+constexpr double level_share = 0.75;  // Of the plain samples: near the line's height.
 constexpr double level_spread_m = 0.25;
-constexpr double near_gap_m = 0.3;       // Approach points lie this far ...
-constexpr double far_gap_m = 2.0;        // ... to this far before a passage.
+constexpr double near_gap_m = 0.3;  // Approach points lie this far ...
+constexpr double far_gap_m = 2.0;   // ... to this far before a passage.
 constexpr double same_height_m = 0.3;
 
 }  // namespace

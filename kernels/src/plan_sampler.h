@@ -4,11 +4,10 @@
 /// @file
 /// Where a sampling planner looks next: anywhere, or at a narrow passage.
 
-#include "gap_finder.h"
-#include "motion_checker.h"
-
 #include "flyball/runtime/random.h"
 
+#include "gap_finder.h"
+#include "motion_checker.h"
 #include <vector>
 
 namespace flyball {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "staged_search.h"
 
-#include "path_simplifier.h"
-
 #include "flyball/runtime/random.h"
 
+#include "path_simplifier.h"
 #include <array>
 #include <utility>
 
@@ -41,7 +40,9 @@ Plan failed(Plan plan, std::string why) {
 }
 
 /// Tries stage after stage; adds what they did to `iterations`.
-StageResult search_all(const PlanRequest& request, const TreeSearch& search, MotionChecker& checker) {
+StageResult search_all(const PlanRequest& request,
+                       const TreeSearch& search,
+                       MotionChecker& checker) {
   StageResult result;
   int iterations = 0;
   for (const SearchStage& stage : search_stages(request)) {
@@ -72,10 +73,10 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   if (!plan.waypoints_W.empty()) {
     return plan;
   }
-  return failed(std::move(plan), found.error.empty() ? "no path within " +
-                                                           std::to_string(request.max_iterations) +
-                                                           " iterations"
-                                                     : found.error);
+  return failed(std::move(plan),
+                found.error.empty()
+                    ? "no path within " + std::to_string(request.max_iterations) + " iterations"
+                    : found.error);
 }
 
 }  // namespace
@@ -83,7 +84,9 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
 std::vector<SearchStage> search_stages(const PlanRequest& request) {
   std::vector<SearchStage> stages;
   const Aabb whole = search_box(request, (request.bounds_W.max - request.bounds_W.min).norm());
-  const auto is_whole = [&](const Aabb& box) { return box.min == whole.min && box.max == whole.max; };
+  const auto is_whole = [&](const Aabb& box) {
+    return box.min == whole.min && box.max == whole.max;
+  };
   int left = request.max_iterations;
   for (const double around_m : box_margins_m) {
     SearchStage stage{request.start_W, request.goal_W, search_box(request, around_m),

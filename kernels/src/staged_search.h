@@ -5,10 +5,9 @@
 /// What all shortest-path planners have in common: the easy cases first, then a tree search in a
 /// small box around start and goal, then in larger ones.
 
-#include "motion_checker.h"
-
 #include "flyball/kernels/path_planner.h"
 
+#include "motion_checker.h"
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,7 +25,7 @@ struct SearchStage {
 struct StageResult {
   std::vector<Vec3> points_W{};  ///< From start to goal; empty when none was found.
   int iterations{};
-  std::string error{};           ///< The search itself broke down.
+  std::string error{};  ///< The search itself broke down.
 };
 
 using TreeSearch = std::function<StageResult(const SearchStage&, MotionChecker&)>;
