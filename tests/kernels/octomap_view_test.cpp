@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../../kernels/src/octomap_view.h"
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+namespace flyball {
+namespace {
+
+constexpr Cylinder body{0.35, 0.15};
+
+struct Fill {
+  double free;
+  double occupied;
+};
+
+/// Blocks of a random state each, in a cube of 6.4 m around the origin; the rest is unknown.
+std::unique_ptr<octomap::OcTree> random_tree(double resolution_m, Fill fill, unsigned seed) {
+  auto tree = std::make_unique<octomap::OcTree>(resolution_m);
+  std::mt19937 generator{seed};
+  const int cells = static_cast<int>(std::lround(6.4 / resolution_m));
+  const auto key = [&](int i) { return static_cast<octomap::key_type>(32768 - cells / 2 + i); };
+  for (int i = 0; i < cells * cells * cells; ++i) {
+    const double dice = 1e-3 * static_cast<double>(generator() % 1000);
+    const octomap::OcTreeKey at{key(i % cells), key(i / cells % cells), key(i / cells / cells)};
+    if (dice < fill.free + fill.occupied) {
+      tree->setNodeValue(at, dice < fill.free ? -1.0F : 1.0F);
+    }
+  }
+  return tree;
+}
+
+/// The map cell by cell, by definition: each cell of a lattice that all trees share.
+class Reference {
+ public:
+  Reference(double cell_m, std::vector<const octomap::OcTree*> trees)
+      : cell_m_{cell_m}, trees_{std::move(trees)} {}
+
+  [[nodiscard]] CellState at(const Vec3& p) const {
+    for (const auto* tree : trees_) {
+      if (const auto* node = tree->search(p.x(), p.y(), p.z())) {
+        return tree->isNodeOccupied(node) ? CellState::occupied : CellState::free;
+      }
+    }
+    return CellState::unknown;
+  }
+
+  /// Calls `visit(cube, state)` for every cell that the box overlaps.
+  template <class Visit>
+  void visit(const Aabb& box, Visit&& visit) const {
+    const auto first = [&](int axis) { return std::floor(box.min[axis] / cell_m_); };
+    for (double x = first(0); x * cell_m_ < box.max.x(); ++x) {
+      for (double y = first(1); y * cell_m_ < box.max.y(); ++y) {
+        for (double z = first(2); z * cell_m_ < box.max.z(); ++z) {
+          const Vec3 low = cell_m_ * Vec3{x, y, z};
+          visit(Aabb{low, low + Vec3::Constant(cell_m_)}, at(low + Vec3::Constant(0.5 * cell_m_)));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] CellState body_state(const Vec3& p, const Cylinder& space) const {
+    const Vec3 half{space.radius_m, space.radius_m, space.half_height_m};
+    CellState worst = CellState::free;
+    visit({p - half, p + half}, [&](const Aabb& cube, CellState state) {
+      const Vec3 nearest = p.cwiseMax(cube.min).cwiseMin(cube.max) - p;
+      if (nearest.head<2>().norm() < space.radius_m - 1e-9 &&
+          std::abs(nearest.z()) < space.half_height_m - 1e-9) {
+        worst = std::max(worst, state);
+      }
+    });
+    return worst;
+  }
+
+ private:
+  double cell_m_;
+  std::vector<const octomap::OcTree*> trees_;
+};
+
+/// A map of one or two random trees with its reference.
+struct Rig {
+  std::vector<std::unique_ptr<octomap::OcTree>> trees;  ///< The active one first.
+  OctomapView view;
+  std::optional<Reference> reference;
+
+  Rig(const std::vector<double>& resolutions_m, Fill fill) {
+    std::vector<const octomap::OcTree*> order;
+    for (const double resolution_m : resolutions_m) {
+      trees.push_back(random_tree(resolution_m, fill, 7));
+      order.push_back(trees.back().get());
+    }
+    for (auto tree = order.rbegin(); tree != order.rend(); ++tree) {
+      view.activate(**tree);
+    }
+    reference.emplace(*std::min_element(resolutions_m.begin(), resolutions_m.end()), order);
+  }
+};
+
+const std::vector<std::vector<double>> stacks{{0.2}, {0.2, 0.8}, {0.8, 0.2}, {0.4, 0.8, 0.2}};
+constexpr Fill dense{0.90, 0.01};
+constexpr Fill sparse{0.40, 0.02};
+
+Vec3 random_point(std::mt19937& generator, double half_m) {
+  std::uniform_real_distribution<double> coordinate{-half_m, half_m};
+  const double x = coordinate(generator);
+  const double y = coordinate(generator);
+  return {x, y, coordinate(generator)};
+}
+
+TEST(OctomapView, gives_the_worst_state_of_the_cubes_that_the_body_overlaps) {
+  for (const auto& stack : stacks) {
+    for (const Fill fill : {dense, sparse}) {
+      const Rig rig{stack, fill};
+      std::mt19937 generator{1};
+      int seen[3] = {};
+      for (int i = 0; i < 400; ++i) {
+        const Vec3 p = random_point(generator, 3.5);
+        const Cylinder space = i % 2 == 0 ? body : Cylinder{0.05, 0.05};
+        const CellState expected = rig.reference->body_state(p, space);
+        ASSERT_EQ(rig.view.body_state(p, space), expected) << p.transpose();
+        ++seen[static_cast<int>(expected)];
+      }
+      EXPECT_GT(seen[1], 10);
+      EXPECT_GT(seen[2], 10);
+    }
+  }
+}
+
+TEST(OctomapView, says_of_a_point_what_the_cell_around_it_is) {
+  for (const auto& stack : stacks) {
+    const Rig rig{stack, sparse};
+    std::mt19937 generator{2};
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 p = random_point(generator, 3.5);
+      ASSERT_EQ(rig.view.state(p), rig.reference->at(p)) << p.transpose();
+    }
+  }
+}
+
+TEST(OctomapView, finds_an_occupied_cube_in_a_box) {
+  for (const auto& stack : stacks) {
+    const Rig rig{stack, {0.90, 0.04}};
+    std::mt19937 generator{3};
+    int hits = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 low = random_point(generator, 3.5);
+      const Aabb box{low, low + random_point(generator, 0.8).cwiseAbs()};
+      bool expected = false;
+      rig.reference->visit(box, [&](const Aabb&, CellState state) {
+        expected = expected || state == CellState::occupied;
+      });
+      ASSERT_EQ(rig.view.has_occupied(box), expected);
+      hits += expected ? 1 : 0;
+    }
+    EXPECT_GT(hits, 20);
+    EXPECT_LT(hits, 280);
+  }
+}
+
+// Between two samples 2 mm apart the body moves less than the .5 mm by which the wider one is
+// wider.
+TEST(OctomapView, misses_no_hit_on_a_segment_and_invents_none) {
+  for (const auto& stack : stacks) {
+    const Rig rig{stack, {0.90, 0.02}};
+    std::mt19937 generator{4};
+    int hits = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 from = random_point(generator, 3.0);
+      const Vec3 to = i % 4 == 0 ? from + Vec3{0, 0, 0.5} : from + random_point(generator, 0.8);
+      const Cylinder thin{0.12, 0.06};
+      const Cylinder wide{thin.radius_m + 1e-3, thin.half_height_m + 1e-3};
+      bool surely = false;
+      bool maybe = false;
+      const int steps = static_cast<int>(std::ceil((to - from).norm() / 0.002)) + 1;
+      for (int k = 0; k <= steps; ++k) {
+        const Vec3 p = from + static_cast<double>(k) / steps * (to - from);
+        surely = surely || rig.view.body_state(p, thin) == CellState::occupied;
+        maybe = maybe || rig.view.body_state(p, wide) == CellState::occupied;
+      }
+      const bool answer = rig.view.segment_hits(from, to, thin);
+      ASSERT_TRUE(answer || !surely)
+          << "missed between " << from.transpose() << " and " << to.transpose();
+      ASSERT_TRUE(!answer || maybe)
+          << "invented between " << from.transpose() << " and " << to.transpose();
+      hits += answer ? 1 : 0;
+    }
+    EXPECT_GT(hits, 2);
+    EXPECT_LT(hits, 58);
+  }
+}
+
+TEST(OctomapView, lets_a_body_stand_against_a_wall) {
+  octomap::OcTree tree{0.15};
+  for (int y = -10; y < 10; ++y) {
+    for (int z = 0; z < 10; ++z) {
+      tree.updateNode(1.5 + 0.075, 0.15 * y + 0.075, 0.15 * z + 0.075, true);
+    }
+  }
+  OctomapView view;
+  view.activate(tree);
+  EXPECT_EQ(view.body_state({1.5 - body.radius_m, 0.0, 0.75}, body), CellState::unknown);
+  EXPECT_EQ(view.body_state({1.5 - body.radius_m + 1e-6, 0.0, 0.75}, body), CellState::occupied);
+  EXPECT_FALSE(view.segment_hits({1.15, -1.0, 0.75}, {1.15, 1.0, 0.75}, body));
+  EXPECT_TRUE(view.segment_hits({1.15, -1.0, 0.75}, {1.1501, 1.0, 0.75}, body));
+}
+
+TEST(OctomapView, sees_a_wall_at_the_far_end_of_300_metres) {
+  octomap::OcTree tree{0.15};
+  tree.updateNode(280.0, 0.0, 5.0, true);
+  OctomapView view;
+  view.activate(tree);
+  EXPECT_TRUE(view.segment_hits({-20.0, 0.0, 5.0}, {300.0, 0.0, 5.0}, body));
+  EXPECT_FALSE(view.segment_hits({-20.0, 0.0, 5.0}, {279.0, 0.0, 5.0}, body));
+  EXPECT_FALSE(view.segment_hits({-20.0, 1.0, 5.0}, {300.0, 1.0, 5.0}, body));
+}
+
+TEST(OctomapView, knows_nothing_before_the_first_tree) {
+  const OctomapView view;
+  EXPECT_EQ(view.state({0, 0, 0}), CellState::unknown);
+  EXPECT_EQ(view.body_state({0, 0, 0}, body), CellState::unknown);
+  EXPECT_FALSE(view.segment_hits({0, 0, 0}, {9, 0, 0}, body));
+  EXPECT_EQ(view.obstacle_density({0, 0, 0}, 10.0, 1.0), 0.0);
+  EXPECT_EQ(view.nearest_obstacle_m({0, 0, 0}, 20.0, 1.0), 20.0);
+  EXPECT_EQ(view.resolution_m(), OctomapView::initial_resolution_m);
+}
+
+TEST(OctomapView, never_calls_free_what_lies_outside_its_keys) {
+  octomap::OcTree tree{0.15};
+  tree.updateNode(0.0, 0.0, 0.0, false);
+  OctomapView view;
+  view.activate(tree);
+  EXPECT_EQ(view.state({1e6, 0, 0}), CellState::unknown);
+  EXPECT_EQ(view.body_state({1e6, 0, 0}, body), CellState::unknown);
+  EXPECT_FALSE(view.segment_hits({1e6, 0, 0}, {2e6, 0, 0}, body));
+}
+
+TEST(OctomapView, calls_a_declared_cylinder_free_where_nothing_is_known) {
+  octomap::OcTree tree{0.15};
+  tree.updateNode(0.7, 0.0, 1.0, true);
+  OctomapView view;
+  view.activate(tree);
+  const Cylinder space{1.0, 1.25};
+  view.declare_clear({0, 0, 1.25}, space);
+  EXPECT_EQ(view.state({0.5, 0.5, 2.0}), CellState::free);
+  EXPECT_EQ(view.state({1.1, 0.0, 2.0}), CellState::unknown);
+  EXPECT_EQ(view.body_state({0.7, 0.0, 1.0}, body), CellState::occupied);
+  for (int i = 0; i < 16; ++i) {
+    const double room_m = space.radius_m - body.radius_m;
+    const Vec3 p{room_m * std::cos(0.4 * i), room_m * std::sin(0.4 * i), 1.9};
+    EXPECT_EQ(view.body_state(p, body), CellState::free) << p.transpose();
+    EXPECT_EQ(view.body_state(1.01 * p, body), CellState::unknown) << p.transpose();
+  }
+  EXPECT_EQ(view.body_state({0, 0, 2.35}, body), CellState::free);
+  EXPECT_EQ(view.body_state({0, 0, 2.36}, body), CellState::unknown);
+}
+
+TEST(OctomapView, joins_declared_cylinders_and_known_free_space) {
+  octomap::OcTree tree{0.15};
+  for (int i = 0; i < 40 * 40 * 20; ++i) {
+    const double x = 0.15 * (i % 40) + 0.675;  // free from x = .6 m on
+    tree.updateNode(x, 0.15 * (i / 40 % 40) - 2.925, 0.15 * (i / 1600) + 0.075, false);
+  }
+  OctomapView view;
+  view.activate(tree);
+  view.declare_clear({0, 0, 1.25}, {1.0, 1.25});
+  view.declare_clear({-1.2, 0, 1.25}, {1.0, 1.25});
+  for (double x = -1.7; x < 3.0; x += 0.1) {
+    EXPECT_EQ(view.body_state({x, 0, 1.2}, body), CellState::free) << x;
+  }
+  EXPECT_EQ(view.body_state({-1.9, 0, 1.2}, body), CellState::unknown);
+}
+
+TEST(OctomapView, keeps_wide_clear_cylinders_when_many_thin_ones_follow) {
+  OctomapView view;
+  view.declare_clear({0, 0, 1.25}, {1.0, 1.25});
+  for (int i = 0; i < 100; ++i) {
+    view.declare_clear({5.0 + i, 0, 1.0}, {0.4, 0.2});
+  }
+  EXPECT_EQ(view.state({0, 0, 1.0}), CellState::free);
+  EXPECT_EQ(view.state({5.0, 0, 1.0}), CellState::unknown);
+  EXPECT_EQ(view.state({104.0, 0, 1.0}), CellState::free);
+}
+
+TEST(OctomapView, measures_density_in_columns_of_fixed_size) {
+  for (const auto& stack : stacks) {
+    const Rig rig{stack, {0.97, 0.002}};
+    std::mt19937 generator{5};
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = random_point(generator, 2.0);
+      const double radius_m = 2.0;
+      const double band_m = 0.5;
+      int columns = 0;
+      int filled = 0;
+      for (int column = 0; column < 400; ++column) {
+        const Vec3 low{0.8 * (column % 20 - 10), 0.8 * (column / 20 - 10), p.z() - band_m};
+        const Aabb box{low + Vec3{1e-3, 1e-3, 0}, low + Vec3{0.8 - 1e-3, 0.8 - 1e-3, 2 * band_m}};
+        if ((low + Vec3{0.4, 0.4, 0} - p).head<2>().norm() > radius_m) {
+          continue;
+        }
+        ++columns;
+        bool hit = false;
+        rig.reference->visit(
+            box, [&](const Aabb&, CellState state) { hit = hit || state == CellState::occupied; });
+        filled += hit ? 1 : 0;
+      }
+      ASSERT_NEAR(rig.view.obstacle_density(p, radius_m, band_m),
+                  static_cast<double>(filled) / columns, 1e-12);
+    }
+  }
+}
+
+TEST(OctomapView, leaves_the_ground_out_of_density_and_distance) {
+  octomap::OcTree tree{0.15};
+  for (int i = 0; i < 10000; ++i) {
+    tree.updateNode(0.15 * (i % 100) - 7.5, 0.15 * (i / 100) - 7.5, 0.075, true);
+  }
+  tree.updateNode(3.0 + 0.075, 0.075, 2.0, true);
+  OctomapView view;
+  view.activate(tree);
+  EXPECT_NEAR(view.obstacle_density({0, 0, 2.0}, 4.0, 1.0), 1.0 / 80, 0.001);
+  EXPECT_GT(view.obstacle_density({0, 0, 0.5}, 4.0, 1.0), 0.99);
+  EXPECT_NEAR(view.nearest_obstacle_m({0, 0, 2.0}, 20.0, 1.0), 3.0, 1e-9);
+  EXPECT_NEAR(view.nearest_obstacle_m({0, 0, 2.0}, 20.0, 1.9), 1.85, 1e-9);
+}
+
+TEST(OctomapView, finds_the_nearest_obstacle_in_the_band) {
+  for (const auto& stack : stacks) {
+    const Rig rig{stack, {0.97, 0.001}};
+    std::mt19937 generator{6};
+    for (int i = 0; i < 10; ++i) {
+      const Vec3 p = random_point(generator, 2.5);
+      double nearest = 3.0;
+      const double band_m = 0.7;
+      rig.reference->visit({p - Vec3{3, 3, band_m}, p + Vec3{3, 3, band_m}},
+                           [&](const Aabb& cube, CellState state) {
+                             if (state == CellState::occupied) {
+                               Vec3 low = cube.min;
+                               Vec3 high = cube.max;
+                               low.z() = std::max(low.z(), p.z() - band_m);
+                               high.z() = std::min(high.z(), p.z() + band_m);
+                               const Vec3 near = p.cwiseMax(low).cwiseMin(high);
+                               nearest = std::min(nearest, (near - p).norm());
+                             }
+                           });
+      ASSERT_NEAR(rig.view.nearest_obstacle_m(p, 3.0, band_m), nearest, 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flyball

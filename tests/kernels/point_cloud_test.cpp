@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/kernels/point_cloud.h"
+
+#include "flyball/kernels/kernels.h"
+#include "flyball/runtime/registry.h"
+
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+std::unique_ptr<PointCloudBuilder> make_builder() {
+  Registry registry;
+  register_kernels(registry);
+  return registry.make<PointCloudBuilder>("depth_to_points");
+}
+
+DepthImage image_of(float depth_m) {
+  DepthImage image;
+  image.captured = MissionTime{std::chrono::seconds{3}};
+  image.sequence = 17;
+  image.camera = {9, 5, 4.0, 4.0, 2.0};
+  image.max_range_m = 20.0;
+  image.depth_m.assign(45, depth_m);
+  return image;
+}
+
+TEST(DepthToPoints, puts_each_pixel_on_its_ray_at_its_depth) {
+  Work work;
+  const PointCloud cloud = make_builder()->build(image_of(2.0F), 10.0, work);
+  ASSERT_EQ(cloud.hits_C.size(), 45U);
+  EXPECT_TRUE(cloud.clear_C.empty());
+  EXPECT_EQ(cloud.captured, MissionTime{std::chrono::seconds{3}});
+  EXPECT_EQ(cloud.sequence, 17U);
+  EXPECT_EQ(work.count("pixels"), 45);
+  EXPECT_TRUE(cloud.hits_C[2 * 9 + 4].isApprox(Eigen::Vector3f{0, 0, 2}));
+  EXPECT_TRUE(cloud.hits_C[2 * 9 + 8].isApprox(Eigen::Vector3f{2, 0, 2}));  // right: x
+  EXPECT_TRUE(cloud.hits_C[4 * 9 + 4].isApprox(Eigen::Vector3f{0, 1, 2}));  // down: y
+  EXPECT_TRUE(cloud.hits_C[0].isApprox(Eigen::Vector3f{-2, -1, 2}));
+}
+
+TEST(DepthToPoints, measures_the_range_along_the_ray_not_along_the_axis) {
+  Work work;
+  // The centre is 2 m away; the outermost columns are 2 sqrt(2) = 2.83 m away, and more.
+  const PointCloud cloud = make_builder()->build(image_of(2.0F), 2.8, work);
+  EXPECT_EQ(cloud.clear_C.size(), 2U * 5U);
+  EXPECT_EQ(cloud.hits_C.size(), 35U);
+  for (const auto& p_C : cloud.clear_C) {
+    EXPECT_NEAR(p_C.norm(), 2.8 * 1.001, 1e-5);
+  }
+}
+
+TEST(DepthToPoints, turns_a_pixel_without_return_into_a_clear_ray) {
+  DepthImage image = image_of(3.0F);
+  image.depth_m[2 * 9 + 4] = infinity;
+  Work work;
+  const PointCloud cloud = make_builder()->build(image, 7.0, work);
+  ASSERT_EQ(cloud.clear_C.size(), 1U);
+  EXPECT_TRUE(cloud.clear_C[0].isApprox(Eigen::Vector3f{0, 0, 7.007F}));
+}
+
+TEST(DepthToPoints, clears_no_farther_than_the_sensor_sees) {
+  DepthImage image = image_of(infinity);
+  image.max_range_m = 4.0;
+  Work work;
+  for (const auto& p_C : make_builder()->build(image, 7.0, work).clear_C) {
+    EXPECT_NEAR(p_C.norm(), 4.004, 1e-5);
+  }
+}
+
+TEST(DepthToPoints, drops_broken_pixels_so_that_they_clear_nothing) {
+  DepthImage image = image_of(2.0F);
+  image.depth_m[0] = std::numeric_limits<float>::quiet_NaN();
+  image.depth_m[1] = 0.0F;
+  image.depth_m[2] = -1.0F;
+  image.depth_m[3] = -infinity;
+  Work work;
+  const PointCloud cloud = make_builder()->build(image, 7.0, work);
+  EXPECT_EQ(cloud.hits_C.size(), 41U);
+  EXPECT_TRUE(cloud.clear_C.empty());
+}
+
+}  // namespace
+}  // namespace flyball
