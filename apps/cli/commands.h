@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// One function for each sub-command: adds it to the program. When it is called it leaves its exit
+/// code in `exit_code`: 0 done, 1 a failed mission, 2 bad input, 130 interrupted.
+
+namespace CLI {
+class App;
+}
+
+namespace flyball {
+
+void add_run(CLI::App& program, int& exit_code);
+void add_compare(CLI::App& program, int& exit_code);
+void add_list(CLI::App& program, int& exit_code);
+void add_graph(CLI::App& program, int& exit_code);
+void add_config(CLI::App& program, int& exit_code);
+void add_version(CLI::App& program, int& exit_code);
+
+}  // namespace flyball

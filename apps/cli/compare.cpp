@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/comparison.h"
+#include "flyball/apps/report.h"
+
+#include "children.h"
+#include "commands.h"
+#include "console.h"
+#include "flight_options.h"
+#include "seed_list.h"
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+struct CompareOptions {
+  FlightOptions flight{};
+  std::vector<std::string> policies{};
+  std::string seeds{"1..1"};
+  std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
+};
+
+/// One mission of the comparison.
+struct Entry {
+  Scenario scenario{};
+  std::string folder{};
+  std::vector<std::string> arguments{};
+  std::optional<RunPicture> picture{};  ///< Empty until it has flown.
+};
+using Entries = std::vector<Entry>;
+
+std::vector<std::string> arguments_of(const CompareOptions& options, const Entry& entry) {
+  std::vector<std::string> words{"run",       options.flight.scenario,
+                                 "--policy",  entry.scenario.governor.policy,
+                                 "--seed",    std::to_string(entry.scenario.seed),
+                                 "--json",    "--out",
+                                 entry.folder};
+  for (const std::string& setting : options.flight.settings) {
+    words.insert(words.end(), {"--set", setting});
+  }
+  return words;
+}
+
+/// Every mission, read and checked before the first one flies.
+std::variant<Entries, std::vector<Error>> plan(const CompareOptions& options,
+                                               const std::vector<std::uint64_t>& seeds) {
+  Entries entries;
+  for (const std::string& policy : options.policies) {
+    for (const std::uint64_t seed : seeds) {
+      std::vector<std::string> settings = options.flight.settings;
+      settings.insert(settings.end(),
+                      {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
+      auto loaded = load_scenario(options.flight.scenario, settings);
+      if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+        return std::move(*errors);
+      }
+      Entry entry;
+      entry.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
+      entry.folder = run_folder(comparison_folder(options.flight, entry.scenario), policy, seed);
+      entry.arguments = arguments_of(options, entry);
+      entries.push_back(std::move(entry));
+    }
+  }
+  return entries;
+}
+
+std::string name_of(const Entry& entry) {
+  return entry.scenario.governor.policy + " seed " + std::to_string(entry.scenario.seed);
+}
+
+void reuse_finished(Entries& entries, const std::string& folder) {
+  std::size_t reused = 0;
+  for (Entry& entry : entries) {
+    entry.picture = finished_run(entry.folder, entry.scenario);
+    reused += entry.picture ? 1 : 0;
+  }
+  if (reused > 0) {
+    note(std::to_string(reused) + " of " + std::to_string(entries.size()) +
+         " flights are taken from " + folder + ", where the same program flew them before");
+  }
+}
+
+/// What a process that left no record said, or how it ended.
+Error failure_of(const Entry& entry, const ChildEnd& end) {
+  const bool by_signal = end.exit_code > 128;
+  std::string why = by_signal ? "ended by signal " + std::to_string(end.exit_code - 128)
+                              : "no record, exit code " + std::to_string(end.exit_code);
+  if (!end.errors.empty()) {
+    why += "; " + end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
+  }
+  return {ErrorCode::failed, name_of(entry) + ": " + why};
+}
+
+void show_progress(const Entry& entry, std::size_t done, std::size_t all) {
+  const Summary& s = entry.picture->summary;
+  const bool failed = s.failure != MissionFailure::none;
+  note("[" + std::to_string(done) + "/" + std::to_string(all) + "] " + name_of(entry) + ": " +
+       (failed ? to_string(s.failure) : to_string(s.status)) + " after " +
+       std::to_string(static_cast<long>(s.mission_time_s)) + " s");
+}
+
+struct Flown {
+  bool interrupted{};
+  std::vector<Error> errors{};
+};
+
+Flown fly_missing(Entries& entries, std::size_t jobs) {
+  std::vector<Entry*> missing;
+  std::vector<std::vector<std::string>> arguments;
+  for (Entry& entry : entries) {
+    if (!entry.picture) {
+      missing.push_back(&entry);
+      arguments.push_back(entry.arguments);
+    }
+  }
+  Flown flown;
+  std::size_t done = entries.size() - missing.size();
+  flown.interrupted = run_children(arguments, jobs, [&](const ChildEnd& end) {
+    Entry& entry = *missing[end.index];
+    entry.picture = finished_run(entry.folder, entry.scenario);
+    if (!entry.picture) {
+      flown.errors.push_back(failure_of(entry, end));
+    } else if (++done; has_watcher()) {
+      show_progress(entry, done, entries.size());
+    }
+  });
+  return flown;
+}
+
+Status write_report(const std::string& path, const Comparison& comparison, const Entries& entries) {
+  std::vector<RunPicture> pictures;
+  for (const Entry& entry : entries) {
+    pictures.push_back(*entry.picture);
+  }
+  return write_file(path, report_page(comparison.scenario, pictures, to_html(comparison)));
+}
+
+int show(const CompareOptions& options, const std::string& folder, const Entries& entries) {
+  std::vector<Summary> flights;
+  for (const Entry& entry : entries) {
+    flights.push_back(entry.picture->summary);
+  }
+  const Comparison comparison = compare_flights(flights);
+  const std::string report = folder + "/report.html";
+  if (const Status written = write_report(report, comparison, entries); !written) {
+    return refuse({written.error()});
+  }
+  if (options.flight.json) {
+    print(to_json(comparison) + "\n");
+    note("report: " + report);
+  } else {
+    print(to_text(comparison) + "report: " + report + "\n");
+  }
+  return exit_success;
+}
+
+int compare(const CompareOptions& options) {
+  const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
+  if (!seeds) {
+    return refuse({seeds.error()});
+  }
+  auto planned = plan(options, *seeds);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+    return refuse(*errors);
+  }
+  Entries& entries = std::get<Entries>(planned);
+  const std::string folder = comparison_folder(options.flight, entries.front().scenario);
+  if (const Status prepared = prepare_folder(folder); !prepared) {
+    return refuse({prepared.error()});
+  }
+  reuse_finished(entries, folder);
+  const Flown flown = fly_missing(entries, options.jobs);
+  if (flown.interrupted) {
+    note("interrupted; the same command goes on from here");
+    return exit_interrupted;
+  }
+  if (!flown.errors.empty()) {
+    (void)refuse(flown.errors);
+    return exit_mission_failed;
+  }
+  return show(options, folder, entries);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("compare", "flies policies over the same seeds and compares them");
+  const auto options = std::make_shared<CompareOptions>();  // Owners: the parser's callbacks.
+  add_scenario(*command, options->flight);
+  command
+      ->add_option("--policies", options->policies,
+                   "the first one is what the others are measured by")
+      ->delimiter(',')
+      ->required()
+      ->type_name("A,B,C");
+  command->add_option("--seeds", options->seeds, "one seed each for world, sensors and planner")
+      ->type_name("1..N");
+  command
+      ->add_option("--jobs", options->jobs, "missions at a time (default: one for each processor)")
+      ->type_name("J")
+      ->check(CLI::Range(1, 1024));
+  add_output(*command, options->flight);
+  command->callback([options, &exit_code] { exit_code = compare(*options); });
+}
+
+}  // namespace flyball

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What the sub-commands share: results go to standard output, all else to standard error.
+
+#include "flyball/runtime/result.h"
+
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+constexpr int exit_success = 0;
+constexpr int exit_mission_failed = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_interrupted = 130;  // 128 + SIGINT, as shells say it.
+
+/// Prints to standard output.
+void print(const std::string& text);
+/// Prints one line to standard error.
+void note(const std::string& line);
+/// Prints each error as one line; returns `exit_bad_input`.
+[[nodiscard]] int refuse(const std::vector<Error>& errors);
+
+/// Whether somebody watches standard error: only then progress is shown.
+[[nodiscard]] bool has_watcher();
+
+/// From now on Ctrl-C is only remembered; a second one ends the program at once.
+void catch_interrupt();
+[[nodiscard]] bool was_interrupted();
+
+/// Columns of equal width, two blanks apart; the last one is as long as it is.
+[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
+
+}  // namespace flyball

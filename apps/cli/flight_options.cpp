@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flight_options.h"
+
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+
+void add_scenario(CLI::App& command, FlightOptions& options) {
+  command
+      .add_option("SCENARIO", options.scenario,
+                  "a name from `flyball list scenarios`, or a .toml file")
+      ->required();
+  command
+      .add_option("--set", options.settings,
+                  "changes one setting; `flyball config SCENARIO` lists them all")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_output(CLI::App& command, FlightOptions& options) {
+  command.add_option("--out", options.out, "folder for the record (default: under flights/)")
+      ->type_name("DIR");
+  command.add_flag("--json", options.json, "prints the result as JSON");
+}
+
+std::string run_folder(const std::string& out, const std::string& policy, std::uint64_t seed) {
+  namespace fs = std::filesystem;
+  return (fs::path{out} / "runs" / fs::path{policy}.stem() / ("seed_" + std::to_string(seed)))
+      .string();
+}
+
+std::string comparison_folder(const FlightOptions& options, const Scenario& scenario) {
+  return options.out.empty() ? "flights/" + scenario.name : options.out;
+}
+
+}  // namespace flyball

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Which mission: the arguments that `run`, `compare` and `config` have in common.
+
+#include "flyball/apps/scenario.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace flyball {
+
+struct FlightOptions {
+  std::string scenario;
+  std::vector<std::string> settings{};  ///< `KEY=VALUE`
+  std::string out{};
+  bool json{};
+};
+
+/// Adds `SCENARIO` and `--set`.
+void add_scenario(CLI::App& command, FlightOptions& options);
+/// Adds `--out` and `--json`.
+void add_output(CLI::App& command, FlightOptions& options);
+
+/// The folder of one run: `OUT/runs/POLICY/seed_N`. A policy's file counts by its stem.
+[[nodiscard]] std::string run_folder(const std::string& out,
+                                     const std::string& policy,
+                                     std::uint64_t seed);
+/// `flights/SCENARIO` unless `--out` says otherwise.
+[[nodiscard]] std::string comparison_folder(const FlightOptions& options, const Scenario& scenario);
+
+}  // namespace flyball

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/catalogue.h"
+#include "flyball/apps/files.h"
+#include "flyball/apps/knobs.h"
+#include "flyball/apps/mission.h"
+#include "flyball/governors/policy.h"
+#include "flyball/governors/preset.h"
+#include "flyball/sim/platform_file.h"
+
+#include "commands.h"
+#include "console.h"
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+using Lines = std::vector<std::vector<std::string>>;
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+/// The first comment of a data file that is not its licence says what it is.
+std::string first_comment(const std::string& path) {
+  std::ifstream file{path};
+  for (std::string line; std::getline(file, line) && line.rfind('#', 0) == 0;) {
+    if (line.size() > 2 && line.find("SPDX-") == std::string::npos) {
+      return line.substr(2);
+    }
+  }
+  return {};
+}
+
+Result<Lines> list_files(const std::string& kind) {
+  Lines lines;
+  for (const std::string& name : shipped(kind)) {
+    lines.push_back({name, first_comment(share_folder(kind) + "/" + name + ".toml")});
+  }
+  return lines;
+}
+
+Result<Lines> list_kernels() {
+  Lines lines;
+  for (const KernelFamily& family : kernel_families()) {
+    for (const std::string& name : family.kernels) {
+      lines.push_back({family.name, name});
+    }
+  }
+  return lines;
+}
+
+std::string legal_values(const ParameterSpec& spec) {
+  if (std::holds_alternative<double>(spec.fallback)) {
+    return number(spec.min) + " .. " + number(spec.max);
+  }
+  std::string choices;
+  for (const std::string& choice : spec.choices) {
+    choices += (choices.empty() ? "" : "|") + choice;
+  }
+  return choices.empty() ? "any text" : choices;
+}
+
+void add_parameters(const std::vector<ParameterSpec>& specs, Lines& lines) {
+  for (const ParameterSpec& spec : specs) {
+    const double* fallback = std::get_if<double>(&spec.fallback);
+    lines.push_back({"  " + spec.name,
+                     fallback != nullptr ? number(*fallback) : std::get<std::string>(spec.fallback),
+                     legal_values(spec), spec.description});
+  }
+}
+
+Result<Lines> list_worlds() {
+  Lines lines;
+  for (const std::string& name : world_names()) {
+    lines.push_back({name});
+    add_parameters(all_plugins().make<WorldGenerator>(name)->parameters(), lines);
+  }
+  return lines;
+}
+
+Result<Lines> list_policies() {
+  Lines lines;
+  for (const std::string& name : policy_names()) {
+    const Result<std::string> file = find_shipped("presets", name);
+    if (!file) {
+      lines.push_back({name, "policy with its default parameters"});
+      continue;
+    }
+    const Result<Preset> preset = load_preset(*file);
+    if (!preset) {
+      return preset.error();
+    }
+    lines.push_back({name, preset->policy + ": " + preset->description});
+  }
+  return lines;
+}
+
+std::string legal_values(const KnobSpec& knob) {
+  if (knob.legal.empty()) {
+    return number(knob.min) + " .. " + number(knob.max);
+  }
+  std::string values;
+  for (const double value : knob.legal) {
+    values += (values.empty() ? "" : " ") + number(value);
+  }
+  return values;
+}
+
+Result<Lines> list_knobs() {
+  const Scenario scenario;
+  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return file.error();
+  }
+  Result<PlatformModel> model = load_platform(*file);
+  if (!model) {
+    return model.error();
+  }
+  Lines lines{{"KNOB", "UNIT", "OWNER", "DEFAULT", "MEANING", "VALUES"}};
+  for (const KnobSpec& knob : standard_knobs(scenario, ModeledPlatform{*std::move(model)})) {
+    lines.push_back({knob.name, knob.unit, knob.owner, number(knob.fallback), knob.description,
+                     legal_values(knob)});
+  }
+  return lines;
+}
+
+Result<Lines> list_workloads() {
+  Lines lines;
+  for (const std::string& name : workload_names()) {
+    lines.push_back({name});
+  }
+  return lines;
+}
+
+struct Listing {
+  const char* kind;
+  Result<Lines> (*list)();
+};
+
+constexpr std::array<Listing, 8> listings{{
+    {"scenarios", [] { return list_files("scenarios"); }},
+    {"workloads", list_workloads},
+    {"kernels", list_kernels},
+    {"policies", list_policies},
+    {"platforms", [] { return list_files("platforms"); }},
+    {"worlds", list_worlds},
+    {"airframes", [] { return list_files("airframes"); }},
+    {"knobs", list_knobs},
+}};
+
+std::string kinds() {
+  std::string text;
+  for (const Listing& listing : listings) {
+    text += (text.empty() ? "" : ", ") + std::string{listing.kind};
+  }
+  return text;
+}
+
+int list(const std::string& kind) {
+  for (const Listing& listing : listings) {
+    if (kind != listing.kind) {
+      continue;
+    }
+    const Result<Lines> lines = listing.list();
+    if (!lines) {
+      return refuse({lines.error()});
+    }
+    print(aligned(*lines));
+    return exit_success;
+  }
+  return refuse(
+      {{ErrorCode::not_found, "nothing to list under \"" + kind + "\"; there are: " + kinds()}});
+}
+
+}  // namespace
+
+void add_list(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("list", "prints what can be named: " + kinds());
+  const auto kind = std::make_shared<std::string>();  // Owners: the parser's callbacks.
+  command->add_option("KIND", *kind, kinds())->required();
+  command->callback([kind, &exit_code] { exit_code = list(*kind); });
+}
+
+}  // namespace flyball

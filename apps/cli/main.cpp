@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "commands.h"
+#include "console.h"
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program{
+      "Flies simulated missions of micro aerial vehicles and compares governor policies."};
+  program.require_subcommand(1);
+  int exit_code = flyball::exit_success;
+  flyball::add_run(program, exit_code);
+  flyball::add_compare(program, exit_code);
+  flyball::add_list(program, exit_code);
+  flyball::add_graph(program, exit_code);
+  flyball::add_config(program, exit_code);
+  flyball::add_version(program, exit_code);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help
+      return program.exit(error);
+    }
+    flyball::note(std::string{"flyball: "} + error.what() + "; try: flyball --help");
+    return flyball::exit_bad_input;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::exception& error) {  // Out of memory, or a third-party library's surprise.
+    flyball::note(std::string{"flyball: "} + error.what());
+    return flyball::exit_mission_failed;
+  }
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/mission.h"
+#include "flyball/apps/report.h"
+
+#include "commands.h"
+#include "console.h"
+#include "flight_options.h"
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+struct RunOptions {
+  FlightOptions flight{};
+  std::string policy{};
+  std::string seed{};
+};
+
+std::string rounded(double value, int digits, const std::string& unit) {
+  std::array<char, 48> text{};
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data() + (" " + unit);
+}
+
+std::string result_text(const Summary& s, const std::string& folder) {
+  const std::string end = s.failure == MissionFailure::none
+                              ? to_string(s.status)
+                              : std::string{"failed: "} + to_string(s.failure);
+  return s.scenario + ", " + s.policy + ", seed " + std::to_string(s.seed) + ": " + end + "\n" +
+         aligned({
+             {"  mission time", rounded(s.mission_time_s, 1, "s")},
+             {"  energy", rounded(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
+                              rounded(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
+             {"  battery used", rounded(s.battery_start_percent - s.battery_end_percent, 1, "%")},
+             {"  distance", rounded(s.distance_m, 1, "m") + ", mean " +
+                                rounded(s.mean_speed_m_s, 2, "m/s") + ", max " +
+                                rounded(s.max_speed_m_s, 2, "m/s")},
+             {"  latency", rounded(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
+                               rounded(s.latency_p95_s * 1e3, 0, "ms")},
+             {"  nearest obstacle", rounded(s.min_clearance_m, 2, "m")},
+             {"  host time",
+              rounded(s.host_s, 1, "s") + ", " + rounded(s.real_time_factor, 1, "times real time")},
+             {"  trace hash", s.trace_hash + " (numerics " + s.numeric_fingerprint + ")"},
+             {"  record", folder},
+         });
+}
+
+std::vector<std::string> overrides_of(const RunOptions& options) {
+  std::vector<std::string> overrides = options.flight.settings;
+  if (!options.policy.empty()) {
+    overrides.push_back("governor.policy=" + options.policy);
+  }
+  if (!options.seed.empty()) {
+    overrides.push_back("seed=" + options.seed);
+  }
+  return overrides;
+}
+
+MissionHooks hooks_of(const Scenario& scenario) {
+  MissionHooks hooks;
+  hooks.stop = was_interrupted;
+  if (has_watcher()) {
+    const std::string who = scenario.governor.policy + " seed " + std::to_string(scenario.seed);
+    hooks.progress = [who](double mission_s, const std::string& what) {
+      note(who + ": " + rounded(mission_s, 0, "s") + ", " + what);
+    };
+  }
+  return hooks;
+}
+
+int exit_code_of(const Summary& summary) {
+  switch (summary.status) {
+    case MissionStatus::succeeded:
+      return exit_success;
+    case MissionStatus::failed:
+      return exit_mission_failed;
+    case MissionStatus::interrupted:
+      return exit_interrupted;
+  }
+  return exit_mission_failed;
+}
+
+int run(const RunOptions& options) {
+  const auto loaded = load_scenario(options.flight.scenario, overrides_of(options));
+  if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+    return refuse(*errors);
+  }
+  const Scenario& scenario = std::get<LoadedScenario>(loaded).scenario;
+  const std::string folder = options.flight.out.empty()
+                                 ? run_folder(comparison_folder(options.flight, scenario),
+                                              scenario.governor.policy, scenario.seed)
+                                 : options.flight.out;
+  if (const Status prepared = prepare_folder(folder); !prepared) {
+    return refuse({prepared.error()});
+  }
+  catch_interrupt();
+  const Result<MissionRecord> record = fly(scenario, hooks_of(scenario));
+  if (!record) {
+    return refuse({record.error()});
+  }
+  if (const Status written = write_run(folder, scenario, *record); !written) {
+    return refuse({written.error()});
+  }
+  print(options.flight.json ? to_json(record->summary) + "\n"
+                            : result_text(record->summary, folder));
+  return exit_code_of(record->summary);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("run", "flies one mission");
+  const auto options = std::make_shared<RunOptions>();  // Owners: the parser's callbacks.
+  add_scenario(*command, options->flight);
+  command->add_option("--policy", options->policy, "turns the knobs in flight")->type_name("NAME");
+  command->add_option("--seed", options->seed, "of world, sensors and planner")->type_name("N");
+  add_output(*command, options->flight);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace flyball

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/version.h"
+
+#include "commands.h"
+#include "console.h"
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+
+void add_version(CLI::App& program, int& exit_code) {
+  program.add_subcommand("version", "prints version and build")->callback([&exit_code] {
+    print("flyball " + version() + ", build " + build_fingerprint() + "\n");
+    exit_code = exit_success;
+  });
+}
+
+}  // namespace flyball

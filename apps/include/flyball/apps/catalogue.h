@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a scenario may name: plug-ins compiled in, and data that is shipped.
+
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Implementations that can stand in for each other.
+struct KernelFamily {
+  std::string name;  ///< As in the scenario's section `kernels`: `mapper`.
+  std::vector<std::string> kernels;
+};
+[[nodiscard]] std::vector<KernelFamily> kernel_families();
+
+[[nodiscard]] std::vector<std::string> world_names();
+[[nodiscard]] std::vector<std::string> workload_names();
+/// Presets, and policies that have no preset of their name, sorted.
+[[nodiscard]] std::vector<std::string> policy_names();
+
+}  // namespace flyball

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/catalogue.h"
+
+#include "flyball/apps/files.h"
+#include "flyball/apps/mission.h"
+#include "flyball/apps/workload.h"
+#include "flyball/governors/policy.h"
+#include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/localizer.h"
+#include "flyball/kernels/mapper.h"
+#include "flyball/kernels/path_planner.h"
+#include "flyball/kernels/path_tracker.h"
+#include "flyball/kernels/point_cloud.h"
+#include "flyball/kernels/smoother.h"
+#include "flyball/sim/world.h"
+
+#include <algorithm>
+#include <set>
+
+namespace flyball {
+
+std::vector<KernelFamily> kernel_families() {
+  const Registry& plugins = all_plugins();
+  return {
+      {"point_cloud", plugins.names<PointCloudBuilder>()},
+      {"mapper", plugins.names<Mapper>()},
+      {"collision_check", plugins.names<CollisionChecker>()},
+      {"planner", plugins.names<PathPlanner>()},
+      {"smoother", plugins.names<Smoother>()},
+      {"path_tracker", plugins.names<PathTracker>()},
+      {"localizer", plugins.names<Localizer>()},
+  };
+}
+
+std::vector<std::string> world_names() {
+  return all_plugins().names<WorldGenerator>();
+}
+
+std::vector<std::string> workload_names() {
+  return all_plugins().names<Workload>();
+}
+
+std::vector<std::string> policy_names() {
+  std::vector<std::string> names = shipped("presets");
+  const std::vector<std::string> bare = all_plugins().names<Policy>();
+  names.insert(names.end(), bare.begin(), bare.end());
+  const std::set<std::string> sorted(names.begin(), names.end());
+  return {sorted.begin(), sorted.end()};
+}
+
+}  // namespace flyball

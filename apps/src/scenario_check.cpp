@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario_check.h"
+
+#include "flyball/apps/catalogue.h"
+#include "flyball/apps/files.h"
+#include "flyball/apps/mission.h"
+#include "flyball/sim/platform_file.h"
+#include "flyball/sim/world.h"
+
+#include "scenario_keys.h"
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+constexpr const char* world_prefix = "world.";
+
+/// ` (mine.toml:7)`, or nothing for a default.
+std::string place_of(const std::string& key, const GivenValues& given) {
+  const auto found = given.find(key);
+  return found == given.end() ? "" : " (" + found->second.origin + ")";
+}
+
+/// A name that was looked for among others.
+struct NamedThing {
+  std::string key;
+  std::string thing;  ///< `mapper`
+  std::string name;
+  std::vector<std::string> known;
+  std::string list;  ///< Argument of `flyball list`.
+};
+
+bool is_known(const NamedThing& wanted) {
+  return std::find(wanted.known.begin(), wanted.known.end(), wanted.name) != wanted.known.end();
+}
+
+Error unknown(const NamedThing& wanted, const GivenValues& given) {
+  const std::string near = nearest_name(wanted.name, wanted.known);
+  return {ErrorCode::not_found, "no " + wanted.thing + " \"" + wanted.name + "\"" +
+                                    place_of(wanted.key, given) + "; " +
+                                    (near.empty() ? "" : "did you mean " + near + "? ") +
+                                    "try: flyball list " + wanted.list};
+}
+
+std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {
+  std::vector<NamedThing> things{
+      {"mission.workload", "workload", scenario.mission.workload, workload_names(), "workloads"},
+      {"world.generator", "world", scenario.world.generator, world_names(), "worlds"},
+  };
+  const KernelSettings& kernels = scenario.kernels;
+  const std::vector<std::string> names{
+      kernels.point_cloud, kernels.mapper,       kernels.collision_check, kernels.planner,
+      kernels.smoother,    kernels.path_tracker, kernels.localizer};
+  const std::vector<KernelFamily> families = kernel_families();  // In the order of `names`.
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    things.push_back({"kernels." + families[i].name, families[i].name, names[i],
+                      families[i].kernels, "kernels"});
+  }
+  return things;
+}
+
+std::vector<NamedThing> files_of(const Scenario& scenario) {
+  return {
+      {"vehicle.airframe", "airframe", scenario.vehicle.airframe, shipped("airframes"),
+       "airframes"},
+      {"platform.name", "platform", scenario.platform.name, shipped("platforms"), "platforms"},
+      {"governor.policy", "policy", scenario.governor.policy, policy_names(), "policies"},
+  };
+}
+
+/// The kinds of `find_shipped` for `files_of`, where a path to a file is as good as a name.
+bool is_file(const NamedThing& wanted) {
+  const std::string kind = wanted.list == "policies" ? "presets" : wanted.list;
+  return find_shipped(kind, wanted.name).ok();
+}
+
+std::string clocks_of(const PlatformModel& platform) {
+  std::string text;
+  for (const Hertz clock : platform.frequencies) {
+    text += (text.empty() ? "" : ", ") + toml_number(clock.value());
+  }
+  return text;
+}
+
+std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
+  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return {};  // Named as unknown elsewhere.
+  }
+  const Result<PlatformModel> platform = load_platform(*file);
+  if (!platform) {
+    return {platform.error()};
+  }
+  std::vector<Error> errors;
+  const auto& [name, cores, clock_hz] = scenario.platform;
+  if (cores > platform->max_cores) {
+    errors.push_back({ErrorCode::invalid_input,
+                      "platform.cores = " + std::to_string(cores) +
+                          place_of("platform.cores", given) + " must be at most " +
+                          std::to_string(platform->max_cores) + ", all that " + name + " has"});
+  }
+  const auto is_clock = [wanted = clock_hz](Hertz clock) {
+    return std::abs(clock.value() - wanted) < 0.5;
+  };
+  if (std::none_of(platform->frequencies.begin(), platform->frequencies.end(), is_clock)) {
+    errors.push_back({ErrorCode::invalid_input, "platform.frequency_hz = " + toml_number(clock_hz) +
+                                                    place_of("platform.frequency_hz", given) +
+                                                    " is no clock of " + name +
+                                                    "; it has: " + clocks_of(*platform)});
+  }
+  return errors;
+}
+
+bool is_folder_name(const std::string& name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return std::all_of(name.begin(), name.end(), is_plain);
+}
+
+std::optional<Error> set_parameter(WorldSettings& world,
+                                   const ParameterSpec& spec,
+                                   const GivenValue& value) {
+  const std::string what =
+      world_prefix + spec.name + " = " + value.text + " (" + value.origin + ") must be ";
+  if (std::holds_alternative<double>(spec.fallback)) {
+    const std::optional<double> number = as_number(value);
+    if (!number) {
+      const std::string unit = parts_of(spec.name).unit;
+      return Error{ErrorCode::invalid_input,
+                   what + "a number" + (unit.empty() ? "" : " in " + unit)};
+    }
+    world.parameters[spec.name] = *number;
+  } else {
+    const std::optional<std::string> text = as_text(value);
+    if (!text) {
+      return Error{ErrorCode::invalid_input, what + "a text"};
+    }
+    world.parameters[spec.name] = *text;
+  }
+  return std::nullopt;
+}
+
+/// Copies what was given to the world's settings; unknown names are left to the caller.
+std::vector<Error> take_parameters(WorldSettings& world,
+                                   const std::vector<ParameterSpec>& specs,
+                                   const GivenValues& given) {
+  std::vector<Error> errors;
+  for (const ParameterSpec& spec : specs) {
+    const auto found = given.find(world_prefix + spec.name);
+    if (found == given.end()) {
+      continue;
+    }
+    if (std::optional<Error> error = set_parameter(world, spec, found->second)) {
+      errors.push_back(*std::move(error));
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::vector<ParameterSpec> world_parameters(const Scenario& scenario) {
+  const auto generator = all_plugins().make<WorldGenerator>(scenario.world.generator);
+  return generator ? generator->parameters() : std::vector<ParameterSpec>{};
+}
+
+std::vector<Error> read_world(Scenario& scenario, const GivenValues& given) {
+  const std::vector<ParameterSpec> specs = world_parameters(scenario);
+  std::vector<Error> errors = take_parameters(scenario.world, specs, given);
+  auto resolved = Parameters::resolve("world \"" + scenario.world.generator + "\"", specs,
+                                      scenario.world.parameters);
+  if (const auto* wrong = std::get_if<std::vector<Error>>(&resolved)) {
+    errors.insert(errors.end(), wrong->begin(), wrong->end());
+  } else {
+    scenario.world.parameters = std::get<Parameters>(resolved).values();
+  }
+  return errors;
+}
+
+std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given) {
+  std::vector<Error> errors;
+  for (const NamedThing& thing : plug_ins_of(scenario)) {
+    if (!is_known(thing)) {
+      errors.push_back(unknown(thing, given));
+    }
+  }
+  for (const NamedThing& thing : files_of(scenario)) {
+    if (!is_known(thing) && !is_file(thing)) {
+      errors.push_back(unknown(thing, given));
+    }
+  }
+  for (Error& error : check_operating_point(scenario, given)) {
+    errors.push_back(std::move(error));
+  }
+  if (!is_folder_name(scenario.name)) {
+    errors.push_back(
+        {ErrorCode::invalid_input,
+         "name = " + scenario.name + place_of("name", given) +
+             " must be of letters, digits, _ and -, because flights go to a folder of this name"});
+  }
+  return errors;
+}
+
+}  // namespace flyball

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario_fields.h"
+
+namespace flyball {
+namespace {
+
+using Fields = std::vector<ScenarioField>;
+
+/// `&at<&Scenario::map, &MapSettings::range_m>` is the place of `map.range_m`.
+template <auto section, auto value>
+auto* at(Scenario& scenario) {
+  return &(scenario.*section.*value);
+}
+template <auto value>
+auto* at_top(Scenario& scenario) {
+  return &(scenario.*value);
+}
+
+// The limits are where a value stops making sense for a vehicle of this kind, or where the knob of
+// the same name ends.
+
+Fields mission_fields() {
+  constexpr auto in = &Scenario::mission;
+  using M = MissionSettings;
+  return {
+      {"mission.workload", &at<in, &M::workload>, 0, 0, "what is flown"},
+      {"mission.time_limit_s", &at<in, &M::time_limit_s>, 1, 86400,
+       "longer ends the mission as failed"},
+      {"mission.plan_time_limit_s", &at<in, &M::plan_time_limit_s>, 1, 86400,
+       "standing without a path for longer ends it too"},
+      {"mission.max_speed_m_s", &at<in, &M::max_speed_m_s>, 0.5, 15,
+       "upper limit; the safe speed below it is computed"},
+      {"mission.max_acceleration_m_s2", &at<in, &M::max_acceleration_m_s2>, 0.5, 20,
+       "the braking that the speed limit counts on"},
+      {"mission.goal_tolerance_m", &at<in, &M::goal_tolerance_m>, 0.1, 100,
+       "a path that ends farther from the goal is replanned"},
+  };
+}
+
+Fields vehicle_fields() {
+  constexpr auto in = &Scenario::vehicle;
+  using V = VehicleSettings;
+  return {
+      {"vehicle.airframe", &at<in, &V::airframe>, 0, 0, "a shipped airframe or a .toml file"},
+      {"vehicle.payload_kg", &at<in, &V::payload_kg>, 0, 20, "mass that is carried to the goal"},
+      {"vehicle.physics_step_s", &at<in, &V::physics_step_s>, 1e-4, 4e-3, "of the multibody model"},
+      {"vehicle.battery_charge", &at<in, &V::battery_charge>, 0.01, 1,
+       "share of the full charge at the start"},
+      {"vehicle.rotor_power",
+       &at<in, &V::rotor_power>,
+       0,
+       0,
+       "model that drains the battery",
+       {"regression", "thrust"}},
+      {"vehicle.drive_efficiency", &at<in, &V::drive_efficiency>, 0.05, 1,
+       "shaft over electrical power, thrust model"},
+      {"vehicle.wind_east_m_s", &at<in, &V::wind_east_m_s>, -30, 30, "mean wind towards the east"},
+      {"vehicle.wind_north_m_s", &at<in, &V::wind_north_m_s>, -30, 30,
+       "mean wind towards the north"},
+  };
+}
+
+Fields camera_fields() {
+  constexpr auto in = &Scenario::camera;
+  using C = DepthCameraSpec;
+  return {
+      {"camera.width_px", &at<in, &C::width_px>, 8, 4096, "columns of the depth image"},
+      {"camera.height_px", &at<in, &C::height_px>, 8, 4096, "rows of the depth image"},
+      {"camera.horizontal_field_rad", &at<in, &C::horizontal_field_rad>, 0.1, 3, "field of view"},
+      {"camera.rate_hz", &at<in, &C::rate_hz>, 0.1, 240, "frames a second"},
+      {"camera.max_range_m", &at<in, &C::max_range_m>, 0.5, 200, "beyond it nothing is seen"},
+      {"camera.rgbd_noise", &at<in, &C::rgbd_noise>, 0, 0,
+       "noise of an RGB-D camera, growing with depth"},
+      {"camera.extra_noise_m", &at<in, &C::extra_noise_m>, 0, 10,
+       "standard deviation added at every depth"},
+  };
+}
+
+Fields gps_fields() {
+  constexpr auto in = &Scenario::gps;
+  using G = GpsSpec;
+  return {
+      {"gps.rate_hz", &at<in, &G::rate_hz>, 0.1, 100, "fixes a second"},
+      {"gps.white_noise_m", &at<in, &G::white_noise_m>, 0, 100, "standard deviation of one fix"},
+      {"gps.wander_m", &at<in, &G::wander_m>, 0, 100, "standard deviation of the bias"},
+      {"gps.wander_time_s", &at<in, &G::wander_time_s>, 0.1, 1e6, "correlation time of the bias"},
+      {"gps.velocity_noise_m_s", &at<in, &G::velocity_noise_m_s>, 0, 10,
+       "standard deviation of the Doppler velocity"},
+  };
+}
+
+Fields kernel_fields() {
+  constexpr auto in = &Scenario::kernels;
+  using K = KernelSettings;
+  return {
+      {"kernels.point_cloud", &at<in, &K::point_cloud>, 0, 0, "depth image to points"},
+      {"kernels.mapper", &at<in, &K::mapper>, 0, 0, "points to occupancy"},
+      {"kernels.collision_check", &at<in, &K::collision_check>, 0, 0,
+       "looks along the path being flown"},
+      {"kernels.planner", &at<in, &K::planner>, 0, 0, "shortest path"},
+      {"kernels.smoother", &at<in, &K::smoother>, 0, 0, "way-points to a trajectory"},
+      {"kernels.path_tracker", &at<in, &K::path_tracker>, 0, 0, "trajectory to set-points"},
+      {"kernels.localizer", &at<in, &K::localizer>, 0, 0, "where the vehicle believes it is"},
+      {"kernels.slam_load", &at<in, &K::slam_load>, 0, 0,
+       "charge the SLAM time per frame beside a localizer that needs none"},
+  };
+}
+
+Fields computer_fields() {
+  return {
+      {"map.resolution_m", &at<&Scenario::map, &MapSettings::resolution_m>, 0.05, 2,
+       "cell size until a policy sets it"},
+      {"map.range_m", &at<&Scenario::map, &MapSettings::range_m>, 2, 25,
+       "how far depth is integrated"},
+      {"map.rate_hz", &at<&Scenario::map, &MapSettings::rate_hz>, 0.5, 60,
+       "frames integrated a second, at most"},
+      {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
+       "iterations that one plan may take"},
+      {"planner.corridor_m", &at<&Scenario::planner, &PlannerSettings::corridor_m>, 1, 1000,
+       "first search box around start and goal"},
+      {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
+       "the companion computer"},
+      {"platform.cores", &at<&Scenario::platform, &PlatformSettings::cores>, 1, 256,
+       "cores that may run jobs"},
+      {"platform.frequency_hz", &at<&Scenario::platform, &PlatformSettings::frequency_hz>, 1e6,
+       1e10, "clock of all cores"},
+      {"governor.policy", &at<&Scenario::governor, &GovernorSettings::policy>, 0, 0,
+       "turns the knobs in flight"},
+      {"governor.period_s", &at<&Scenario::governor, &GovernorSettings::period_s>, 0.01, 10,
+       "time between decisions"},
+  };
+}
+
+void append(Fields& all, Fields more) {
+  for (ScenarioField& field : more) {
+    all.push_back(std::move(field));
+  }
+}
+
+}  // namespace
+
+std::vector<ScenarioField> scenario_fields() {
+  Fields all{
+      {"name", &at_top<&Scenario::name>, 0, 0, "in tables, and of the folder that flights go to"},
+      {"seed", &at_top<&Scenario::seed>, 0, 0, "of the world, the sensors and the planner"},
+      {"world.generator", &at<&Scenario::world, &WorldSettings::generator>, 0, 0,
+       "makes the world"},
+  };
+  append(all, mission_fields());
+  append(all, vehicle_fields());
+  append(all, camera_fields());
+  append(all, gps_fields());
+  append(all, kernel_fields());
+  append(all, computer_fields());
+  return all;
+}
+
+}  // namespace flyball
