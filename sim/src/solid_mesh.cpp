@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: depth_camera
 #include "solid_mesh.h"
 
 #include <cmath>

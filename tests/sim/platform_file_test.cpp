@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/platform_file.h"
+
+#include <cstdio>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+const std::string tx2_file = std::string{FLYBALL_TEST_DATA} + "/platforms/jetson_tx2.toml";
+
+PlatformModel tx2() {
+  return load_platform(tx2_file).value();
+}
+
+// A platform file in the test's own folder, gone when the test ends.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& content)
+      : path_{testing::TempDir() + "flyball_" +
+              testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml"} {
+    std::ofstream{path_} << content;
+  }
+  ~TemporaryFile() { std::remove(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+const char* const whole = R"(
+name = "board"
+max_cores = 2
+frequencies_hz = [1e9, 2e9]
+switching_time_s = 1e-4
+[power]
+board_w = 1.0
+converter = 1.1
+soc_w = 0.5
+memory_w = 0.2
+cpu_constant_w = 0.1
+cpu_linear_w = 0.2
+core_linear_w = 0.3
+core_cubic_w = 0.4
+[kernels.octomap]
+scale = 2.0
+a = 0.9
+b = 0.1
+parallel_fraction = 0.5
+[kernels.octomap.seconds_per]
+updates = 1e-6
+)";
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = whole;
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+std::string failure_of(const std::string& content) {
+  const TemporaryFile file{content};
+  const auto model = load_platform(file.path());
+  if (model) {
+    return "";
+  }
+  EXPECT_EQ(model.error().code, ErrorCode::invalid_input);
+  return model.error().message;
+}
+
+TEST(PlatformFile, is_read_number_by_number) {
+  const TemporaryFile file{whole};
+  const auto model = load_platform(file.path());
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->name, "board");
+  EXPECT_EQ(model->max_cores, 2);
+  ASSERT_EQ(model->frequencies.size(), 2U);
+  EXPECT_EQ(model->frequencies[1].value(), 2e9);
+  EXPECT_EQ(model->switching_time, Duration{100000});
+  EXPECT_EQ(model->power.converter, 1.1);
+  EXPECT_EQ(model->power.core_cubic_w, 0.4);
+  const KernelCost& octomap = model->kernels.at("octomap");
+  EXPECT_EQ(octomap.scale, 2.0);
+  EXPECT_EQ(octomap.parallel_fraction, 0.5);
+  EXPECT_EQ(octomap.seconds_per.at("updates"), 1e-6);
+}
+
+TEST(PlatformFile, that_is_missing_is_named_with_the_way_out) {
+  const auto model = load_platform("no/such/board.toml");
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::not_found);
+  EXPECT_NE(model.error().message.find("flyball list platforms"), std::string::npos);
+}
+
+TEST(PlatformFile, reports_every_violation_at_once) {
+  std::string text = with("converter = 1.1", "converter = 0.5\nfan_w = 1.0");
+  text.replace(text.find("soc_w = 0.5\n"), 12, "");
+  text.replace(text.find("updates = 1e-6"), 14, "updates = \"fast\"");
+  const std::string message = failure_of(text);
+  for (const char* part :
+       {"power.converter = 0.5 is not between 1 and 10", "power.fan_w is unknown",
+        "power.soc_w is missing", "kernels.octomap.seconds_per.updates is no number"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << part << " not in: " << message;
+  }
+}
+
+TEST(PlatformFile, needs_ascending_clocks_and_whole_cores) {
+  EXPECT_NE(failure_of(with("[1e9, 2e9]", "[2e9, 1e9]")).find("not ascending"), std::string::npos);
+  EXPECT_NE(failure_of(with("max_cores = 2", "max_cores = 2.5")).find("whole"), std::string::npos);
+}
+
+TEST(PlatformFile, with_a_syntax_error_says_in_which_line) {
+  EXPECT_NE(failure_of(with("max_cores = 2", "max_cores =")).find("line 3"), std::string::npos);
+}
+
+TEST(PlatformFile, refuses_a_kernel_that_would_cost_nothing) {
+  EXPECT_NE(failure_of(with("updates = 1e-6", "")).find("names no work"), std::string::npos);
+  EXPECT_NE(failure_of(with("scale = 2.0", "scale = 0.0")).find("must be positive"),
+            std::string::npos);
+}
+
+TEST(JetsonTx2, has_the_boards_clocks_and_the_papers_cores) {
+  const PlatformModel model = tx2();
+  EXPECT_EQ(model.max_cores, 4);
+  ASSERT_EQ(model.frequencies.size(), 12U);
+  EXPECT_EQ(model.frequencies.front().value(), 345.6e6);
+  EXPECT_EQ(model.frequencies.back().value(), 2035.2e6);
+}
+
+TEST(JetsonTx2, draws_what_the_board_is_known_to_draw) {
+  const ModeledPlatform platform{tx2()};
+  // Published: idle 1.4-2.1 W at the lowest clock; all cores busy at the top 6 to 8 W without GPU.
+  const double idle_w = platform.power({4, Hertz{345.6e6}}, 0.0).value();
+  const double full_w = platform.power({4, Hertz{2035.2e6}}, 4.0).value();
+  EXPECT_GT(idle_w, 1.4);
+  EXPECT_LT(idle_w, 2.1);
+  EXPECT_GT(full_w, 6.0);
+  EXPECT_LT(full_w, 8.0);
+}
+
+struct PaperTime {
+  const char* kernel;
+  std::vector<WorkItem> work;
+  double seconds;
+};
+
+TEST(JetsonTx2, prices_typical_work_near_the_papers_kernel_times) {
+  const ModeledPlatform platform{tx2()};
+  const std::vector<PaperTime> paper{
+      {"depth_to_points", {{"pixels", 36864.0}}, 0.002},
+      {"swept_cylinder", {{"poses", 100.0}}, 0.001},
+      {"rrt_connect", {{"iterations", 1000.0}, {"collision_queries", 3000.0}}, 0.182},
+      {"visual_slam", {{"pixels", 36864.0}}, 0.055},
+      {"track", {{"ticks", 1.0}}, 0.001},
+  };
+  for (const PaperTime& row : paper) {
+    Work work;
+    for (const WorkItem& item : row.work) {
+      work.add(item.name, item.count);
+    }
+    const double seconds = to_seconds(platform.job_time(row.kernel, work, Hertz{2035.2e6}));
+    EXPECT_NEAR(seconds, row.seconds, 0.1 * row.seconds) << row.kernel;  // Estimates: 10 %.
+  }
+}
+
+TEST(JetsonTx2, knows_the_price_of_every_kernel_of_a_mission) {
+  const ModeledPlatform platform{tx2()};
+  for (const char* kernel : {"depth_to_points", "octomap", "swept_cylinder", "rrt_connect",
+                             "rrt_star", "minimum_snap", "visual_slam", "localizer", "track"}) {
+    EXPECT_TRUE(platform.knows(kernel)) << kernel;
+  }
+}
+
+}  // namespace
+}  // namespace flyball

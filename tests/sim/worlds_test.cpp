@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/worlds.h"
+
+#include "floor_plan.h"
+#include "made_world.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double body_and_tube_m = 0.355;  // Half of .65 m, and .03 m.
+
+std::vector<Vec3> corners(const World& world) {
+  std::vector<Vec3> all;
+  for (const Aabb& box : world.boxes) {
+    all.push_back(box.min);
+    all.push_back(box.max);
+  }
+  for (const Pillar& pillar : world.pillars) {
+    all.push_back(pillar.foot_W);
+  }
+  return all;
+}
+
+// Whether nothing stands in the cylinder above a place, to 2.5 m, where the vehicle takes off or
+// lands.
+bool is_clear(const World& world, const Vec3& place, double radius_m) {
+  const Clearance clearance{world};
+  return clearance.distance_m(place + Vec3{0.0, 0.0, 1.25}, {radius_m, 1.25}, 10.0, true) > 0.0;
+}
+
+class SeededWorlds : public testing::TestWithParam<const char*> {};
+
+TEST_P(SeededWorlds, are_the_same_for_the_same_seed_and_differ_for_another) {
+  const auto first = made_world(GetParam(), 1);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_EQ(corners(*first), corners(*made_world(GetParam(), 1)));
+  EXPECT_NE(corners(*first), corners(*made_world(GetParam(), 2)));
+}
+
+TEST_P(SeededWorlds, leave_room_to_take_off_and_land) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto world = made_world(GetParam(), seed);
+    ASSERT_TRUE(world) << world.error().message;
+    for (const Vec3& place : {world->start_W, world->goal_W}) {
+      EXPECT_TRUE(is_clear(*world, place, 1.0)) << "seed " << seed;
+      EXPECT_TRUE(world->bounds_W.contains(place + Vec3{0.0, 0.0, world->cruise_height_m}));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SeededWorlds, testing::Values("forest", "outdoor_to_indoor"));
+
+TEST(Empty, has_a_goal_at_the_distance_that_was_asked_for) {
+  const auto world = made_world("empty", 1, {{"goal_distance_m", 70.0}});
+  ASSERT_TRUE(world);
+  EXPECT_EQ((world->goal_W - world->start_W).norm(), 70.0);
+  EXPECT_TRUE(world->boxes.empty() && world->pillars.empty());
+}
+
+TEST(Forest, has_the_density_asked_for_and_keeps_its_gaps) {
+  const auto world = made_world("forest", 3, {{"density_1_m2", 0.03}, {"min_gap_m", 2.5}});
+  ASSERT_TRUE(world) << world.error().message;
+  EXPECT_EQ(world->pillars.size(), 204U);  // .03 / m2 on (150 + 2 * 10) m x 40 m.
+  for (const Pillar& a : world->pillars) {
+    for (const Pillar& b : world->pillars) {
+      const double apart_m = (a.foot_W - b.foot_W).norm();
+      EXPECT_TRUE(&a == &b || apart_m - a.radius_m - b.radius_m >= 2.5);
+    }
+  }
+}
+
+TEST(Forest, says_so_when_the_trunks_do_not_fit) {
+  const auto world = made_world("forest", 3, {{"density_1_m2", 0.08}, {"min_gap_m", 10.0}});
+  ASSERT_FALSE(world);
+  EXPECT_EQ(world.error().code, ErrorCode::invalid_input);
+  EXPECT_NE(world.error().message.find("min_gap_m"), std::string::npos);
+}
+
+TEST(OctomapFile, says_what_is_wrong_with_a_file) {
+  const auto missing = made_world("octomap_file", 1, {{"file", "no_such_map.bt"}, {"pair", 0.0}});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+  const auto contradiction = made_world("octomap_file", 1, {{"file", "other.bt"}, {"pair", 2.0}});
+  ASSERT_FALSE(contradiction);
+  EXPECT_EQ(contradiction.error().code, ErrorCode::invalid_input);
+}
+
+TEST(OctomapFile, ships_pairs_that_the_vehicle_can_fly_between) {
+  for (int pair = 1; pair <= 5; ++pair) {
+    const auto world = made_world("octomap_file", 1, {{"pair", static_cast<double>(pair)}});
+    if (!world) {
+      ASSERT_EQ(world.error().code, ErrorCode::not_found) << world.error().message;
+      GTEST_SKIP() << "liboctomap-dev's example geb079.bt is not installed";
+    }
+    const double z_m = world->ground_z_m + world->cruise_height_m;
+    const FloorPlan plan{*world, 0.15, z_m - 0.2, z_m + 0.2};
+    EXPECT_TRUE(plan.connects(world->start_W, world->goal_W, body_and_tube_m)) << "pair " << pair;
+    // The office has no wider place than .787 m.
+    EXPECT_TRUE(is_clear(*world, world->start_W, 0.78)) << "pair " << pair;
+    EXPECT_TRUE(is_clear(*world, world->goal_W, 0.78)) << "pair " << pair;
+  }
+}
+
+}  // namespace
+}  // namespace flyball
