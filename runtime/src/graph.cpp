@@ -82,39 +82,61 @@ std::string edge(const std::string& from, const std::string& to, const std::stri
   return "  " + quoted(from) + " -> " + quoted(to) + " [" + style + "];\n";
 }
 
-/// One edge per writer and reader; an ellipse stands for whoever is outside the graph.
-std::string edges_of(const Graph& graph, int topic) {
-  const std::string& name = graph.topics()[static_cast<std::size_t>(topic)].name;
+/// Nodes that write the topic, or the ellipse that stands for whoever does so outside the graph.
+std::vector<std::string> writers_of(const Graph& graph, int topic, const std::string& outside) {
   std::vector<std::string> writers;
   for (const Node& node : graph.nodes()) {
     if (contains(node.spec.writes, topic)) {
       writers.push_back(node.spec.name);
     }
   }
-  const std::string outside = "topic " + name;
+  return writers.empty() ? std::vector<std::string>{outside} : writers;
+}
+
+/// From one writer to each reader; dashed where the message does not start a job.
+std::string edges_from(const std::string& writer, const Graph& graph, int topic) {
+  const std::string label = "label=" + quoted(graph.topics()[static_cast<std::size_t>(topic)].name);
   std::string edges;
-  bool is_read = false;
-  const bool is_written = !writers.empty();
-  if (!is_written) {
-    writers.push_back(outside);
-  }
   for (const Node& node : graph.nodes()) {
-    const bool triggers = is_trigger(node.spec, topic);
-    if (triggers || contains(node.spec.reads, topic)) {
-      is_read = true;
-      for (const std::string& writer : writers) {
-        const std::string style = triggers ? "" : ", style=dashed";
-        edges += edge(writer, node.spec.name, "label=" + quoted(name) + style);
-      }
+    if (is_trigger(node.spec, topic)) {
+      edges += edge(writer, node.spec.name, label);
+    } else if (contains(node.spec.reads, topic)) {
+      edges += edge(writer, node.spec.name, label + ", style=dashed");
     }
   }
+  return edges;
+}
+
+std::string edges_of(const Graph& graph, int topic) {
+  const std::string& name = graph.topics()[static_cast<std::size_t>(topic)].name;
+  const std::string outside = "topic " + name;
+  const std::vector<std::string> writers = writers_of(graph, topic, outside);
+  bool has_outside = writers.front() == outside;
+  std::string edges;
   for (const std::string& writer : writers) {
-    edges += is_read || !is_written ? "" : edge(writer, outside, "label=" + quoted(name));
+    std::string from_writer = edges_from(writer, graph, topic);
+    if (from_writer.empty() && writer != outside) {
+      has_outside = true;
+      from_writer = edge(writer, outside, "label=" + quoted(name));
+    }
+    edges += from_writer;
   }
-  const bool has_outside = !is_read || !is_written;
-  return (has_outside ? "  " + quoted(outside) + " [label=" + quoted(name) + ", shape=ellipse];\n"
-                      : "") +
-         edges;
+  if (has_outside) {
+    edges.insert(0, "  " + quoted(outside) + " [label=" + quoted(name) + ", shape=ellipse];\n");
+  }
+  return edges;
+}
+
+void check_trigger(const NodeSpec& spec, const std::function<bool(int)>& exists) {
+  const char* name = spec.name.c_str();
+  if (const auto* message = std::get_if<OnMessage>(&spec.trigger)) {
+    FLYBALL_ASSERT(exists(message->topic), "node %s, trigger topic %d", name, message->topic);
+    return;
+  }
+  const auto& every = std::get<OnPeriod>(spec.trigger);
+  const bool runs = every.period > Duration::zero() && every.phase >= Duration::zero();
+  FLYBALL_ASSERT(runs, "node %s, period %g s, phase %g s", name, to_seconds(every.period),
+                 to_seconds(every.phase));
 }
 
 }  // namespace
@@ -130,14 +152,7 @@ void Graph::node(NodeSpec spec, Body body) {
   FLYBALL_ASSERT(spec.threads >= 1, "node %s, threads=%d", name, spec.threads);
   FLYBALL_ASSERT(spec.deadline >= Duration::zero(), "node %s has a negative deadline", name);
   FLYBALL_ASSERT(body != nullptr, "node %s has no body", name);
-  if (const auto* message = std::get_if<OnMessage>(&spec.trigger)) {
-    FLYBALL_ASSERT(exists(message->topic), "node %s, trigger topic %d", name, message->topic);
-  } else {
-    const auto& every = std::get<OnPeriod>(spec.trigger);
-    FLYBALL_ASSERT(every.period > Duration::zero() && every.phase >= Duration::zero(),
-                   "node %s, period %g s, phase %g s", name, to_seconds(every.period),
-                   to_seconds(every.phase));
-  }
+  check_trigger(spec, exists);
   for (const auto* topics : {&spec.reads, &spec.writes}) {
     FLYBALL_ASSERT(std::all_of(topics->begin(), topics->end(), exists),
                    "node %s names a topic that does not exist", name);

@@ -64,16 +64,20 @@ std::variant<Parameters, std::vector<Error>> Parameters::resolve(
     FLYBALL_ASSERT(is_new, "%s declares \"%s\" twice", owner.c_str(), spec.name.c_str());
   }
   std::vector<Error> errors;
-  for (const auto& [name, value] : given) {
+  for (const auto& entry : given) {
+    const std::string& name = entry.first;
     const auto spec = std::find_if(specs.begin(), specs.end(),
-                                   [&](const ParameterSpec& s) { return s.name == name; });
+                                   [&name](const ParameterSpec& s) { return s.name == name; });
     if (spec == specs.end()) {
-      errors.push_back(
-          {ErrorCode::not_found, owner + " has no parameter \"" + name + "\"; " + names_of(specs)});
-    } else if (const auto fault = fault_of(*spec, value)) {
-      errors.push_back({ErrorCode::invalid_input, owner + ", " + name + ": " + *fault});
+      std::string message = owner;
+      message.append(" has no parameter \"").append(name).append("\"; ").append(names_of(specs));
+      errors.push_back({ErrorCode::not_found, message});
+    } else if (const auto fault = fault_of(*spec, entry.second)) {
+      std::string message = owner;
+      message.append(", ").append(name).append(": ").append(*fault);
+      errors.push_back({ErrorCode::invalid_input, message});
     } else {
-      resolved.values_[name] = value;
+      resolved.values_[name] = entry.second;
     }
   }
   if (!errors.empty()) {

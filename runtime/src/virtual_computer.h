@@ -29,10 +29,10 @@ struct TopicState {
 };
 
 struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
-  VirtualComputer(const Graph& graph_,
-                  const Platform& platform_,
-                  EventQueue& queue_,
-                  OperatingPoint point_);
+  VirtualComputer(const Graph& hosted,
+                  const Platform& model,
+                  EventQueue& events,
+                  OperatingPoint first);
   void start();
 
   // Messages and jobs.

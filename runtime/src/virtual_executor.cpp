@@ -9,17 +9,17 @@
 
 namespace flyball {
 
-VirtualComputer::VirtualComputer(const Graph& graph_,
-                                 const Platform& platform_,
-                                 EventQueue& queue_,
-                                 OperatingPoint point_)
-    : graph{graph_},
-      platform{platform_},
-      queue{queue_},
-      point{point_},
-      nodes(graph_.nodes().size()),
-      topics(graph_.topics().size()),
-      advanced_to{queue_.now()} {
+VirtualComputer::VirtualComputer(const Graph& hosted,
+                                 const Platform& model,
+                                 EventQueue& events,
+                                 OperatingPoint first)
+    : graph{hosted},
+      platform{model},
+      queue{events},
+      point{first},
+      nodes(hosted.nodes().size()),
+      topics(hosted.topics().size()),
+      advanced_to{events.now()} {
   FLYBALL_ASSERT(point.cores >= 1 && point.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
                  point.cores, point.frequency.value());
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../runtime/src/core_shares.h"
+#include "core_shares.h"
 
 #include <numeric>
 

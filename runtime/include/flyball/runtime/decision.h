@@ -5,8 +5,8 @@
 /// What a decision sets, and why.
 
 #include <array>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace flyball {

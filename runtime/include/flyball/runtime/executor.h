@@ -18,11 +18,11 @@ struct JobRecord {
   MissionTime released{};
   MissionTime started{};  ///< The same as `ended` when it was killed before it got a core.
   MissionTime ended{};
-  Duration busy{};       ///< Core time that it got.
+  Duration busy{};  ///< Core time that it got.
   Work work{};
-  bool killed{};         ///< By `OnMiss::skip`.
-  bool missed{};         ///< Its deadline.
-  double host_s{};       ///< Host time of the computation: never part of the trace hash.
+  bool killed{};    ///< By `OnMiss::skip`.
+  bool missed{};    ///< Its deadline.
+  double host_s{};  ///< Host time of the computation: never part of the trace hash.
 };
 
 class Executor {
@@ -48,7 +48,8 @@ class Executor {
   /// A job passed its deadline, told at that moment, once. Under `skip` it is killed next.
   virtual void on_miss(std::function<void(int node, OnMiss)> listener) = 0;
 
-  /// Running jobs keep their progress and go on at the new rate after the platform's switching time.
+  /// Running jobs keep their progress and go on at the new rate after the platform's switching
+  /// time.
   virtual void set_operating_point(const OperatingPoint& point) = 0;
   [[nodiscard]] virtual const OperatingPoint& operating_point() const = 0;
   /// Core-seconds of work done since the start.

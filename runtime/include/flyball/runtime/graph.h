@@ -61,8 +61,8 @@ struct NodeSpec {
   std::string name;
   std::string cost;  ///< Kernel name on the platform's price list. Empty: takes no time.
   std::variant<OnMessage, OnPeriod> trigger{OnPeriod{}};
-  int priority{};        ///< Higher runs first.
-  Duration deadline{};   ///< From release to end; zero: none.
+  int priority{};       ///< Higher runs first.
+  Duration deadline{};  ///< From release to end; zero: none.
   OnMiss on_miss{OnMiss::warn};
   int threads{1};
   /// Topics besides the trigger. A job that touches one that is not declared is a broken
@@ -125,7 +125,8 @@ class Graph {
   }
   template <class Request, class Response>
   Service<Request, Response> service(const std::string& name, std::size_t capacity = 4) {
-    return {topic<Request>(name + ".request", capacity), topic<Response>(name + ".response", capacity)};
+    return {topic<Request>(name + ".request", capacity),
+            topic<Response>(name + ".response", capacity)};
   }
   /// @pre `spec.name` is new; its topics exist; `threads >= 1`.
   void node(NodeSpec spec, Body body);

@@ -17,7 +17,7 @@ namespace flyball {
 struct KnobSpec {
   std::string name;  ///< `map.resolution_m`
   std::string unit;
-  std::string owner;  ///< Node, or `platform`, or `mission`.
+  std::string owner;            ///< Node, or `platform`, or `mission`.
   std::vector<double> legal{};  ///< Ascending; empty: every value in [min, max].
   double min{};
   double max{};

@@ -59,8 +59,8 @@ struct NavigationSample {
   bool has_fix{};                   ///< Whether this sample carries a new GPS fix.
   double latitude_rad{};
   double longitude_rad{};
-  double height_m{};                ///< Above the WGS-84 ellipsoid.
-  Vec3 v_gps_W{Vec3::Zero()};       ///< Doppler velocity, east-north-up [m/s].
+  double height_m{};           ///< Above the WGS-84 ellipsoid.
+  Vec3 v_gps_W{Vec3::Zero()};  ///< Doppler velocity, east-north-up [m/s].
   Eigen::Quaterniond q_WB_ahrs{Eigen::Quaterniond::Identity()};  ///< From the flight controller.
 };
 

@@ -17,20 +17,21 @@ struct Observation {
   MissionTime now{};
   MissionPhase phase{MissionPhase::wait};
   double speed_m_s{};
-  double known_free_m{};       ///< Along the committed path; 0 when there is none.
-  double obstacle_density{};   ///< Share of .8 m columns around the vehicle that hold an obstacle, 0..1.
-  double nearest_obstacle_m{}; ///< In the map, from the body's centre; 20 when none is nearer.
+  double known_free_m{};        ///< Along the committed path; 0 when there is none.
+  double obstacle_density{};    ///< Share of .8 m columns around the vehicle that hold an obstacle,
+                                ///< 0..1.
+  double nearest_obstacle_m{};  ///< In the map, from the body's centre; 20 when none is nearer.
   double distance_to_goal_m{};
   double tracking_error_m{};
-  double map_resolution_m{};    ///< In force now.
-  Duration latency{};           ///< Newest sensor-to-command time.
-  Duration latency_bound{};     ///< In force for the speed limit.
+  double map_resolution_m{};         ///< In force now.
+  Duration latency{};                ///< Newest sensor-to-command time.
+  Duration latency_bound{};          ///< In force for the speed limit.
   std::uint32_t deadline_misses{};   ///< Since the last decision.
   std::uint32_t queue_drops{};       ///< Since the last decision.
   std::uint32_t planner_failures{};  ///< In a row.
   int cores{};
   Hertz frequency{};
-  double busy_cores{};          ///< Mean since the last decision.
+  double busy_cores{};  ///< Mean since the last decision.
   Watts computer_power{};
   Watts rotor_power{};
   double battery_percent{};

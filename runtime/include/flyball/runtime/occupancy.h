@@ -28,13 +28,20 @@ class OccupancyView {
   /// Whether an occupied cube overlaps the box.
   [[nodiscard]] virtual bool has_occupied(const Aabb& box) const = 0;
   /// Whether an occupied cube overlaps the body anywhere on the segment (exact: no gaps).
-  [[nodiscard]] virtual bool segment_hits(const Vec3& from, const Vec3& to, const Cylinder& body) const = 0;
+  [[nodiscard]] virtual bool segment_hits(const Vec3& from,
+                                          const Vec3& to,
+                                          const Cylinder& body) const = 0;
   /// Share of the .8 m columns within `radius_m` of `p_W` (altitude band ± `half_band_m`) that hold
   /// an occupied cell, 0..1. The column size is fixed, so that the figure means the same at every
   /// map resolution.
-  [[nodiscard]] virtual double obstacle_density(const Vec3& p_W, double radius_m, double half_band_m) const = 0;
-  /// Distance from `p_W` to the nearest occupied cube in the altitude band; `limit_m` when none is nearer.
-  [[nodiscard]] virtual double nearest_obstacle_m(const Vec3& p_W, double limit_m, double half_band_m) const = 0;
+  [[nodiscard]] virtual double obstacle_density(const Vec3& p_W,
+                                                double radius_m,
+                                                double half_band_m) const = 0;
+  /// Distance from `p_W` to the nearest occupied cube in the altitude band; `limit_m` when none is
+  /// nearer.
+  [[nodiscard]] virtual double nearest_obstacle_m(const Vec3& p_W,
+                                                  double limit_m,
+                                                  double half_band_m) const = 0;
 };
 
 }  // namespace flyball

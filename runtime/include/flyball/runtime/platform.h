@@ -54,13 +54,13 @@ class Platform {
 struct KernelCost {
   std::map<std::string, double, std::less<>> seconds_per{};  ///< c_i by work name, at 1 GHz.
   double scale{1.0};
-  double a{1.0};                ///< Share that scales with the clock [GHz].
-  double b{};                   ///< Share that does not (memory).
-  double parallel_fraction{};   ///< 0: the kernel runs on one core only.
+  double a{1.0};               ///< Share that scales with the clock [GHz].
+  double b{};                  ///< Share that does not (memory).
+  double parallel_fraction{};  ///< 0: the kernel runs on one core only.
 };
 
-/// P_in = board + converter * (P_soc + P_memory + const + linear f + sum_i u_i (core_linear f + core_cubic f^3)),
-/// f in GHz (facts in the platform file).
+/// P_in = board + converter * (P_soc + P_memory + const + linear f + sum_i u_i (core_linear f +
+/// core_cubic f^3)), f in GHz (facts in the platform file).
 struct PowerCost {
   double board_w{};
   double converter{1.0};
@@ -87,9 +87,13 @@ class ModeledPlatform final : public Platform {
   explicit ModeledPlatform(PlatformModel model);
 
   [[nodiscard]] const std::string& name() const override { return model_.name; }
-  [[nodiscard]] const std::vector<Hertz>& frequencies() const override { return model_.frequencies; }
+  [[nodiscard]] const std::vector<Hertz>& frequencies() const override {
+    return model_.frequencies;
+  }
   [[nodiscard]] int max_cores() const override { return model_.max_cores; }
-  [[nodiscard]] Duration job_time(std::string_view kernel, const Work& work, Hertz frequency) const override;
+  [[nodiscard]] Duration job_time(std::string_view kernel,
+                                  const Work& work,
+                                  Hertz frequency) const override;
   [[nodiscard]] double speedup(std::string_view kernel, double cores) const override;
   [[nodiscard]] bool knows(std::string_view kernel) const override;
   [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override;

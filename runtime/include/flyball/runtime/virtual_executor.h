@@ -21,8 +21,13 @@ struct VirtualComputer;  // see runtime/src/virtual_computer.h
 class VirtualExecutor final : public Executor {
  public:
   /// Graph, platform and queue outlive the executor.
-  VirtualExecutor(const Graph& graph, const Platform& platform, EventQueue& queue, OperatingPoint point);
+  VirtualExecutor(const Graph& graph,
+                  const Platform& platform,
+                  EventQueue& queue,
+                  OperatingPoint point);
   ~VirtualExecutor() override;
+  VirtualExecutor(const VirtualExecutor&) = delete;
+  VirtualExecutor& operator=(const VirtualExecutor&) = delete;
 
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
