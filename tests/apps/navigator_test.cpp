@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "navigator.h"
+
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+Trajectory straight(const Vec3& from, const Vec3& to) {
+  PolynomialPiece piece;
+  piece.duration_s = (to - from).norm();
+  piece.c.col(0) = from;
+  piece.c.col(1) = (to - from) / piece.duration_s;
+  return {{piece}};
+}
+
+struct Trip {
+  Trip() : map{kit::corridor(60.0)}, rig{map}, navigator{*rig.context} {
+    navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
+  }
+  void tick(int n) {
+    for (int i = 0; i < n; ++i) {
+      now += 20ms;
+      where.X_WB.translation() = navigator.follower().position_W();
+      navigator.map_published(now, {++revision, now - 100ms, now, 0.15}, 100ms);
+      (void)navigator.tick(now, 20ms, where);
+    }
+  }
+  GridMap map;
+  kit::MissionRig rig;
+  Navigator navigator;
+  PoseEstimate where{};
+  MissionTime now{1s};
+  std::uint64_t revision{};
+};
+
+TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
+  Trip trip;
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+  trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());  // One at a time.
+  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
+  trip.tick(2000);
+  EXPECT_TRUE(trip.navigator.has_arrived());
+}
+
+TEST(Navigator,
+     plans_from_a_point_ahead_when_its_path_is_blocked_and_stops_there_if_no_answer_comes) {
+  Trip trip;
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  const auto first = trip.navigator.next_query(trip.now);
+  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.tick(100);
+  const double x = trip.navigator.follower().position_W().x();
+  trip.navigator.path_checked(trip.now, {30.0, 25.0}, trip.navigator.path_number());
+  const auto second = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(second.has_value());
+  EXPECT_GT(second->start_W.x(), x);
+  EXPECT_NEAR(second->start_direction_W.x(), 1.0, 1e-6);
+  trip.tick(1000);
+  EXPECT_NEAR(trip.navigator.follower().position_W().x(), second->start_W.x(), 0.02);
+}
+
+TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
+  Trip trip;
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  const auto query = trip.navigator.next_query(trip.now);
+  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
+  trip.navigator.path_checked(trip.now, {3.0, 2.0}, trip.navigator.path_number() - 1);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+}
+
+TEST(Navigator, gives_up_with_no_plan_after_the_time_limit) {
+  Trip trip;
+  trip.rig.scenario.mission.plan_time_limit_s = 5.0;
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  for (int i = 0; i < 400 && !trip.rig.context->is_over(); ++i) {
+    if (const auto query = trip.navigator.next_query(trip.now)) {
+      trip.navigator.plan_failed(trip.now, query->id, "no path");
+    }
+    trip.tick(1);
+  }
+  EXPECT_EQ(trip.rig.context->failure(), MissionFailure::no_plan);
+  EXPECT_GT(trip.rig.context->counters.planner_failures_in_row, 3);
+}
+
+TEST(Navigator, bounds_latency_by_the_worst_of_late_and_counts_what_exceeds_it) {
+  Trip trip;
+  trip.tick(30);
+  EXPECT_EQ(trip.rig.context->counters.bound_overruns, 0U);
+  trip.navigator.map_published(trip.now, {99, trip.now - 900ms, trip.now, 0.15}, 100ms);
+  EXPECT_EQ(trip.rig.context->counters.bound_overruns, 1U);
+  EXPECT_GE(trip.navigator.follower().latency_bound(), 990ms);
+}
+
+}  // namespace
+}  // namespace flyball

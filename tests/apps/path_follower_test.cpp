@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "path_follower.h"
+
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Ride {
+  explicit Ride(double known_to_m)
+      : map{kit::corridor(known_to_m)}, rig{map}, follower{*rig.context} {
+    follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
+    follower.set_latency_bound(200ms);
+    follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0);
+    follower.refresh_known_free(map);
+  }
+  void tick(int n) {
+    for (int i = 0; i < n; ++i) {
+      now += 20ms;
+      follower.map_published({1, now, now, 0.15});
+      follower.tick(now, 20ms);
+    }
+  }
+  GridMap map;
+  kit::MissionRig rig;
+  PathFollower follower;
+  MissionTime now{};
+};
+
+TEST(PathFollower, stops_before_the_first_place_that_is_not_known_free) {
+  Ride ride{20.0};
+  const double last_free_m = ride.follower.known_free_m();
+  ride.tick(2000);
+  EXPECT_LT(ride.follower.s_m(), 20.0 - 0.325);  // The body's radius short of unknown space.
+  EXPECT_LE(ride.follower.s_m(), last_free_m);
+  EXPECT_GT(ride.follower.s_m(), 19.0);
+  EXPECT_LT(ride.follower.speed_m_s(), 0.1);
+}
+
+TEST(PathFollower, flies_slower_with_a_larger_latency) {
+  Ride quick{60.0};
+  Ride slow{60.0};
+  slow.follower.set_latency_bound(2s);
+  quick.tick(100);
+  slow.tick(100);
+  EXPECT_GT(quick.follower.speed_m_s(), 1.3 * slow.follower.speed_m_s());
+}
+
+TEST(PathFollower, never_exceeds_the_guards_speed_at_any_tick) {
+  Ride ride{30.0};
+  for (int i = 0; i < 1500; ++i) {
+    ride.tick(1);
+    const double v = ride.follower.speed_m_s();
+    const double stop_m = v * v / (2.0 * 6.0);
+    EXPECT_LE(stop_m, ride.follower.known_free_m() + 1e-6) << "at tick " << i;
+  }
+}
+
+TEST(PathFollower, arrives_at_the_end_of_a_known_path) {
+  Ride ride{60.0};
+  ride.tick(3000);
+  EXPECT_TRUE(ride.follower.is_at_end());
+  EXPECT_EQ(ride.follower.speed_m_s(), 0.0);
+}
+
+TEST(PathFollower, stops_at_a_committed_stop_and_goes_on_with_the_next_plan) {
+  Ride ride{60.0};
+  ride.tick(50);
+  const double splice_m = ride.follower.stop_point_m();
+  ride.follower.commit_stop(splice_m);
+  ride.tick(500);
+  EXPECT_NEAR(ride.follower.s_m(), splice_m, 0.01);
+  EXPECT_FALSE(ride.follower.is_at_end());
+  const Vec3 from = ride.follower.position_W();
+  ride.follower.adopt(Path::polyline({from, Vec3{40, 2, 1.5}}), splice_m);
+  ride.follower.refresh_known_free(ride.map);
+  ride.tick(2000);
+  EXPECT_NEAR((ride.follower.position_W() - Vec3{40, 2, 1.5}).norm(), 0.0, 0.02);
+}
+
+TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
+  GridMap map = kit::corridor(60.0);
+  kit::MissionRig rig{map};
+  PathFollower follower{*rig.context};
+  follower.hover_at(Vec3{10, 0, 1.5}, 0.0);
+  follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0);
+  MissionTime now{};
+  for (int i = 0; i < 150; ++i) {
+    follower.tick(now += 20ms, 20ms);
+  }
+  EXPECT_GT(std::abs(follower.yaw_rad()), 2.5);
+}
+
+}  // namespace
+}  // namespace flyball
