@@ -185,7 +185,9 @@ void FlightController::slew_yaw(const Setpoint& wanted, double dt_s) {
   const double limit = gains_.max_yaw_rate_rad_s;
   const double rate = std::clamp(wanted.yaw_rate_rad_s + std::copysign(most, gap), -limit, limit);
   const double largest = gains_.max_yaw_acceleration_rad_s2 * dt_s;
-  yaw_rate_rad_s_ += std::clamp(rate - yaw_rate_rad_s_, -largest, largest);
+  const double change = std::clamp(rate - yaw_rate_rad_s_, -largest, largest);
+  yaw_acceleration_rad_s2_ = change / dt_s;
+  yaw_rate_rad_s_ += change;
   yaw_rad_ = wrap_angle(yaw_rad_ + yaw_rate_rad_s_ * dt_s);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: flight_controller
 //
 // How the flight controller pushes: acceleration, attitude, rates, rotors.
 
@@ -77,7 +78,9 @@ Vec3 FlightController::torque(const VehicleState& state, const Vec3& force_W) co
   const Vec3 gains{gains_.rate, gains_.rate, gains_.yaw_rate};
   const Vec3 inertia = airframe_.inertia_kg_m2();
   const Vec3& w = state.w_WB_B;
-  return inertia.cwiseProduct(gains.cwiseProduct(w_wanted - w)) + w.cross(inertia.cwiseProduct(w));
+  Vec3 turn = gains.cwiseProduct(w_wanted - w);
+  turn.z() += yaw_acceleration_rad_s2_;
+  return inertia.cwiseProduct(turn) + w.cross(inertia.cwiseProduct(w));
 }
 
 /// Thrust per rotor is the sum of collective, tilt and yaw shares. What does not fit between idle

@@ -4,6 +4,7 @@
 
 #include "flyball/runtime/assert.h"
 
+#include "vehicle_forces.h"
 #include <algorithm>
 #include <cmath>
 
@@ -12,120 +13,8 @@
 namespace flyball {
 namespace {
 
-// Legs of rubber on concrete: half a gram of sink per newton; nothing in flight depends on them.
-constexpr double sink_at_rest_m = 0.002;       // own choice: gives the stiffness
-constexpr double contact_damping_ratio = 0.7;  // own choice: no second bounce
-constexpr double friction = 0.6;               // own choice
-constexpr double friction_slip_m_s =
-    0.05;  // below it friction is viscous, so that Euler stays stable
 constexpr double contact_step_s = 0.001;  // the stiff contact bounds the step, flight does not
 constexpr double payload_gap_m = 0.02;  // payload's centre below the body's lower face: own choice
-
-SimTK::Vec3 simtk(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-Vec3 eigen(const SimTK::Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
-
-/// What acts on the body now, and shares of it that the energy balance needs. Wrenches are about
-/// the body's origin, in W.
-struct Loads {
-  std::array<double, 4> thrust_n{};
-  double reaction_nm{};  ///< About the body's z axis.
-  Vec3 wind_W{Vec3::Zero()};
-  SimTK::SpatialVec rotors{};
-  SimTK::SpatialVec drag{};
-  SimTK::SpatialVec contact{};
-};
-
-/// What the loads depend on and does not change in flight.
-struct Shape {
-  std::array<SimTK::Vec3, 4> rotors_B;
-  std::array<SimTK::Vec3, 4> feet_B;
-  double drag_factor{};  ///< rho c_d A / 2
-  double ground_z_m{};
-  double stiffness_n_m{};  ///< Of one foot.
-  double damping_n_s_m{};
-};
-
-Shape shape_of(const Airframe& a, double ground_z_m) {
-  Shape shape;
-  const auto rotors_B = a.rotor_points_B();
-  for (std::size_t i = 0; i < 4; ++i) {
-    shape.rotors_B[i] = simtk(rotors_B[i]);
-    // A foot under the middle of each arm, on the lower face of the collision cylinder.
-    shape.feet_B[i] =
-        SimTK::Vec3{0.5 * rotors_B[i].x(), 0.5 * rotors_B[i].y(), -0.5 * a.body_height_m};
-  }
-  shape.drag_factor = 0.5 * air_density_kg_m3 * a.drag_area_m2;
-  shape.ground_z_m = ground_z_m;
-  const double share_kg = 0.25 * a.mass_kg;
-  shape.stiffness_n_m = share_kg * gravity_m_s2 / sink_at_rest_m;
-  shape.damping_n_s_m = 2.0 * contact_damping_ratio * std::sqrt(shape.stiffness_n_m * share_kg);
-  return shape;
-}
-
-/// All forces but gravity.
-class BodyForce final : public SimTK::Force::Custom::Implementation {
- public:
-  BodyForce(const SimTK::MobilizedBody& body, const Shape& shape, Loads& loads)
-      : body_{body}, shape_{shape}, loads_{loads} {}
-
-  void calcForce(const SimTK::State& state,
-                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                 SimTK::Vector_<SimTK::Vec3>& /*particle_forces*/,
-                 SimTK::Vector& /*mobility_forces*/) const override {
-    const SimTK::Transform& X_WB = body_.getBodyTransform(state);
-    const SimTK::SpatialVec& V_WB = body_.getBodyVelocity(state);
-    loads_.rotors = rotors(X_WB.R());
-    loads_.drag = drag(V_WB[1]);
-    loads_.contact = contact(X_WB, V_WB);
-    body_.applyBodyForce(state, loads_.rotors + loads_.drag + loads_.contact, body_forces);
-  }
-  // Gravity's is counted by the vehicle; the legs' springs count as contact.
-  SimTK::Real calcPotentialEnergy(const SimTK::State& /*state*/) const override { return 0.0; }
-
- private:
-  SimTK::SpatialVec rotors(const SimTK::Rotation& R_WB) const {
-    SimTK::Vec3 torque_B{0.0, 0.0, loads_.reaction_nm};
-    double thrust_n = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double t = loads_.thrust_n[i];
-      thrust_n += t;
-      torque_B += SimTK::Vec3{shape_.rotors_B[i][1] * t, -shape_.rotors_B[i][0] * t, 0.0};
-    }
-    return {R_WB * torque_B, thrust_n * SimTK::Vec3{R_WB.z()}};
-  }
-
-  SimTK::SpatialVec drag(const SimTK::Vec3& v_WB) const {
-    const SimTK::Vec3 airspeed = v_WB - simtk(loads_.wind_W);
-    return {SimTK::Vec3{0.0}, -shape_.drag_factor * airspeed.norm() * airspeed};
-  }
-
-  SimTK::SpatialVec contact(const SimTK::Transform& X_WB, const SimTK::SpatialVec& V_WB) const {
-    SimTK::SpatialVec sum{SimTK::Vec3{0.0}, SimTK::Vec3{0.0}};
-    for (const SimTK::Vec3& foot_B : shape_.feet_B) {
-      const SimTK::Vec3 arm = X_WB.R() * foot_B;
-      const double sink_m = shape_.ground_z_m - (X_WB.p()[2] + arm[2]);
-      if (sink_m <= 0.0) {
-        continue;
-      }
-      const SimTK::Vec3 v = V_WB[1] + V_WB[0] % arm;
-      const double normal_n =
-          std::max(0.0, shape_.stiffness_n_m * sink_m - shape_.damping_n_s_m * v[2]);
-      const double slip_m_s = std::max(friction_slip_m_s, std::hypot(v[0], v[1]));
-      const double grip = friction * normal_n / slip_m_s;
-      const SimTK::Vec3 force{-grip * v[0], -grip * v[1], normal_n};
-      sum += SimTK::SpatialVec{arm % force, force};
-    }
-    return sum;
-  }
-
-  const SimTK::MobilizedBody& body_;
-  const Shape& shape_;
-  Loads& loads_;
-};
 
 SimTK::Body::Rigid rigid(const Airframe& a, double payload_kg) {
   const SimTK::Vec3 at{0.0, 0.0, -0.5 * a.body_size_m.z() - payload_gap_m};
@@ -237,7 +126,7 @@ void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
   seen.X_WB.translation() = Vec3{q[4], q[5], q[6]};
   seen.w_WB_B = R_WB.transpose() * Vec3{u[0], u[1], u[2]};
   seen.v_WB = Vec3{u[3], u[4], u[5]};
-  seen.a_WB = eigen(a_WB);
+  seen.a_WB = Vec3{a_WB[0], a_WB[1], a_WB[2]};
 }
 
 Vehicle::Vehicle(const Airframe& airframe,

@@ -44,14 +44,14 @@ class FlightController {
   /// Tuned on the Matrice 100, see tests/sim/flight_controller_test.cpp; the angular ones are rates
   /// of a closed loop, so they fit any airframe whose rotors are as quick.
   struct Gains {
-    double position{2.0};       ///< 1/s
-    double velocity{4.0};       ///< 1/s
+    double position{2.5};       ///< 1/s
+    double velocity{5.0};       ///< 1/s
     double disturbance_s{0.3};  ///< Time constant of the wind and mass observer.
-    double attitude{12.0};      ///< 1/s
-    double rate{28.0};          ///< 1/s
+    double attitude{15.0};      ///< 1/s
+    double rate{35.0};          ///< 1/s
     double yaw{3.0};            ///< 1/s
     double yaw_rate{8.0};       ///< 1/s: reaction torque is weak, so slower than `rate`
-    double rotor_s{0.015};      ///< Time constant that the commands' lead makes of the rotors'.
+    double rotor_s{0.012};      ///< Time constant that the commands' lead makes of the rotors'.
     double max_tilt_rad{0.75};
     double max_yaw_rate_rad_s{1.5707963267948966};
     double max_yaw_acceleration_rad_s2{4.0};
@@ -81,6 +81,7 @@ class FlightController {
   double goal_height_m_{};
   double yaw_rad_{};  ///< Reference within the rate limit.
   double yaw_rate_rad_s_{};
+  double yaw_acceleration_rad_s2_{};
   double touching_s_{};
   Vec3 disturbance_{
       Vec3::Zero()};  ///< What accelerates the vehicle beside thrust and gravity [m/s^2].

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/sim/vehicle.h"
+
+#include "flight.h"
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double dt_s = 0.001;
+const Vec3 calm = Vec3::Zero();
+
+/// High above the ground and without air resistance, unless a test wants some.
+Airframe in_vacuum() {
+  Airframe airframe = shipped_airframe("matrice_100");
+  airframe.drag_area_m2 = 0.0;
+  return airframe;
+}
+
+double hover_rev_s(const Airframe& airframe, double mass_kg) {
+  return std::sqrt(mass_kg * gravity_m_s2 / (4.0 * airframe.thrust_per_n2()));
+}
+
+RotorSpeeds all(double rev_s) {
+  return {rev_s, rev_s, rev_s, rev_s};
+}
+
+TEST(Vehicle, falls_freely) {
+  Vehicle vehicle{in_vacuum(), 0.5, {0.0, 0.0, 100.0}, 0.3, 0.0};
+  const double t = 2.0;
+  for (int i = 0; i < 2000; ++i) {
+    vehicle.step(dt_s, all(0.0), calm);
+  }
+  EXPECT_NEAR(vehicle.state().v_WB.z(), -gravity_m_s2 * t, 1e-9);
+  // Semi-explicit Euler falls ahead by g t dt / 2 and no more.
+  EXPECT_NEAR(vehicle.state().X_WB.translation().z(),
+              100.0 - 0.5 * gravity_m_s2 * t * t - 0.5 * gravity_m_s2 * t * dt_s, 1e-9);
+  EXPECT_LT(vehicle.state().w_WB_B.norm(), 1e-12);
+}
+
+TEST(Vehicle, reaches_the_terminal_speed_of_quadratic_drag) {
+  Airframe airframe = in_vacuum();
+  airframe.drag_area_m2 = 0.2;
+  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 1000.0}, 0.0, 0.0};
+  const Vec3 wind_W{3.0, 0.0, 0.0};
+  for (int i = 0; i < 10000; ++i) {
+    vehicle.step(dt_s, all(0.0), wind_W);
+  }
+  const double terminal_m_s = std::sqrt(2.0 * vehicle.mass_kg() * gravity_m_s2 /
+                                        (air_density_kg_m3 * airframe.drag_area_m2));
+  EXPECT_NEAR(vehicle.state().v_WB.z(), -terminal_m_s, 1e-3 * terminal_m_s);
+  EXPECT_NEAR(vehicle.state().v_WB.x(), wind_W.x(), 0.01);  // Carried along by the wind.
+}
+
+TEST(Vehicle, hovers_when_thrust_equals_weight) {
+  for (const double payload_kg : {0.0, 1.0}) {
+    const Airframe airframe = in_vacuum();
+    Vehicle vehicle{airframe, payload_kg, {0.0, 0.0, 100.0}, 0.0, 0.0};
+    for (int i = 0; i < 2000; ++i) {
+      vehicle.step(dt_s, all(hover_rev_s(airframe, vehicle.mass_kg())), calm);
+    }
+    EXPECT_LT(vehicle.state().a_WB.norm(), 1e-9);
+    EXPECT_LT(vehicle.state().w_WB_B.norm(), 1e-9);
+  }
+}
+
+TEST(Vehicle, rotors_follow_their_command_exactly_at_any_step) {
+  const Airframe airframe = in_vacuum();
+  for (const double step_s : {0.001, 0.004, 0.02}) {
+    Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+    for (double t = 0.0; t < airframe.rotor_lag_s - 1e-9; t += step_s) {
+      vehicle.step(step_s, all(60.0), calm);
+    }
+    EXPECT_NEAR(vehicle.state().rotor_rev_s[2], 60.0 * (1.0 - std::exp(-1.0)), 1e-9) << step_s;
+    // Impulse of the spin-up, closed form of the integral of n^2 over one time constant.
+    const double e1 = std::exp(-1.0);
+    const double n2_s =
+        3600.0 * airframe.rotor_lag_s * (1.0 - 2.0 * (1.0 - e1) + 0.5 * (1.0 - e1 * e1));
+    const double thrust_m_s = 4.0 * airframe.thrust_per_n2() * n2_s / airframe.mass_kg;
+    EXPECT_NEAR(vehicle.state().v_WB.z(), thrust_m_s - gravity_m_s2 * airframe.rotor_lag_s, 1e-9);
+  }
+}
+
+TEST(Vehicle, limits_the_rotors_to_their_fastest) {
+  const Airframe airframe = in_vacuum();
+  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  for (int i = 0; i < 1000; ++i) {
+    vehicle.step(dt_s, all(1e6), calm);
+  }
+  EXPECT_NEAR(vehicle.state().rotor_rev_s[0], airframe.max_rotor_rev_s(), 1e-6);
+  EXPECT_NEAR(vehicle.state().a_WB.z() / gravity_m_s2 + 1.0, 2.17, 0.01);  // Thrust to weight
+}
+
+/// Angular acceleration after the rotors have settled, within a step that begins at rest.
+Vec3 turn_of(const RotorSpeeds& speeds) {
+  Airframe airframe = in_vacuum();
+  airframe.rotor_lag_s = 1e-6;
+  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  vehicle.step(dt_s, speeds, calm);
+  return vehicle.state().w_WB_B / dt_s;
+}
+
+TEST(Vehicle, turns_about_each_axis_by_torque_over_inertia) {
+  const Airframe airframe = in_vacuum();
+  const Vec3 inertia = airframe.inertia_kg_m2();
+  const double slow = 50.0;
+  const double fast = 60.0;
+  const double more_n = airframe.thrust_per_n2() * (fast * fast - slow * slow);
+  const double lever_m = airframe.arm_m / std::sqrt(2.0);
+  // The lag's remainder within the first step is below 1e-2 of the mean.
+  const Vec3 roll = turn_of({fast, slow, slow, fast});  // Left pair: rolls to the right.
+  EXPECT_NEAR(roll.x(), 2.0 * lever_m * more_n / inertia.x(), 0.01 * roll.x());
+  const Vec3 pitch = turn_of({slow, slow, fast, fast});  // Rear pair: nose down.
+  EXPECT_NEAR(pitch.y(), 2.0 * lever_m * more_n / inertia.y(), 0.01 * pitch.y());
+  const Vec3 yaw = turn_of({fast, slow, fast, slow});  // The clockwise pair: to the left.
+  const double more_nm = airframe.torque_per_n2() * (fast * fast - slow * slow);
+  EXPECT_NEAR(yaw.z(), 2.0 * more_nm / inertia.z(), 0.01 * yaw.z());
+  EXPECT_GT(std::min({roll.x(), pitch.y(), yaw.z()}), 1.0);
+}
+
+TEST(Vehicle, stands_on_its_legs_and_does_not_slide_in_wind) {
+  const Airframe airframe = shipped_airframe("matrice_100");
+  Vehicle vehicle{airframe, 0.5, {0.0, 0.0, 0.5 * airframe.body_height_m}, 0.0, 0.0};
+  for (const double step_s : {0.001, 0.004}) {
+    for (int i = 0; i < 1000; ++i) {
+      vehicle.step(step_s, all(0.0), {5.0, 0.0, 0.0});
+    }
+    const double sunk_m = 0.5 * airframe.body_height_m - vehicle.state().X_WB.translation().z();
+    EXPECT_NEAR(sunk_m, 0.002 * vehicle.mass_kg() / airframe.mass_kg, 2e-4);
+    EXPECT_LT(vehicle.state().v_WB.norm(), 0.01);
+    EXPECT_GT(vehicle.state().X_WB.linear()(2, 2), 0.9999);
+  }
+}
+
+TEST(Vehicle, loses_in_the_legs_what_it_fell) {
+  const Airframe airframe = in_vacuum();
+  const double stand_m = 0.5 * airframe.body_height_m;
+  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, stand_m + 0.5}, 0.0, 0.0};
+  const double before_j = vehicle.potential_j();
+  for (int i = 0; i < 3000; ++i) {
+    vehicle.step(dt_s, all(0.0), calm);
+  }
+  EXPECT_LT(vehicle.state().v_WB.norm(), 1e-3);
+  const double fallen_j = before_j - vehicle.potential_j();
+  EXPECT_NEAR(fallen_j, vehicle.mass_kg() * gravity_m_s2 * 0.502, 0.01);
+  EXPECT_NEAR(vehicle.contact_loss_j(), fallen_j, 0.01 * fallen_j);
+}
+
+TEST(Vehicle, balances_its_energy_over_a_flight) {
+  for (const double step_s : {0.001, 0.004}) {
+    const Airframe airframe = shipped_airframe("matrice_100");
+    Flight flight{0.5, step_s, 4.0};
+    flight.wind_W = {2.0, -4.0, 0.0};
+    const auto residual_j = [&flight] {
+      const Vehicle& v = flight.vehicle;
+      return v.rotor_work_j() - v.kinetic_j() - v.potential_j() - v.drag_loss_j() -
+             v.contact_loss_j();
+    };
+    const double start_j = residual_j();
+    Turn turn;
+    turn.speed_m_s = 6.0;
+    turn.radius_m = 9.0;
+    turn.height_m = 4.0;
+    flight.follow(6.0, turn);
+    flight.controller.hold(flight.state());
+    flight.run(2.0);
+    flight.controller.land(flight.state());
+    flight.run(8.0);
+    ASSERT_EQ(flight.controller.mode(), FlightMode::idle);
+    EXPECT_GT(flight.vehicle.drag_loss_j(), 20.0);
+    std::printf(
+        "energy at steps of %.0f ms: rotors %.2f J, drag %.2f J, ground %.2f J, left over %.4f J\n",
+        1e3 * step_s, flight.vehicle.rotor_work_j(), flight.vehicle.drag_loss_j(),
+        flight.vehicle.contact_loss_j(), residual_j() - start_j);
+    EXPECT_LT(std::abs(residual_j() - start_j), 0.01 * std::abs(flight.vehicle.rotor_work_j()));
+  }
+}
+
+TEST(Vehicle, goes_on_when_the_payload_leaves) {
+  const Airframe airframe = in_vacuum();
+  Vehicle vehicle{airframe, 1.0, {0.0, 0.0, 100.0}, 0.4, 0.0};
+  const double hover = hover_rev_s(airframe, vehicle.mass_kg());
+  for (int i = 0; i < 1000; ++i) {
+    vehicle.step(dt_s, {hover, hover, hover + 0.01, hover}, calm);
+  }
+  const VehicleState before = vehicle.state();
+  vehicle.set_payload(0.0);
+  EXPECT_DOUBLE_EQ(vehicle.mass_kg(), airframe.mass_kg);
+  EXPECT_EQ(vehicle.state().X_WB.matrix(), before.X_WB.matrix());
+  vehicle.step(1e-9, before.rotor_rev_s, calm);
+  EXPECT_LT((vehicle.state().v_WB - before.v_WB).norm(), 1e-7);
+  EXPECT_LT((vehicle.state().w_WB_B - before.w_WB_B).norm(), 1e-7);
+  EXPECT_LT((vehicle.state().X_WB.matrix() - before.X_WB.matrix()).norm(), 1e-7);
+  // The same thrust now lifts less: a = (m_before / m_after) (a + g) - g along the thrust.
+  const double lift_m_s2 = (vehicle.state().a_WB + gravity_m_s2 * Vec3::UnitZ()).norm();
+  EXPECT_NEAR(lift_m_s2, gravity_m_s2 * (airframe.mass_kg + 1.0) / airframe.mass_kg, 0.01);
+}
+
+TEST(Vehicle, repeats_itself_bit_for_bit) {
+  const auto fly = [] {
+    Flight flight{0.5};
+    flight.wind_W = {1.0, 2.0, 0.0};
+    flight.follow(2.0, Turn{});
+    return flight.state();
+  };
+  const VehicleState a = fly();
+  const VehicleState b = fly();
+  EXPECT_EQ(std::memcmp(a.X_WB.data(), b.X_WB.data(), 16 * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(a.v_WB.data(), b.v_WB.data(), 3 * sizeof(double)), 0);
+  EXPECT_EQ(a.rotor_rev_s, b.rotor_rev_s);
+}
+
+TEST(VehicleDeathTest, refuses_a_step_that_is_not_positive) {
+  Vehicle vehicle{in_vacuum(), 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  EXPECT_DEATH(vehicle.step(0.0, all(0.0), calm), "dt_s=0");
+}
+
+}  // namespace
+}  // namespace flyball
