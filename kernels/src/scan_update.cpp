@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_update.h"
 
+#include "ray_walk.h"
 #include <algorithm>
 #include <bitset>
 
@@ -29,9 +30,9 @@ int gathered(std::uint64_t code) {
   return x;
 }
 
-std::uint64_t bit_of(const octomap::OcTreeKey& key) {
-  const unsigned bit = (key[2] & 3U) << 4U | (key[1] & 3U) << 2U | (key[0] & 3U);
-  return std::uint64_t{1} << bit;
+std::uint64_t bit_of(const RayWalk::Cell& cell) {
+  const int bit = (cell[2] & 3) << 4 | (cell[1] & 3) << 2 | (cell[0] & 3);
+  return std::uint64_t{1} << static_cast<unsigned>(bit);
 }
 
 double count(std::uint64_t mask) {
@@ -210,25 +211,22 @@ void ScanUpdate::span_window(const octomap::OcTree& lattice, const octomap::poin
   window_.assign(bricks, Brick{});
 }
 
-ScanUpdate::Brick& ScanUpdate::brick_of(const octomap::OcTreeKey& key) {
-  const int x = key[0] / 4 - first_brick_[0];
-  const int y = key[1] / 4 - first_brick_[1];
-  const int z = key[2] / 4 - first_brick_[2];
-  return window_[static_cast<std::size_t>((z * window_size_[1] + y) * window_size_[0] + x)];
-}
-
 double ScanUpdate::mark_cells(const octomap::OcTree& lattice, const octomap::point3d& origin_W) {
+  // Copies: a store into the window may change the members, as far as the compiler knows.
+  Brick* const window = window_.data();
+  const auto [left, front, bottom] = first_brick_;
+  const auto [width, depth, height] = window_size_;
+  const auto brick_of = [=](const RayWalk::Cell& cell) -> Brick& {
+    const int row = ((cell[2] >> 2) - bottom) * depth + (cell[1] >> 2) - front;
+    return window[static_cast<std::size_t>(row * width + (cell[0] >> 2) - left)];
+  };
   std::size_t traversals = 0;
   for (const Ray& ray : rays_) {
-    if (lattice.computeRayKeys(origin_W, ray.end_W, walk_)) {
-      traversals += walk_.size();
-      for (const octomap::OcTreeKey& key : walk_) {
-        brick_of(key).free |= bit_of(key);
-      }
-    }
+    traversals += RayWalk{lattice, origin_W, ray.end_W}.visit_free(
+        [&](const RayWalk::Cell& cell) { brick_of(cell).free |= bit_of(cell); });
     if (ray.is_hit) {
-      const octomap::OcTreeKey key = lattice.coordToKey(ray.end_W);
-      brick_of(key).hit |= bit_of(key);
+      const auto cell = RayWalk::cell_of(lattice, ray.end_W);
+      brick_of(cell).hit |= bit_of(cell);
     }
   }
   return static_cast<double>(traversals);

@@ -11,6 +11,7 @@
 /// cell. The order does not matter to OctoMap: each cell is updated once, and after its last change
 /// below, every inner node is pruned or set to its children's maximum.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -58,13 +59,11 @@ class ScanUpdate {
   void span_window(const octomap::OcTree& lattice, const octomap::point3d& origin_W);
   double mark_cells(const octomap::OcTree& lattice, const octomap::point3d& origin_W);
   double collect_bricks();
-  Brick& brick_of(const octomap::OcTreeKey& key);
 
   std::vector<Ray> rays_{};
   std::vector<Brick> window_{};  ///< Dense; bricks of the box around the rays, x fastest.
-  int first_brick_[3]{};
-  int window_size_[3]{};
-  octomap::KeyRay walk_{};
+  std::array<int, 3> first_brick_{};
+  std::array<int, 3> window_size_{};
   std::vector<Brick> bricks_{};  ///< Those that change, in Morton order.
 };
 
