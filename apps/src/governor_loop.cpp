@@ -5,9 +5,10 @@ namespace flyball {
 namespace {
 
 // The neighbourhood that the two-level switch looks at: the delivery camera's 7 m less a frame's
-// travel, and the band of heights that the body may fly in.
+// travel, and a band of heights just wider than the body. A wider one would reach the ground's own
+// cells: at .80 m, depth noise marks all of [0, .80).
 constexpr double density_radius_m = 6.0;
-constexpr double density_half_band_m = 0.5;
+constexpr double density_half_band_m = 0.3;
 constexpr double nearest_limit_m = 20.0;
 
 }  // namespace
