@@ -6,14 +6,6 @@
 
 namespace flyball {
 
-namespace {
-
-/// What subtractions leave of a core that is given away; granted to the next class, it would start
-/// a job that stands still.
-constexpr double rounding = 1e-9;
-
-}  // namespace
-
 std::vector<double> share_cores(const std::vector<CoreClaim>& claims, double cores) {
   std::vector<std::size_t> order(claims.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -32,10 +24,7 @@ std::vector<double> share_cores(const std::vector<CoreClaim>& claims, double cor
     for (; first < end; ++first) {
       const double level = left / static_cast<double>(end - first);
       shares[order[first]] = std::min(claims[order[first]].most, level);
-      left -= shares[order[first]];
-    }
-    if (left < rounding) {
-      break;
+      left -= shares[order[first]];  // the last one of a class that takes all leaves exactly zero
     }
   }
   return shares;

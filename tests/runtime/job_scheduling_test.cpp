@@ -64,6 +64,17 @@ TEST(JobScheduling, a_less_urgent_job_does_not_compute_before_it_has_a_core) {
   EXPECT_EQ(rig.of(low).released, at_ms(0.0));
 }
 
+TEST(JobScheduling, equally_urgent_jobs_compute_in_the_order_of_their_release) {
+  ComputerRig rig;
+  const int a = rig.add({10.0});
+  const int b = rig.add({10.0});
+  rig.start(2);
+  rig.trigger(b, 0.0, 2);
+  rig.trigger(a, 0.0, 1);
+  rig.run();
+  EXPECT_EQ(rig.taken, (std::vector<int>{2, 1}));
+}
+
 TEST(JobScheduling, three_equal_jobs_on_two_cores_get_two_thirds_each) {
   ComputerRig rig;
   std::vector<int> jobs{rig.add({60.0}), rig.add({60.0}), rig.add({60.0})};
