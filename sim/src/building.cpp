@@ -62,31 +62,29 @@ double wall_y_m(const BuildingPlan& plan, int column) {
 }
 
 void add_walls_along_y(Building& building, const BuildingPlan& plan, RandomStream& random) {
-  for (int row = 0; row <= plan.rows; ++row) {
-    for (int column = 0; column < plan.columns; ++column) {
-      const Stretch s{true, wall_x_m(plan, row), wall_y_m(plan, column),
-                      wall_y_m(plan, column + 1)};
-      const bool is_entrance = row == 0 && column == plan.columns / 2;
-      if (is_entrance) {
-        add_wall_with_door(building, s, plan, plan.entrance_y_m);
-      } else if (row == 0 || row == plan.rows) {
-        add_wall(building, s);
-      } else {
-        add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
-      }
+  for (int i = 0; i < (plan.rows + 1) * plan.columns; ++i) {
+    const int row = i / plan.columns;
+    const int column = i % plan.columns;
+    const Stretch s{true, wall_x_m(plan, row), wall_y_m(plan, column), wall_y_m(plan, column + 1)};
+    if (row == 0 && column == plan.columns / 2) {
+      add_wall_with_door(building, s, plan, plan.entrance_y_m);
+    } else if (row == 0 || row == plan.rows) {
+      add_wall(building, s);
+    } else {
+      add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
     }
   }
 }
 
 void add_walls_along_x(Building& building, const BuildingPlan& plan, RandomStream& random) {
-  for (int column = 0; column <= plan.columns; ++column) {
-    for (int row = 0; row < plan.rows; ++row) {
-      const Stretch s{false, wall_y_m(plan, column), wall_x_m(plan, row), wall_x_m(plan, row + 1)};
-      if (column == 0 || column == plan.columns) {
-        add_wall(building, s);
-      } else {
-        add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
-      }
+  for (int i = 0; i < (plan.columns + 1) * plan.rows; ++i) {
+    const int column = i / plan.rows;
+    const int row = i % plan.rows;
+    const Stretch s{false, wall_y_m(plan, column), wall_x_m(plan, row), wall_x_m(plan, row + 1)};
+    if (column == 0 || column == plan.columns) {
+      add_wall(building, s);
+    } else {
+      add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
     }
   }
 }
@@ -155,12 +153,16 @@ double door_centre_m(const BuildingPlan& plan, double wish_m, double low_m, doub
   const double last = std::floor(high_m / voxel_m - 0.5);
   const double nearest = std::clamp(std::floor(inside_m / voxel_m), first, last);
   const double half_m = 0.5 * plan.door_width_m;
+  const auto fits = [&](double k) {
+    const double centre = voxel_centre(k);
+    return k >= first && k <= last && !holds_coarse_cell(centre - half_m, centre + half_m);
+  };
   for (int step = 0; step < 16; ++step) {  // 16 voxels are 3 coarse cells: the pattern repeats.
-    for (const double k : {nearest + step, nearest - step}) {
-      const double centre = voxel_centre(k);
-      if (k >= first && k <= last && !holds_coarse_cell(centre - half_m, centre + half_m)) {
-        return centre;
-      }
+    if (fits(nearest + step)) {
+      return voxel_centre(nearest + step);
+    }
+    if (fits(nearest - step)) {
+      return voxel_centre(nearest - step);
     }
   }
   return voxel_centre(nearest);

@@ -66,6 +66,29 @@ double cheap_normal(RandomStream& random) {
   return (static_cast<double>(sum) - mean) / sigma;
 }
 
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;
+  float range;
+};
+
+void aim(RTCRayHit8& rays, int lane, const Ray& ray) {
+  rays.ray.org_x[lane] = ray.origin.x();
+  rays.ray.org_y[lane] = ray.origin.y();
+  rays.ray.org_z[lane] = ray.origin.z();
+  rays.ray.dir_x[lane] = ray.direction.x();
+  rays.ray.dir_y[lane] = ray.direction.y();
+  rays.ray.dir_z[lane] = ray.direction.z();
+  rays.ray.tnear[lane] = 0.0F;
+  rays.ray.tfar[lane] = ray.range;
+  rays.ray.time[lane] = 0.0F;
+  rays.ray.mask[lane] = ~0U;
+  rays.ray.id[lane] = 0;
+  rays.ray.flags[lane] = 0;
+  rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+}
+
 struct EmbreeDevice {
   RTCDevice handle{rtcNewDevice(device_settings)};
   EmbreeDevice() {
@@ -124,6 +147,7 @@ struct DepthCamera::Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  [[nodiscard]] Eigen::Vector3f direction_C(int x, int y) const;
   void trace_tile(const Eigen::Isometry3f& X_WC, int x0, int y0, std::vector<float>& depth_m) const;
   void add_noise(std::uint64_t sequence, std::vector<float>& depth_m) const;
 
@@ -135,47 +159,35 @@ struct DepthCamera::Scene {
 };
 
 // Ray directions have length 1 along the optical axis, so that Embree's `tfar` is the depth.
+Eigen::Vector3f DepthCamera::Scene::direction_C(int x, int y) const {
+  const auto focal = static_cast<float>(camera.focal_px);
+  return {(static_cast<float>(x) - static_cast<float>(camera.centre_x_px)) / focal,
+          (static_cast<float>(y) - static_cast<float>(camera.centre_y_px)) / focal, 1.0F};
+}
+
 void DepthCamera::Scene::trace_tile(const Eigen::Isometry3f& X_WC,
                                     int x0,
                                     int y0,
                                     std::vector<float>& depth_m) const {
-  alignas(32) RTCRayHit8 rays;
-  alignas(32) std::array<int, lanes> valid;
-  const auto focal = static_cast<float>(camera.focal_px);
+  alignas(32) RTCRayHit8 rays{};
+  alignas(32) std::array<int, lanes> valid{};
+  const auto range_m = static_cast<float>(spec.max_range_m);
   for (int lane = 0; lane < lanes; ++lane) {
-    const auto i = static_cast<std::size_t>(lane);
     const int x = x0 + lane % tile_columns;
     const int y = y0 + lane / tile_columns;
-    valid[i] = x < camera.width_px && y < camera.height_px ? -1 : 0;
-    const Eigen::Vector3f d_C{
-        (static_cast<float>(x) - static_cast<float>(camera.centre_x_px)) / focal,
-        (static_cast<float>(y) - static_cast<float>(camera.centre_y_px)) / focal, 1.0F};
-    const Eigen::Vector3f d_W = X_WC.linear() * d_C;
-    rays.ray.org_x[i] = X_WC.translation().x();
-    rays.ray.org_y[i] = X_WC.translation().y();
-    rays.ray.org_z[i] = X_WC.translation().z();
-    rays.ray.dir_x[i] = d_W.x();
-    rays.ray.dir_y[i] = d_W.y();
-    rays.ray.dir_z[i] = d_W.z();
-    rays.ray.tnear[i] = 0.0F;
-    rays.ray.tfar[i] = static_cast<float>(spec.max_range_m);
-    rays.ray.time[i] = 0.0F;
-    rays.ray.mask[i] = ~0U;
-    rays.ray.id[i] = 0;
-    rays.ray.flags[i] = 0;
-    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    valid[static_cast<std::size_t>(lane)] = x < camera.width_px && y < camera.height_px ? -1 : 0;
+    aim(rays, lane, {X_WC.translation(), X_WC.linear() * direction_C(x, y), range_m});
   }
-  RTCIntersectContext context;
+  RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid.data(), scene, &context, &rays);
   for (int lane = 0; lane < lanes; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
-    if (valid[i] != 0) {
+    // Every pixel starts as infinity: no return.
+    if (valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
       const int pixel = (y0 + lane / tile_columns) * camera.width_px + x0 + lane % tile_columns;
-      const bool hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      depth_m[static_cast<std::size_t>(pixel)] = hit ? rays.ray.tfar[i] : infinity;
+      depth_m[static_cast<std::size_t>(pixel)] = rays.ray.tfar[i];
     }
   }
 }

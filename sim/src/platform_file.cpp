@@ -147,6 +147,20 @@ KernelCost read_kernel(TableReader& reader, std::vector<std::string>& problems) 
   return cost;
 }
 
+std::map<std::string, KernelCost, std::less<>> read_kernels(const toml::table& table,
+                                                            TableReader& reader,
+                                                            std::vector<std::string>& problems) {
+  std::map<std::string, KernelCost, std::less<>> kernels;
+  for (const auto& [key, node] : table) {
+    const std::string name{key.str()};
+    if (const toml::table* kernel = reader.table(name)) {
+      TableReader items{*kernel, reader.path(name), problems};
+      kernels[name] = read_kernel(items, problems);
+    }
+  }
+  return kernels;
+}
+
 PlatformModel read_model(const toml::table& file, std::vector<std::string>& problems) {
   TableReader reader{file, "", problems};
   PlatformModel model;
@@ -168,14 +182,8 @@ PlatformModel read_model(const toml::table& file, std::vector<std::string>& prob
     model.power = read_power(items);
   }
   if (const toml::table* kernels = reader.table("kernels")) {
-    TableReader names{*kernels, "kernels", problems};
-    for (const auto& [key, node] : *kernels) {
-      const std::string name{key.str()};
-      if (const toml::table* kernel = names.table(name)) {
-        TableReader items{*kernel, names.path(name), problems};
-        model.kernels[name] = read_kernel(items, problems);
-      }
-    }
+    TableReader items{*kernels, "kernels", problems};
+    model.kernels = read_kernels(*kernels, items, problems);
   }
   reader.reject_unknown();
   return model;

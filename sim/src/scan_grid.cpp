@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <tuple>
@@ -88,13 +89,15 @@ double read_header(std::istream& stream) {
   return stream && is_octree && std::isfinite(resolution_m) ? resolution_m : 0.0;
 }
 
-void fill(ScanGrid& grid, const Leaf& leaf) {
-  for (int z = 0; z < leaf.size; ++z) {
-    for (int y = 0; y < leaf.size; ++y) {
-      for (int x = 0; x < leaf.size; ++x) {
-        grid.set(leaf.low + Index{x, y, z}, leaf.state);
-      }
-    }
+// x runs fastest, then y, then z.
+template <class Visit>
+void for_each_cell(const Index& low, const Index& high, const Visit& visit) {
+  const Index n = high - low + Index::Ones();
+  const std::int64_t count = n.cast<std::int64_t>().prod();
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t row = i / n.x();
+    visit(low + Index{static_cast<int>(i % n.x()), static_cast<int>(row % n.y()),
+                      static_cast<int>(row / n.y())});
   }
 }
 
@@ -183,7 +186,8 @@ Result<ScanGrid> read_scan(const std::string& path) {
   }
   ScanGrid grid{resolution_m, low, high};
   for (const Leaf& leaf : tree.leaves) {
-    fill(grid, leaf);
+    for_each_cell(leaf.low, leaf.low + Index::Constant(leaf.size - 1),
+                  [&](const Index& cell) { grid.set(cell, leaf.state); });
   }
   return grid;
 }
@@ -191,15 +195,11 @@ Result<ScanGrid> read_scan(const std::string& path) {
 std::vector<Aabb> merged_boxes(const ScanGrid& grid,
                                const std::function<bool(const ScanGrid::Index&)>& is_solid) {
   std::vector<Block> cells;
-  for (int z = grid.low().z(); z <= grid.high().z(); ++z) {
-    for (int y = grid.low().y(); y <= grid.high().y(); ++y) {
-      for (int x = grid.low().x(); x <= grid.high().x(); ++x) {
-        if (is_solid({x, y, z})) {
-          cells.push_back({{x, y, z}, {x, y, z}});
-        }
-      }
+  for_each_cell(grid.low(), grid.high(), [&](const Index& cell) {
+    if (is_solid(cell)) {
+      cells.push_back({cell, cell});
     }
-  }
+  });
   std::vector<Aabb> boxes;
   for (const Block& block : joined(joined(joined(std::move(cells), 0), 1), 2)) {
     boxes.push_back({block.low.cast<double>() * grid.resolution_m(),

@@ -75,10 +75,10 @@ void sort_into(const Grid& grid,
                                    static_cast<std::size_t>(grid.ny));
   for (std::size_t i = 0; i < extents.size(); ++i) {
     const Cells at = grid.cells(extents[i]);
-    for (int y = at.y0; y <= at.y1; ++y) {
-      for (int x = at.x0; x <= at.x1; ++x) {
-        in[static_cast<std::size_t>(y * grid.nx + x)].push_back(static_cast<int>(i));
-      }
+    const int wide = at.x1 - at.x0 + 1;
+    for (int n = 0; n < wide * (at.y1 - at.y0 + 1); ++n) {
+      const int column = (at.y0 + n / wide) * grid.nx + at.x0 + n % wide;
+      in[static_cast<std::size_t>(column)].push_back(static_cast<int>(i));
     }
   }
   for (const auto& column : in) {
@@ -183,16 +183,16 @@ double Clearance::distance_m(const Vec3& p_WB,
   const double to_edge = std::min({x - cx, 1.0 - (x - cx), y - cy, 1.0 - (y - cy)});
   const int first = std::max({0, -cx, cx - columns_x_ + 1, -cy, cy - columns_y_ + 1});
   const int last = std::max({cx, columns_x_ - 1 - cx, cy, columns_y_ - 1 - cy});
+  const auto look = [&](int i, int j) {
+    if (i >= 0 && i < columns_x_ && j >= 0 && j < columns_y_) {
+      best_m = nearest_in(j * columns_x_ + i, p_WB, body, best_m);
+    }
+  };
   for (int ring = first; ring <= last; ++ring) {
     const double ring_m = ring == 0 ? 0.0 : (ring - 1 + to_edge) * cell_m_;
     if (best_m <= 0.0 || ring_m - body.radius_m >= best_m) {
       break;
     }
-    const auto look = [&](int i, int j) {
-      if (i >= 0 && i < columns_x_ && j >= 0 && j < columns_y_) {
-        best_m = nearest_in(j * columns_x_ + i, p_WB, body, best_m);
-      }
-    };
     for_each_in_ring(cx, cy, ring, look);
   }
   return std::max(best_m, 0.0);

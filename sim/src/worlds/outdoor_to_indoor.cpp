@@ -92,21 +92,23 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
                              double spacing_m,
                              flyball::RandomStream& random) {
     constexpr double margin_m = 1.5;
-    const auto columns = static_cast<int>(2.0 * half_width_m / spacing_m);
-    const double pitch_y_m = 2.0 * half_width_m / std::max(columns, 1);
-    for (double x_m = 0.0; x_m < facade_x_m; x_m += spacing_m) {
-      for (int column = 0; column < std::max(columns, 1); ++column) {
-        const Vec3 size{random.uniform(1.5, 4.0), random.uniform(1.5, 4.0), block_height_m};
-        const double y_m = -half_width_m + column * pitch_y_m;
-        Vec3 corner = Vec3::Zero();
-        corner.x() = x_m + random.uniform(margin_m, spacing_m - size.x() - margin_m);
-        corner.y() = y_m + random.uniform(margin_m, pitch_y_m - size.y() - margin_m);
-        const Aabb block{corner, corner + size};
-        const Vec3 nearest = world.start_W.cwiseMax(block.min).cwiseMin(block.max);
-        if (nearest.norm() >= clear_of_blocks_m &&
-            block.max.x() <= facade_x_m - clear_of_blocks_m) {
-          world.boxes.push_back(block);
-        }
+    const int rows = static_cast<int>(std::ceil(facade_x_m / spacing_m));
+    const int columns = std::max(1, static_cast<int>(2.0 * half_width_m / spacing_m));
+    const double pitch_y_m = 2.0 * half_width_m / columns;
+    for (int i = 0; i < rows * columns; ++i) {
+      const double x_m = (i / columns) * spacing_m;
+      const double y_m = -half_width_m + (i % columns) * pitch_y_m;
+      Vec3 size{0.0, 0.0, block_height_m};
+      Vec3 corner = Vec3::Zero();
+      size.x() = random.uniform(1.5, 4.0);
+      size.y() = random.uniform(1.5, 4.0);
+      corner.x() = x_m + random.uniform(margin_m, spacing_m - size.x() - margin_m);
+      corner.y() = y_m + random.uniform(margin_m, pitch_y_m - size.y() - margin_m);
+      const Aabb block{corner, corner + size};
+      const Vec3 nearest = world.start_W.cwiseMax(block.min).cwiseMin(block.max);
+      const double to_start_m = (nearest - world.start_W).norm();
+      if (to_start_m >= clear_of_blocks_m && block.max.x() <= facade_x_m - clear_of_blocks_m) {
+        world.boxes.push_back(block);
       }
     }
   }

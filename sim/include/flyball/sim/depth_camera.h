@@ -17,10 +17,9 @@ struct DepthCameraSpec {
   double horizontal_field_rad{1.5707963267948966};  ///< 90 degrees: MAVBench.
   double rate_hz{20.0};
   double max_range_m{20.0};
-  /// Depth noise: `none`, or `rgbd` (sigma = max(0, .0035 d - .0023) for d < 6 m, .0657 d - .4193
-  /// beyond: MAVBench's code), plus `extra_noise_m` of standard deviation at every depth.
+  /// sigma = max(0, .0035 d - .0023) for d < 6 m, .0657 d - .4193 beyond: MAVBench's code.
   bool rgbd_noise{true};
-  double extra_noise_m{};
+  double extra_noise_m{};  ///< Standard deviation at every depth, independent of the other noise.
 
   [[nodiscard]] Intrinsics intrinsics() const;
 };
@@ -33,8 +32,12 @@ class DepthCamera {
   DepthCamera(const DepthCamera&) = delete;
   DepthCamera& operator=(const DepthCamera&) = delete;
 
-  /// The image seen from `X_WC` (C: x right, y down, z forward). Noise depends on the seed and
-  /// `sequence` only, not on how many frames were read before.
+  /// The image seen from `X_WC` (C: x right, y down, z forward). Pixel (u, v) looks along
+  /// ((u - centre_x) / focal, (v - centre_y) / focal, 1). Noise depends on the seed and `sequence`
+  /// only, not on how many frames were read before; a depth that it carries beyond the range is no
+  /// return, one below 5 cm becomes 5 cm.
+  ///
+  /// @cost 1-2 ms for 256 x 144 pixels on one x86 core.
   [[nodiscard]] DepthImage capture(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
   [[nodiscard]] const DepthCameraSpec& spec() const;
 

@@ -48,7 +48,8 @@ class WorldGenerator {
   virtual ~WorldGenerator() = default;
 
   [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
-  /// Same parameters and seed, same world. Start and goal are clear by at least 1 m up to 2.5 m height.
+  /// Same parameters and seed, same world. Start and goal are clear by at least 1 m up to 2.5 m
+  /// height (`octomap_file`: as the place allows).
   /// @error `not_found` (a file), `invalid_input` (parameters that contradict each other).
   [[nodiscard]] virtual Result<World> make(const Parameters& given, std::uint64_t seed) const = 0;
 };
@@ -59,6 +60,7 @@ class Clearance {
   explicit Clearance(const World& world);
   /// Distance from the surface of the upright cylinder around `p_WB` to the nearest solid, at most
   /// `limit_m`; zero when they touch or overlap. The ground counts unless `ignore_ground`.
+  /// @cost About .3 us among 150 solids, 6 us among 27 000.
   [[nodiscard]] double distance_m(const Vec3& p_WB, const Cylinder& body, double limit_m,
                                   bool ignore_ground) const;
 
