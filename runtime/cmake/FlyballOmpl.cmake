@@ -1,0 +1,10 @@
+# OMPL as the target flyball_ompl: its own config file hard-codes Boost paths and makes no target.
+if(TARGET flyball_ompl)
+  return()
+endif()
+find_path(FLYBALL_OMPL_INCLUDE ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+find_library(FLYBALL_OMPL_LIBRARY ompl REQUIRED)
+mark_as_advanced(FLYBALL_OMPL_INCLUDE FLYBALL_OMPL_LIBRARY)
+add_library(flyball_ompl INTERFACE IMPORTED GLOBAL)
+target_include_directories(flyball_ompl SYSTEM INTERFACE ${FLYBALL_OMPL_INCLUDE})
+target_link_libraries(flyball_ompl INTERFACE ${FLYBALL_OMPL_LIBRARY})

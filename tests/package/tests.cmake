@@ -1,0 +1,15 @@
+# A stranger's project builds and runs against Flyball, in both ways that there are.
+set(consumer_settings
+  -D source=${CMAKE_CURRENT_LIST_DIR}
+  -D flyball=${PROJECT_SOURCE_DIR}
+  -D built=${PROJECT_BINARY_DIR}
+  -D generator=${CMAKE_GENERATOR}
+  -D compiler=${CMAKE_CXX_COMPILER}
+  -D launcher=${CMAKE_CXX_COMPILER_LAUNCHER}
+  -D type=${CMAKE_BUILD_TYPE}
+  -D sim=${FLYBALL_BUILD_SIM})
+foreach(way find_package add_subdirectory)
+  add_test(NAME package.${way} COMMAND ${CMAKE_COMMAND} ${consumer_settings} -D way=${way}
+                                       -P ${CMAKE_CURRENT_LIST_DIR}/build_consumer.cmake)
+  set_tests_properties(package.${way} PROPERTIES LABELS package TIMEOUT 600)
+endforeach()
