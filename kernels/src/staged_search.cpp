@@ -12,7 +12,7 @@ namespace {
 
 // Kept from obstacles, so that who checks the plan again in other steps does not find it touching.
 // A door leaves 20 mm.
-constexpr double margin_m = 0.002;
+constexpr double margin_m = 0.003;
 constexpr std::array<double, 2> box_margins_m{8.0, 20.0};
 
 /// Start and goal with `around_m` beside them, inside the bounds. The height is that of the bounds:

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The reference's own position, velocity and acceleration go to the autopilot, whose loops supply
+// the proportional and derivative action; a position error adds a little velocity, so that an
+// estimate that has drifted from the autopilot's own is followed.
+
+#include "flyball/kernels/path_tracker.h"
+#include "flyball/runtime/registry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using flyball::Vec3;
+
+constexpr double position_gain_1_s = 0.8;
+constexpr double max_correction_m_s =
+    0.5;                        // A jump of the estimate must not become a jump of the vehicle.
+constexpr double look_m = 0.1;  // Two samples of a path: their tangents differ enough.
+
+/// Towards the centre of the curve; zero where the path is straight.
+Vec3 normal_at(const flyball::Path& path, const flyball::Path::Sample& here) {
+  const Vec3 change = path.at(here.s_m + look_m).tangent_W - path.at(here.s_m - look_m).tangent_W;
+  const Vec3 sideways = change - change.dot(here.tangent_W) * here.tangent_W;
+  return sideways.norm() > 1e-6 ? Vec3{sideways.normalized()} : Vec3::Zero();
+}
+
+class FeedforwardPd final : public flyball::PathTracker {
+ public:
+  flyball::Setpoint track(const flyball::Path& path,
+                          const flyball::PathReference& reference,
+                          const flyball::PoseEstimate& where,
+                          flyball::MissionTime now) override {
+    flyball::Setpoint setpoint;
+    setpoint.stamp = now;
+    setpoint.yaw_rad = reference.yaw_rad;
+    if (path.empty()) {  // Nothing to follow: stay.
+      setpoint.p_WB = where.X_WB.translation();
+      return setpoint;
+    }
+    const auto here = path.at(reference.s_m);
+    const double speed_m_s = reference.speed_m_s;
+    setpoint.p_WB = here.p_W;
+    setpoint.v_WB = speed_m_s * here.tangent_W + correction(here.p_W - where.X_WB.translation());
+    setpoint.a_WB = reference.acceleration_m_s2 * here.tangent_W;
+    if (std::isfinite(here.curvature_1_m)) {  // A corner is passed at a crawl: nothing to feed.
+      setpoint.a_WB += speed_m_s * speed_m_s * here.curvature_1_m * normal_at(path, here);
+    }
+    return setpoint;
+  }
+
+ private:
+  static Vec3 correction(const Vec3& error_m) {
+    const Vec3 wished_m_s = position_gain_1_s * error_m;
+    const double size_m_s = wished_m_s.norm();
+    return size_m_s > max_correction_m_s ? Vec3{wished_m_s * (max_correction_m_s / size_m_s)}
+                                         : wished_m_s;
+  }
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(feedforward_pd) {
+  registry.add<flyball::PathTracker>("feedforward_pd",
+                                     [] { return std::make_unique<FeedforwardPd>(); });
+}
