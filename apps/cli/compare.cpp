@@ -136,7 +136,9 @@ Status write_report(const std::string& path, const Comparison& comparison, const
   for (const Entry& entry : entries) {
     pictures.push_back(*entry.picture);
   }
-  return write_file(path, report_page(comparison.scenario, pictures, to_html(comparison)));
+  return write_file(path,
+                    report_page(comparison.scenario, pictures,
+                                to_html(comparison) + scenario_html(entries.front().scenario)));
 }
 
 int show(const CompareOptions& options, const std::string& folder, const Entries& entries) {

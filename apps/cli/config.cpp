@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "flyball/apps/text_table.h"
+
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"

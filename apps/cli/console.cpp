@@ -2,9 +2,7 @@
 
 #include "console.h"
 
-#include <algorithm>
 #include <csignal>
-#include <cstddef>
 #include <cstdio>
 
 #include <unistd.h>
@@ -52,24 +50,6 @@ void catch_interrupt() {
 
 bool was_interrupted() {
   return interrupted != 0;
-}
-
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> widths;
-  for (const auto& line : lines) {
-    widths.resize(std::max(widths.size(), line.size()));
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      widths[i] = std::max(widths[i], line[i].size());
-    }
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      text += line[i] + std::string(widths[i] - line[i].size() + 2, ' ');
-    }
-    text += (line.empty() ? "" : line.back()) + "\n";
-  }
-  return text;
 }
 
 }  // namespace flyball

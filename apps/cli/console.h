@@ -30,7 +30,4 @@ void note(const std::string& line);
 void catch_interrupt();
 [[nodiscard]] bool was_interrupted();
 
-/// Columns of equal width, two blanks apart; the last one is as long as it is.
-[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
-
 }  // namespace flyball

@@ -4,6 +4,7 @@
 #include "flyball/apps/files.h"
 #include "flyball/apps/knobs.h"
 #include "flyball/apps/mission.h"
+#include "flyball/apps/text_table.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/preset.h"
 #include "flyball/sim/platform_file.h"

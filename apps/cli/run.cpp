@@ -2,12 +2,11 @@
 
 #include "flyball/apps/mission.h"
 #include "flyball/apps/report.h"
+#include "flyball/apps/text_table.h"
 
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
-#include <array>
-#include <cstdio>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -21,11 +20,8 @@ struct RunOptions {
   std::string seed{};
 };
 
-std::string rounded(double value, int digits, const std::string& unit) {
-  std::array<char, 48> text{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data() + (" " + unit);
+std::string with_unit(double value, int digits, const std::string& unit) {
+  return rounded(value, digits) + " " + unit;
 }
 
 std::string result_text(const Summary& s, const std::string& folder) {
@@ -34,18 +30,18 @@ std::string result_text(const Summary& s, const std::string& folder) {
                               : std::string{"failed: "} + to_string(s.failure);
   return s.scenario + ", " + s.policy + ", seed " + std::to_string(s.seed) + ": " + end + "\n" +
          aligned({
-             {"  mission time", rounded(s.mission_time_s, 1, "s")},
-             {"  energy", rounded(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
-                              rounded(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
-             {"  battery used", rounded(s.battery_start_percent - s.battery_end_percent, 1, "%")},
-             {"  distance", rounded(s.distance_m, 1, "m") + ", mean " +
-                                rounded(s.mean_speed_m_s, 2, "m/s") + ", max " +
-                                rounded(s.max_speed_m_s, 2, "m/s")},
-             {"  latency", rounded(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
-                               rounded(s.latency_p95_s * 1e3, 0, "ms")},
-             {"  nearest obstacle", rounded(s.min_clearance_m, 2, "m")},
-             {"  host time",
-              rounded(s.host_s, 1, "s") + ", " + rounded(s.real_time_factor, 1, "times real time")},
+             {"  mission time", with_unit(s.mission_time_s, 1, "s")},
+             {"  energy", with_unit(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
+                              with_unit(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
+             {"  battery used", with_unit(s.battery_start_percent - s.battery_end_percent, 1, "%")},
+             {"  distance", with_unit(s.distance_m, 1, "m") + ", mean " +
+                                with_unit(s.mean_speed_m_s, 2, "m/s") + ", max " +
+                                with_unit(s.max_speed_m_s, 2, "m/s")},
+             {"  latency", with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
+                               with_unit(s.latency_p95_s * 1e3, 0, "ms")},
+             {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")},
+             {"  host time", with_unit(s.host_s, 1, "s") + ", " +
+                                 with_unit(s.real_time_factor, 1, "times real time")},
              {"  trace hash", s.trace_hash + " (numerics " + s.numeric_fingerprint + ")"},
              {"  record", folder},
          });
@@ -68,7 +64,7 @@ MissionHooks hooks_of(const Scenario& scenario) {
   if (has_watcher()) {
     const std::string who = scenario.governor.policy + " seed " + std::to_string(scenario.seed);
     hooks.progress = [who](double mission_s, const std::string& what) {
-      note(who + ": " + rounded(mission_s, 0, "s") + ", " + what);
+      note(who + ": " + with_unit(mission_s, 0, "s") + ", " + what);
     };
   }
   return hooks;
@@ -96,10 +92,11 @@ int run(const RunOptions& options) {
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)
                                  : options.flight.out;
+  catch_interrupt();  // Before the first thing that it writes: a flight can be ended as soon as it
+                      // shows.
   if (const Status prepared = prepare_folder(folder); !prepared) {
     return refuse({prepared.error()});
   }
-  catch_interrupt();
   const Result<MissionRecord> record = fly(scenario, hooks_of(scenario));
   if (!record) {
     return refuse({record.error()});

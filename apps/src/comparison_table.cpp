@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: comparison
 
 #include "flyball/apps/comparison.h"
+#include "flyball/apps/text_table.h"
 
-#include "html.h"
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <vector>
 
 namespace flyball {
@@ -31,23 +31,24 @@ constexpr std::array<Column, 7> columns{{
     {"time ratio", &ComparisonRow::time_ratio, 1.0, 2},
 }};
 
-std::string rounded(double value, int digits) {
-  std::array<char, 40> text{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): streams need four calls for the same
-  const int size = std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return {text.data(), static_cast<std::size_t>(std::max(0, size))};
-}
+/// A median, and its interval or nothing where it says nothing more: one flight, or all alike.
+struct Figure {
+  std::string median;
+  std::string interval{};
+};
 
-std::string cell(const ComparisonRow& row, const Column& column) {
+Figure figure(const ComparisonRow& row, const Column& column) {
   const std::optional<MedianInterval>& value = row.*column.value;
   if (!value) {
-    return "-";
+    return {"-"};
   }
   const auto show = [&](double x) { return rounded(x * column.scale, column.digits); };
-  if (value->lo == value->hi) {  // One flight, or all alike: the interval says nothing more.
-    return show(value->median);
-  }
-  return show(value->median) + " [" + show(value->lo) + ", " + show(value->hi) + "]";
+  return {show(value->median),
+          value->lo == value->hi ? "" : "[" + show(value->lo) + ", " + show(value->hi) + "]"};
+}
+
+std::string counts(const ComparisonRow& row) {
+  return std::to_string(row.succeeded) + "/" + std::to_string(row.n);
 }
 
 Cells header() {
@@ -59,29 +60,12 @@ Cells header() {
 }
 
 Cells cells_of(const ComparisonRow& row) {
-  Cells cells{row.policy, std::to_string(row.succeeded) + "/" + std::to_string(row.n),
-              std::to_string(row.collisions)};
+  Cells cells{row.policy, counts(row), std::to_string(row.collisions)};
   for (const Column& column : columns) {
-    cells.push_back(cell(row, column));
+    const Figure shown = figure(row, column);
+    cells.push_back(shown.median + (shown.interval.empty() ? "" : " ") + shown.interval);
   }
   return cells;
-}
-
-std::string aligned(const std::vector<Cells>& lines) {
-  std::string text;
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const Cells& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      widths[i] = std::max(widths[i], line[i].size());
-    }
-  }
-  for (const Cells& line : lines) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      text += line[i] + std::string(widths[i] - line[i].size() + 2, ' ');
-    }
-    text += line.back() + "\n";
-  }
-  return text;
 }
 
 std::string failures_text(const ComparisonRow& row) {
@@ -113,22 +97,19 @@ std::string to_text(const Comparison& comparison) {
 }
 
 std::string to_html(const Comparison& comparison) {
-  const auto line = [](const Cells& cells, const std::string& tag) {
-    std::string text;
-    for (const std::string& content : cells) {
-      text += "<" + tag + ">" + html_text(content) + "</" + tag + ">";
-    }
-    return "<tr>" + text + "</tr>\n";
-  };
-  Cells titles = header();
-  titles.emplace_back("failures");
-  std::string table = "<table>\n" + line(titles, "th");
-  for (const ComparisonRow& row : comparison.rows) {
-    Cells cells = cells_of(row);
-    cells.push_back(failures_text(row));
-    table += line(cells, "td");
+  std::string table = "<table>\n<tr>";
+  for (const std::string& title : header()) {
+    table += "<th>" + title + "</th>";
   }
-  return table + "</table>\n<p class=\"note\">" + html_text(meaning(comparison)) + "</p>\n";
+  for (const ComparisonRow& row : comparison.rows) {
+    table += "</tr>\n<tr><td>" + html_text(row.policy) + "</td><td>" + counts(row) + "<small>" +
+             failures_text(row) + "</small></td><td>" + std::to_string(row.collisions) + "</td>";
+    for (const Column& column : columns) {
+      const Figure shown = figure(row, column);
+      table += "<td>" + shown.median + "<small>" + shown.interval + "</small></td>";
+    }
+  }
+  return table + "</tr>\n</table>\n<p class=\"note\">" + html_text(meaning(comparison)) + "</p>\n";
 }
 
 }  // namespace flyball

@@ -3,8 +3,8 @@
 #include "flyball/apps/report.h"
 
 #include "flyball/apps/files.h"
+#include "flyball/apps/text_table.h"
 
-#include "html.h"
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -20,10 +20,9 @@ constexpr const char* template_without_plots =
     "<!doctype html><meta charset=\"utf-8\"><title>{{title}}</title><h1>{{title}}</h1>{{table}}"
     "<p>The plots need the file viewer/report.html, which is not among the program's data.</p>";
 
-std::string page_template() {
-  std::ifstream file{share_folder("viewer") + "/report.html"};
-  std::string text{std::istreambuf_iterator<char>{file}, {}};
-  return text.empty() ? template_without_plots : text;
+std::string viewer_file(const std::string& name) {
+  std::ifstream file{share_folder("viewer") + "/" + name};
+  return {std::istreambuf_iterator<char>{file}, {}};
 }
 
 /// Only the template's own marks are replaced: the pieces are taken apart before any is put in.
@@ -76,9 +75,12 @@ Json page_data(const std::vector<RunPicture>& runs) {
 std::string report_page(const std::string& title,
                         const std::vector<RunPicture>& runs,
                         const std::string& table_html) {
-  return filled(
-      page_template(),
-      {{"title", html_text(title)}, {"table", table_html}, {"data", script_json(page_data(runs))}});
+  const std::string page = viewer_file("report.html");
+  return filled(page.empty() ? template_without_plots : page,
+                {{"title", html_text(title)},
+                 {"table", table_html},
+                 {"script", viewer_file("report.js")},
+                 {"data", script_json(page_data(runs))}});
 }
 
 }  // namespace flyball

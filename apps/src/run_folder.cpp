@@ -2,12 +2,10 @@
 
 #include "flyball/apps/files.h"
 #include "flyball/apps/report.h"
+#include "flyball/apps/text_table.h"
 #include "flyball/apps/version.h"
 
-#include "html.h"
 #include "trace_file.h"
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -42,26 +40,29 @@ std::string data_fingerprint(const Scenario& scenario) {
 }
 
 std::string summary_table(const Summary& summary) {
-  std::array<char, 400> rows{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): streams need a line for each number
-  std::snprintf(rows.data(), rows.size(),
-                "<tr><td>%s<td>%llu<td>%s<td>%.1f<td>%.1f<td>%.1f<td>%.2f<td>%.0f<td>%.2f</tr>",
-                html_text(summary.policy).c_str(), static_cast<unsigned long long>(summary.seed),
-                summary.status == MissionStatus::failed ? to_string(summary.failure)
-                                                        : to_string(summary.status),
-                summary.mission_time_s, summary.energy_total_j() * 1e-3,
-                summary.battery_start_percent - summary.battery_end_percent, summary.mean_speed_m_s,
-                summary.latency_p50_s * 1e3, summary.min_clearance_m);
-  return std::string{
-             "<table><tr><th>policy<th>seed<th>end<th>time s<th>energy kJ<th>battery %<th>speed m/s"
-             "<th>latency ms<th>clearance m</tr>"} +
-         rows.data() + "</table>";
+  const bool failed = summary.status == MissionStatus::failed;
+  const std::pair<const char*, std::string> cells[] = {
+      {"policy", html_text(summary.policy)},
+      {"seed", std::to_string(summary.seed)},
+      {"end", failed ? to_string(summary.failure) : to_string(summary.status)},
+      {"time s", rounded(summary.mission_time_s, 1)},
+      {"energy kJ", rounded(summary.energy_total_j() * 1e-3, 1)},
+      {"battery %", rounded(summary.battery_start_percent - summary.battery_end_percent, 1)},
+      {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
+      {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
+      {"clearance m", rounded(summary.min_clearance_m, 2)}};
+  std::string titles;
+  std::string values;
+  for (const auto& [title, value] : cells) {
+    titles += std::string{"<th>"} + title + "</th>";
+    values += "<td>" + value + "</td>";
+  }
+  return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";
 }
 
 std::string run_page(const Scenario& scenario, const RunPicture& picture) {
-  const std::string details = "<details><summary>The whole scenario</summary><pre>" +
-                              html_text(mission_file(scenario)) + "</pre></details>";
-  return report_page(scenario.name, {picture}, summary_table(picture.summary) + details);
+  return report_page(scenario.name, {picture},
+                     summary_table(picture.summary) + scenario_html(scenario));
 }
 
 }  // namespace
@@ -102,6 +103,11 @@ Status write_file(const std::string& path, const std::string& content) {
 std::string mission_file(const Scenario& scenario) {
   return "# Flyball " + version() + ", build " + build_fingerprint() + ", data " +
          data_fingerprint(scenario) + "\n" + to_toml(scenario);
+}
+
+std::string scenario_html(const Scenario& scenario) {
+  return "<details><summary>The scenario, every setting</summary><pre>" +
+         html_text(mission_file(scenario)) + "</pre></details>\n";
 }
 
 Status write_run(const std::string& folder, const Scenario& scenario, const MissionRecord& record) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: scenario
 
 #include "scenario_reader.h"
 
@@ -15,6 +16,9 @@ std::string as_written(const toml::node& node) {
   std::ostringstream text;
   if (const auto* number = node.as_floating_point()) {
     return toml_number(number->get());
+  }
+  if (const auto* words = node.as_string()) {
+    return toml_text(words->get());
   }
   node.visit([&text](const auto& typed) { text << typed; });
   return text.str();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: run_folder
 
 #include "trace_file.h"
 

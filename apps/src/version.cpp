@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: cli
 
 #include "flyball/apps/version.h"
 

@@ -23,6 +23,8 @@ Status write_file(const std::string& path, const std::string& content);
 /// The scenario as it is kept beside a record, with version, build and a fingerprint of the data
 /// files that it names. Equal text: the same mission, flown by the same program.
 [[nodiscard]] std::string mission_file(const Scenario& scenario);
+/// The same for a page, folded up.
+[[nodiscard]] std::string scenario_html(const Scenario& scenario);
 
 /// Writes mission.toml, summary.json, trace.jsonl, picture.json and report.html into `folder` (made
 /// if missing). mission.toml comes last: where it stands, the record is complete. That of an

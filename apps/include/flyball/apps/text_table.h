@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Figures as people read them: on a terminal and in a page.
+
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// With so many digits after the point.
+[[nodiscard]] std::string rounded(double value, int digits);
+
+/// Columns of equal width, two blanks apart; the last one is as long as it is.
+[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
+
+/// Text that shows as itself in a page, in an element or an attribute.
+[[nodiscard]] std::string html_text(const std::string& text);
+
+}  // namespace flyball

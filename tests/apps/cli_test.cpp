@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball_program.h"
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+/// Bad input: exit code 2, one line for each thing that is wrong, no result, nothing written.
+class Cli : public testing::Test {
+ protected:
+  void expect_refused(const std::string& arguments,
+                      const std::string& sentence,
+                      int lines = 1) const {
+    const FlyballProgram::Outcome outcome = flyball.run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
+    EXPECT_NE(outcome.errors.find(sentence), std::string::npos) << arguments << "\n"
+                                                                << outcome.errors;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), lines)
+        << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_TRUE(flyball.place.is_empty()) << arguments;
+  }
+  FlyballProgram flyball;
+};
+
+TEST_F(Cli, refuses_an_unknown_scenario) {
+  expect_refused("run delivery_moon", "no scenario \"delivery_moon\"; try: flyball list scenarios");
+  expect_refused("run missing/file.toml", "no file \"missing/file.toml\"");
+  expect_refused("config delivery_moon", "flyball list scenarios");
+}
+
+TEST_F(Cli, refuses_wrong_settings_all_at_once) {
+  expect_refused(
+      "run delivery_forest --set vehicle.payload_kg=-1 --set map.range_cm=500 --set "
+      "planner.budjet=9",
+      "vehicle.payload_kg = -1 (--set) must be at least 0 kg", 3);
+}
+
+TEST_F(Cli, refuses_an_unknown_policy) {
+  expect_refused("run delivery_forest --policy just_in_tme", "no policy \"just_in_tme\"");
+  expect_refused("compare delivery_forest --policies fixed_fine,just_in_tme",
+                 "try: flyball list policies");
+}
+
+TEST_F(Cli, refuses_bad_seeds) {
+  expect_refused("run delivery_forest --seed -1", "seed = -1");
+  expect_refused("run delivery_forest --seed one", "seed = one");
+  for (const char* seeds : {"5..1", "1..", "a..b", "''", "1,,2", "1..99999999", "-1..3", "1.5"}) {
+    expect_refused(std::string{"compare delivery_forest --policies fixed_fine --seeds="} + seeds,
+                   "--seeds");
+  }
+}
+
+TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
+  expect_refused("run delivery_forest --out /dev/null/flights",
+                 "cannot write \"/dev/null/flights\"");
+  expect_refused("compare delivery_forest --policies fixed_fine --out /proc/flights",
+                 "cannot write \"/proc/flights\"");
+}
+
+TEST_F(Cli, refuses_what_is_no_command) {
+  expect_refused("", "try: flyball --help");
+  expect_refused("fly delivery_forest", "try: flyball --help");
+  expect_refused("run", "SCENARIO");
+  expect_refused("run delivery_forest --fast", "--fast");
+  expect_refused("compare delivery_forest", "--policies");
+  expect_refused("compare delivery_forest --policies fixed_fine --jobs 0", "--jobs");
+  expect_refused("list planets", "nothing to list under \"planets\"; there are: scenarios,");
+  expect_refused("graph tour", "no workload \"tour\"; try: flyball list workloads");
+  expect_refused("graph package_delivery --format png", "--format png is neither text nor dot");
+}
+
+TEST_F(Cli, lists_everything_that_can_be_named) {
+  const std::pair<const char*, const char*> lists[] = {{"scenarios", "delivery_forest "},
+                                                       {"workloads", "package_delivery\n"},
+                                                       {"kernels", "mapper           octomap\n"},
+                                                       {"policies", "two_level "},
+                                                       {"platforms", "jetson_tx2 "},
+                                                       {"worlds", "  goal_distance_m "},
+                                                       {"airframes", "matrice_100 "},
+                                                       {"knobs", "map.resolution_m "}};
+  for (const auto& [kind, line] : lists) {
+    const FlyballProgram::Outcome outcome = flyball.run(std::string{"list "} + kind);
+    EXPECT_EQ(outcome.exit_code, 0) << kind;
+    EXPECT_NE(outcome.output.find(line), std::string::npos) << kind << "\n" << outcome.output;
+    EXPECT_EQ(outcome.errors, "") << kind;
+  }
+}
+
+TEST_F(Cli, prints_every_setting_with_its_origin) {
+  const FlyballProgram::Outcome outcome =
+      flyball.run("config delivery_forest --set map.rate_hz=10");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("delivery_forest.toml:"), std::string::npos);
+  EXPECT_NE(outcome.output.find("world.density_1_m2"), std::string::npos);
+  EXPECT_NE(outcome.output.find("--set"), std::string::npos);
+}
+
+TEST_F(Cli, prints_a_workload_as_text_and_for_graphviz) {
+  const FlyballProgram::Outcome text = flyball.run("graph package_delivery");
+  EXPECT_EQ(text.exit_code, 0) << text.errors;
+  EXPECT_NE(text.output, "");
+  const FlyballProgram::Outcome dot = flyball.run("graph package_delivery --format dot");
+  EXPECT_EQ(dot.output.rfind("digraph", 0), 0U) << dot.output;
+}
+
+TEST_F(Cli, prints_its_version_and_help) {
+  EXPECT_EQ(flyball.run("version").output.rfind("flyball ", 0), 0U);
+  EXPECT_EQ(flyball.run("version").output, flyball.run("version").output)
+      << "the build stays the same";
+  const FlyballProgram::Outcome help = flyball.run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.output.find("compare"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scratch_folder.h"
+#include <cstdlib>
+#include <string>
+
+#include <sys/wait.h>
+
+/// The built command, run from a folder of the test's own.
+class FlyballProgram {
+ public:
+  struct Outcome {
+    int exit_code{};
+    std::string output;
+    std::string errors;
+  };
+
+  [[nodiscard]] static std::string binary() {
+    return std::string{FLYBALL_TEST_DATA} + "/../../bin/flyball";
+  }
+
+  /// `arguments` as a shell reads them.
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const ScratchFolder said;
+    const std::string line = "cd '" + place.path() + "' && '" + binary() + "' " + arguments +
+                             " > '" + said.path("out") + "' 2> '" + said.path("err") + "'";
+    const int status = std::system(line.c_str());  // NOLINT(cert-env33-c): the test's own words
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said.content("out"), said.content("err")};
+  }
+
+  ScratchFolder place;
+};

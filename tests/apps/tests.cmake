@@ -1,0 +1,8 @@
+# The command line's tests run the built program.
+if(TARGET test_apps AND TARGET flyball_cli)
+  add_dependencies(test_apps flyball_cli)
+endif()
+if(TARGET test_closed_loop AND TARGET flyball_cli)
+  add_dependencies(test_closed_loop flyball_cli)
+  target_include_directories(test_closed_loop PRIVATE ${CMAKE_CURRENT_LIST_DIR})
+endif()

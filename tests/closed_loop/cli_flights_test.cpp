@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball_program.h"
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A flight of some 20 s that takes the host a second or two.
+constexpr const char* short_flight =
+    "delivery_forest --set world.generator=empty --set world.goal_distance_m=5 --set name=short "
+    "--set camera.width_px=32 --set camera.height_px=18 ";
+
+TEST(CliFlights, a_run_leaves_its_record_and_its_summary) {
+  const FlyballProgram flyball;
+  const auto outcome = flyball.run(std::string{"run "} + short_flight + "--seed 3 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors << outcome.output;
+  EXPECT_EQ(outcome.errors, "") << "nobody watches";
+  const auto summary = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(summary["status"], "succeeded");
+  EXPECT_EQ(summary["seed"], 3);
+  const std::string folder = "flights/short/runs/fixed_fine/seed_3/";
+  EXPECT_EQ(flyball.place.content(folder + "summary.json"), outcome.output);
+  for (const char* file : {"mission.toml", "trace.jsonl", "report.html"}) {
+    EXPECT_TRUE(fs::exists(flyball.place.path(folder + file))) << file;
+  }
+}
+
+TEST(CliFlights, a_failed_mission_is_a_result) {
+  const FlyballProgram flyball;
+  const auto outcome =
+      flyball.run(std::string{"run "} + short_flight + "--set mission.time_limit_s=2 --json");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.errors;
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["failure"], "time_limit");
+}
+
+TEST(CliFlights, a_comparison_flies_each_mission_once) {
+  const FlyballProgram flyball;
+  const std::string line = std::string{"compare "} + short_flight +
+                           "--policies fixed_fine,fixed_coarse --seeds 1..2 --json ";
+  const auto first = flyball.run(line + "--jobs 2");
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const auto table = nlohmann::json::parse(first.output);
+  EXPECT_EQ(table["seeds"], nlohmann::json::parse("[1, 2]"));
+  ASSERT_EQ(table["rows"].size(), 2U);
+  EXPECT_EQ(table["rows"][0]["policy"], "fixed_fine");
+  EXPECT_EQ(table["rows"][0]["n"], 2);
+  EXPECT_TRUE(fs::exists(flyball.place.path("flights/short/report.html")));
+
+  const std::string kept = "flights/short/runs/fixed_coarse/seed_2/summary.json";
+  const auto written = fs::last_write_time(flyball.place.path(kept));
+  fs::remove(flyball.place.path("flights/short/runs/fixed_fine/seed_1/summary.json"));
+  const auto again = flyball.run(line + "--jobs 1");
+  EXPECT_EQ(again.output, first.output) << "with other jobs, and from records";
+  EXPECT_NE(again.errors.find("3 of 4 flights are taken from flights/short"), std::string::npos)
+      << again.errors;
+  EXPECT_EQ(fs::last_write_time(flyball.place.path(kept)), written);
+}
+
+/// Starts a long flight, waits until it has begun, and presses Ctrl-C. Returns the exit code.
+int interrupt(const FlyballProgram& flyball, std::vector<std::string> words) {
+  words.insert(words.begin(), "flyball");
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+      argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    if (chdir(flyball.place.path().c_str()) == 0) {
+      execv(FlyballProgram::binary().c_str(), argv.data());
+    }
+    _exit(127);
+  }
+  while (!fs::exists(flyball.place.path("out/runs/fixed_fine/seed_1"))) {
+    std::this_thread::yield();
+  }
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(CliFlights, ctrl_c_ends_a_run_with_its_partial_record) {
+  const FlyballProgram flyball;
+  EXPECT_EQ(interrupt(flyball,
+                      {"run", "delivery_outdoor_to_indoor", "--out", "out/runs/fixed_fine/seed_1"}),
+            130);
+  const auto summary =
+      nlohmann::json::parse(flyball.place.content("out/runs/fixed_fine/seed_1/summary.json"));
+  EXPECT_EQ(summary["status"], "interrupted");
+  EXPECT_EQ(
+      flyball.place.content("out/runs/fixed_fine/seed_1/mission.toml").rfind("# Interrupted", 0),
+      0U);
+}
+
+TEST(CliFlights, ctrl_c_ends_a_comparison_and_its_missions) {
+  const FlyballProgram flyball;
+  EXPECT_EQ(interrupt(flyball, {"compare", "delivery_outdoor_to_indoor", "--policies", "fixed_fine",
+                                "--out", "out"}),
+            130);
+  const auto summary =
+      nlohmann::json::parse(flyball.place.content("out/runs/fixed_fine/seed_1/summary.json"));
+  EXPECT_EQ(summary["status"], "interrupted");
+  EXPECT_FALSE(fs::exists(flyball.place.path("out/report.html")));
+}
+
+}  // namespace
