@@ -106,6 +106,9 @@ double OctomapView::resolution_m() const {
 }
 
 CellState OctomapView::state(const Vec3& p_W) const {
+  if (!p_W.allFinite()) {
+    return CellState::unknown;
+  }
   for (const octomap::OcTree* tree : layers_) {
     octomap::OcTreeKey key;
     if (!tree->coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key)) {
@@ -123,6 +126,9 @@ CellState OctomapView::state(const Vec3& p_W) const {
 }
 
 CellState OctomapView::body_state(const Vec3& p_WB, const Cylinder& body) const {
+  if (!p_WB.allFinite()) {
+    return CellState::unknown;
+  }
   const BodyShape shape{p_WB, body};
   if (hits(shape)) {
     return CellState::occupied;
@@ -137,7 +143,7 @@ bool OctomapView::has_occupied(const Aabb& box) const {
 }
 
 bool OctomapView::segment_hits(const Vec3& from, const Vec3& to, const Cylinder& body) const {
-  return hits(SweepShape{from, to, body});
+  return !from.allFinite() || !to.allFinite() || hits(SweepShape{from, to, body});
 }
 
 double OctomapView::obstacle_density(const Vec3& p_W, double radius_m, double half_band_m) const {

@@ -6,7 +6,8 @@
 ///
 /// The tree used last answers. For a cube that it does not know, of whatever size, the tree used
 /// before it answers, cut to that cube, and so on. What no tree knows is unknown, except inside the
-/// cylinders that were declared clear.
+/// cylinders that were declared clear. A place that is not finite is unknown, a way there is
+/// blocked.
 
 #include "flyball/runtime/occupancy.h"
 

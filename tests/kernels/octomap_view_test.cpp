@@ -240,6 +240,16 @@ TEST(OctomapView, never_calls_free_what_lies_outside_its_keys) {
   EXPECT_FALSE(view.segment_hits({1e6, 0, 0}, {2e6, 0, 0}, body));
 }
 
+TEST(OctomapView, trusts_no_place_that_is_not_finite) {
+  OctomapView view;
+  view.declare_clear({0, 0, 0}, {1.0, 1.0});
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    EXPECT_EQ(view.state({0, bad, 0}), CellState::unknown);
+    EXPECT_EQ(view.body_state({0, bad, 0}, body), CellState::unknown);
+    EXPECT_TRUE(view.segment_hits({0, 0, 0}, {0, 0, bad}, body));
+  }
+}
+
 TEST(OctomapView, calls_a_declared_cylinder_free_where_nothing_is_known) {
   octomap::OcTree tree{0.15};
   tree.updateNode(0.7, 0.0, 1.0, true);
