@@ -96,8 +96,10 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
     const int columns = std::max(1, static_cast<int>(2.0 * half_width_m / spacing_m));
     const double pitch_y_m = 2.0 * half_width_m / columns;
     for (int i = 0; i < rows * columns; ++i) {
-      const double x_m = (i / columns) * spacing_m;
-      const double y_m = -half_width_m + (i % columns) * pitch_y_m;
+      const int row = i / columns;
+      const int column = i % columns;
+      const double x_m = row * spacing_m;
+      const double y_m = -half_width_m + column * pitch_y_m;
       Vec3 size{0.0, 0.0, block_height_m};
       Vec3 corner = Vec3::Zero();
       size.x() = random.uniform(1.5, 4.0);
