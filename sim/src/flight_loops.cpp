@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: flight_controller
 //
 // How the flight controller pushes: acceleration, attitude, rates, rotors.
 

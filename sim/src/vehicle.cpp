@@ -152,6 +152,8 @@ Vehicle::~Vehicle() = default;
 
 void Vehicle::step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W) {
   FLYBALL_ASSERT(dt_s > 0.0, "dt_s=%g", dt_s);
+  const double sum = command[0] + command[1] + command[2] + command[3] + wind_W.sum();
+  FLYBALL_ASSERT(std::isfinite(sum), "a rotor command or the wind is not finite: sum=%g", sum);
   body_->loads.wind_W = wind_W;
   // Wider than the body is high: no foot of a tilted vehicle reaches the ground from above this.
   const double reach_m = body_->airframe.body_height_m + body_->airframe.arm_m;

@@ -171,40 +171,6 @@ TEST(FlightController, takes_off_holds_and_lands_softly) {
   EXPECT_LT(flight.position().head<2>().norm(), 0.02);
 }
 
-TEST(FlightController, turns_by_a_quarter_turn_a_second_without_leaving_its_place) {
-  Flight flight;
-  Setpoint turned;
-  turned.p_WB = {0.0, 0.0, 3.0};
-  turned.yaw_rad = 3.0;
-  double fastest_rad_s = 0.0;
-  double farthest_rad = 0.0;
-  double away_m = 0.0;
-  flight.follow(
-      3.0, [&](double) { return turned; },
-      [&](double, const Setpoint&) {
-        fastest_rad_s = std::max(fastest_rad_s, flight.state().w_WB_B.z());
-        farthest_rad = std::max(farthest_rad, flight.yaw_rad());
-        away_m = std::max(away_m, (flight.position() - turned.p_WB).norm());
-      });
-  EXPECT_NEAR(flight.yaw_rad(), 3.0, 0.01);
-  EXPECT_NEAR(fastest_rad_s, 1.5708, 0.1);
-  EXPECT_LT(farthest_rad, 3.05);
-  EXPECT_LT(away_m, 0.05);
-}
-
-TEST(FlightController, turns_the_short_way_round) {
-  Flight flight;
-  Setpoint turned;
-  turned.p_WB = {0.0, 0.0, 3.0};
-  turned.yaw_rad = 3.0;
-  flight.follow(3.0, [&](double) { return turned; });
-  turned.yaw_rad = -3.0;
-  flight.follow(
-      1.5, [&](double) { return turned; },
-      [&](double, const Setpoint&) { ASSERT_GT(std::abs(flight.yaw_rad()), 2.9); });
-  EXPECT_NEAR(flight.yaw_rad(), -3.0, 0.02);
-}
-
 TEST(FlightController, follows_a_velocity_then_stops_where_hold_says) {
   Flight flight;
   flight.controller.fly_velocity({4.0, 0.0, 0.0}, 0.5);
@@ -245,63 +211,6 @@ TEST(FlightController, does_not_turn_round_when_set_points_stop_during_braking) 
   }
   EXPECT_GT(slowest_m_s, -1.0);  // A stop rebounds by .6 m/s; 6 m/s^2 held on would reach -3.
   EXPECT_NEAR(flight.position().x(), dash.brake_at_m() + dash.brake_length_m(), 0.15);
-}
-
-TEST(FlightController, bears_a_gust_and_a_wrong_belief_about_its_mass) {
-  Flight flight;
-  const Vec3 place{0.0, 0.0, 3.0};
-  Setpoint here;
-  here.p_WB = place;
-  flight.wind_W = {8.0, 0.0, 0.0};
-  EXPECT_LT(flight.follow(3.0, [&](double) { return here; }).total_m, 0.3);
-  EXPECT_LT((flight.position() - place).norm(), 0.02);
-  for (int i = 0; i < 3000; ++i) {  // Believes to carry 200 g that are not there.
-    if (i % 20 == 0) {
-      here.stamp = flight.now;
-      flight.controller.follow(here);
-    }
-    const double believed_kg = flight.vehicle.mass_kg() + 0.2;
-    flight.vehicle.step(0.001,
-                        flight.controller.update(flight.state(), believed_kg, flight.now, 0.001),
-                        flight.wind_W);
-    flight.now += std::chrono::milliseconds{1};
-  }
-  EXPECT_LT((flight.position() - place).norm(), 0.02);
-}
-
-TEST(FlightController, keeps_its_attitude_when_the_rotors_have_no_more_to_give) {
-  Flight flight{1.0};
-  Setpoint far;  // Asks for a climb and a dash that together exceed the thrust.
-  far.p_WB = {30.0, 0.0, 30.0};
-  far.v_WB = {10.0, 0.0, 10.0};
-  far.a_WB = {6.0, 0.0, 6.0};
-  double steepest_rad = 0.0;
-  flight.follow(
-      1.5, [&](double) { return far; },
-      [&](double, const Setpoint&) {
-        steepest_rad =
-            std::max(steepest_rad, std::acos(std::min(1.0, flight.state().X_WB.linear()(2, 2))));
-        ASSERT_LT(flight.state().w_WB_B.norm(), 7.0);
-      });
-  EXPECT_LT(steepest_rad, 0.85);  // Limit .75 rad and overshoot
-  EXPECT_GT(flight.state().v_WB.x(), 2.0);
-}
-
-TEST(FlightController, other_airframes_fly_too) {
-  for (const char* name : {"solo", "f450"}) {
-    const Airframe airframe = shipped_airframe(name);
-    Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 0.5 * airframe.body_height_m}, 1.0, 0.0};
-    FlightController controller{airframe, 0.0};
-    controller.take_off(vehicle.state(), 2.0);
-    MissionTime now{};
-    for (int i = 0; i < 3500; ++i) {
-      vehicle.step(0.001, controller.update(vehicle.state(), vehicle.mass_kg(), now, 0.001),
-                   Vec3::Zero());
-      now += std::chrono::milliseconds{1};
-    }
-    EXPECT_TRUE(controller.is_done(vehicle.state())) << name;
-    EXPECT_NEAR(yaw_of(vehicle.state().X_WB.linear().col(0)), 1.0, 0.01) << name;
-  }
 }
 
 }  // namespace

@@ -213,9 +213,10 @@ TEST(Vehicle, repeats_itself_bit_for_bit) {
   EXPECT_EQ(a.rotor_rev_s, b.rotor_rev_s);
 }
 
-TEST(VehicleDeathTest, refuses_a_step_that_is_not_positive) {
+TEST(VehicleDeathTest, refuses_a_step_that_is_not_positive_or_finite) {
   Vehicle vehicle{in_vacuum(), 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
   EXPECT_DEATH(vehicle.step(0.0, all(0.0), calm), "dt_s=0");
+  EXPECT_DEATH(vehicle.step(dt_s, {0.0, NAN, 0.0, 0.0}, calm), "not finite");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Vehicle {
   Vehicle(const Vehicle&) = delete;
   Vehicle& operator=(const Vehicle&) = delete;
 
-  /// One semi-explicit Euler step. @pre `dt_s > 0`.
+  /// One semi-explicit Euler step. @pre `dt_s > 0`; command and wind are finite.
   void step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W);
   [[nodiscard]] const VehicleState& state() const;
   /// Mass changes at once, motion goes on (the payload leaves at rest relative to the body).
