@@ -51,8 +51,8 @@ double rgbd_sigma_m(double d) {
 }
 
 // Sum of eight 16-bit uniforms, scaled to variance 1: quantiles within 2 % of the normal
-// distribution's up to 2.3 sigma, 4 % short at 3 sigma, never beyond 4.9. Box-Muller costs more, and
-// its logarithm and cosine differ between processors in the last bit; this does not.
+// distribution's up to 2.3 sigma, 4 % short at 3 sigma, never beyond 4.9. Box-Muller costs more,
+// and its logarithm and cosine differ between processors in the last bit; this does not.
 double cheap_normal(RandomStream& random) {
   std::uint32_t sum = 0;
   for (int word = 0; word < 2; ++word) {
