@@ -23,14 +23,12 @@ Vec3 clamped(const Vec3& v_WB) {
 
 }  // namespace
 
-RegressionPower::RegressionPower(const Airframe& airframe) : airframe_{airframe} {
-  FLYBALL_ASSERT(airframe.has_regression(), "no power_b for %s: use thrust", airframe.name.c_str());
-}
-
 double RegressionPower::update(const VehicleState& state,
                                double payload_kg,
                                const Vec3& wind_W,
                                double dt_s) {
+  FLYBALL_ASSERT(airframe_.has_regression(), "no power_b for %s: use the thrust model",
+                 airframe_.name.c_str());
   acceleration_ += (1.0 - std::exp(-dt_s / low_pass_s)) * (state.a_WB - acceleration_);
   const auto& rotors = state.rotor_rev_s;
   if (*std::max_element(rotors.begin(), rotors.end()) < rest_rev_s) {

@@ -88,7 +88,8 @@ TEST(RotorPower, thrust_model_knows_that_payload_costs_its_three_halves_power) {
 }
 
 TEST(RotorPowerDeathTest, refuses_an_airframe_without_coefficients) {
-  EXPECT_DEATH(RegressionPower{shipped_airframe("f450")}, "f450");
+  RegressionPower power{shipped_airframe("f450")};
+  EXPECT_DEATH((void)power.update(flying(calm), 0.0, calm, 0.001), "f450");
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace flyball {
 /// and P >= .5 b9.
 class RegressionPower {
  public:
-  /// @pre `airframe.has_regression()`.
-  explicit RegressionPower(const Airframe& airframe);
+  explicit RegressionPower(const Airframe& airframe) : airframe_{airframe} {}
   /// Advances the low-pass by `dt_s` and returns the power [W]. Rotors at rest take none.
+  /// @pre `airframe.has_regression()`.
   [[nodiscard]] double update(const VehicleState& state,
                               double payload_kg,
                               const Vec3& wind_W,
