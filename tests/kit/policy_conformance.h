@@ -32,6 +32,7 @@ struct PolicyCandidate {
       {"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.60, 0.80, 1.20}, 0.15, 1.20, 0.15, {}, ""},
       {"map.range_m", "m", "mapper", {}, 2.0, 25.0, 7.0, {}, ""},
       {"map.rate_hz", "Hz", "mapper", {}, 1.0, 30.0, 20.0, {}, ""},
+      {"planner.budget", "iterations", "plan", {}, 100.0, 1e6, 40000.0, {}, ""},
       {"cpu.cores", "", "platform", {1, 2, 3, 4}, 1.0, 4.0, 4.0, {}, ""},
       {"cpu.frequency_hz",
        "Hz",
