@@ -79,11 +79,9 @@ void ClosedLoop::physics_step() {
 void ClosedLoop::energy_step() {
   const double dt_s = to_seconds(Duration{energy_period});
   const VehicleState& state = vehicle_.state();
-  // Eq. 1 is the default; the rotors' own thrust is the second opinion.
-  const double regression_w = regression_.update(state, vehicle_.payload_kg(), wind_W_, dt_s);
   log_.rotor_w = context_.scenario.vehicle.rotor_power == "thrust"
                      ? thrust_power_w(vehicle_, context_.scenario.vehicle.drive_efficiency)
-                     : regression_w;
+                     : regression_.update(state, vehicle_.payload_kg(), wind_W_, dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;

@@ -142,6 +142,12 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   if (!airframe) {
     return airframe.error();
   }
+  if (scenario.vehicle.rotor_power == "regression" && !airframe->has_regression()) {
+    return Error{
+        ErrorCode::invalid_input,
+        "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and airframe \"" +
+            scenario.vehicle.airframe + "\" has none; set vehicle.rotor_power to \"thrust\""};
+  }
   setup.equipment.airframe = std::move(*airframe);
   auto world = make_world(scenario);
   if (!world) {
