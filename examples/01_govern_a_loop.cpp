@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Govern a loop of your own: your sensor, your kernel, your knob; a policy that Flyball has.
-// A vehicle flies 60 m over open ground with sparse pillars, then 60 m through a thicket. Its kernel
-// maps what lies around it, the finer the dearer. The program checks that the governor kept the map
-// coarse in the open and fine in the thicket, and that this saved a third of the work.
+// A vehicle flies 60 m over open ground with sparse pillars, then 60 m through a thicket. Its
+// kernel maps what lies around it, the finer the dearer. The program checks that the governor kept
+// the map coarse in the open and fine in the thicket, and that this saved a third of the work.
 
 #include "flyball/governors/policy_governor.h"
 #include "flyball/policies/policies.h"

@@ -35,7 +35,8 @@ class PolicyGovernor final : public Governor {
   using HostClock = std::function<HostTime()>;
 
   /// @param knobs  What may be set, at the values that are in force now.
-  /// @pre `policy` is not null and started; at most `Decision::capacity` knobs; `min_dwell` is not negative, `max_faults` is at least 1.
+  /// @pre `policy` is not null and started; at most `Decision::capacity` knobs; `min_dwell` is not
+  /// negative, `max_faults` is at least 1.
   PolicyGovernor(std::unique_ptr<Policy> policy,
                  KnobSettings knobs,
                  PolicyGovernorSettings settings,
