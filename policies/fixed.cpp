@@ -47,6 +47,7 @@ class Fixed final : public flyball::Policy {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     std::vector<flyball::ParameterSpec> specs;
+    specs.reserve(settings.size());
     for (const Setting& setting : settings) {
       specs.push_back({setting.parameter, 0.0, 0.0, setting.most,
                        std::string{setting.description} + " 0: as the scenario says."});
