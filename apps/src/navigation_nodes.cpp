@@ -72,6 +72,8 @@ PlanRequest plan_request(const MissionContext& context, const PlanQuery& query) 
   return request;
 }
 
+}  // namespace
+
 // First with the wide tube that cruise speed needs, for a part of the budget; then with the narrow
 // one; and where noise has put a cell into the tube itself, with the bare body.
 Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
@@ -98,6 +100,8 @@ Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& 
   plan.work = spent;
   return plan;
 }
+
+namespace {
 
 void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
   NodeSpec spec;

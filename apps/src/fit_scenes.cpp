@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: platform_fit
+#include "fit_scenes.h"
+
+#include "mission_setup.h"
+#include "navigation_nodes.h"
+#include "perception_nodes.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+constexpr double slow_m_s = 1.0;
+constexpr int most_steps = 2000;  // A way that is blocked again and again ends here.
+
+Scenario delivery() {
+  Scenario scenario;
+  scenario.name = "platform_fit";
+  scenario.seed = 1;
+  scenario.world.generator = "outdoor_to_indoor";
+  scenario.world.parameters = {{"outdoors_m", 300.0}, {"indoors_m", 30.0}};
+  scenario.camera.width_px = 256;
+  scenario.camera.height_px = 144;
+  scenario.camera.horizontal_field_rad = 1.5707963267948966;
+  scenario.map.resolution_m = 0.15;
+  scenario.map.range_m = 7.0;
+  return scenario;
+}
+
+Pose looking(const Vec3& p_W, double yaw_rad) {
+  Pose X_WB = Pose::Identity();
+  X_WB.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix();
+  X_WB.translation() = p_W;
+  return X_WB;
+}
+
+MissionBrief brief_of(const World& world) {
+  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+}
+
+/// Camera, point cloud and map: what is done with one view.
+class Perception {
+ public:
+  Perception(MissionContext& context, const World& world)
+      : context_{context}, camera_{world, context.scenario.camera, context.scenario.seed} {}
+
+  /// Looks from `X_WB`; the frame is in the map afterwards.
+  Status look(const Pose& X_WB, KernelLoads& loads) {
+    Work points;
+    cloud_ = context_.kernels.point_cloud->build(
+        camera_.capture(camera_pose(X_WB), MissionTime{}, frames_++), range_m(), points);
+    X_WC_ = camera_pose(X_WB);
+    loads[context_.scenario.kernels.point_cloud].calls.push_back(points);
+    Work slam;
+    slam.add("pixels", points.count("pixels"));
+    loads["visual_slam"].calls.push_back(slam);
+    const auto work = prepare(context_.scenario.map.resolution_m);
+    if (!work) {
+      return work.error();
+    }
+    loads[context_.scenario.kernels.mapper].calls.push_back(*work);
+    context_.kernels.mapper->commit();
+    return Done{};
+  }
+
+  /// The newest view at another resolution; the map stays as it is.
+  Result<Work> prepare(double resolution_m) {
+    return context_.kernels.mapper->prepare(cloud_, X_WC_, {resolution_m, range_m()});
+  }
+
+ private:
+  [[nodiscard]] double range_m() const { return context_.scenario.map.range_m; }
+
+  MissionContext& context_;
+  DepthCamera camera_;
+  PointCloud cloud_{};
+  Pose X_WC_{Pose::Identity()};
+  std::uint64_t frames_{};
+};
+
+class Delivery {
+ public:
+  Delivery(const DeliveryScene& scene, MissionContext& context, const World& world)
+      : scene_{scene}, context_{context}, perception_{context, world} {
+    const Vec3 up = Vec3::UnitZ() * world.cruise_height_m;
+    path_ = Path::polyline({world.start_W + up, world.goal_W + up});
+    goal_W_ = world.goal_W + up;
+    context.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
+  }
+
+  Result<DeliveryLoads> go() {
+    for (int step = 0; step < most_steps && !is_indoors(); ++step) {
+      if (const Status seen = look(); !seen) {
+        return seen.error();
+      }
+      if (const Status clear = check(); !clear) {
+        return clear.error();
+      }
+      s_m_ += scene_.step_m;
+    }
+    if (!is_indoors()) {
+      return Error{ErrorCode::failed, "the recorded delivery does not reach its building"};
+    }
+    return std::move(loads_);
+  }
+
+ private:
+  [[nodiscard]] bool is_indoors() const { return context_.speed_limit_m_s(here_W()) <= slow_m_s; }
+  [[nodiscard]] Vec3 here_W() const { return path_.at(s_m_).p_W; }
+
+  Status look() {
+    context_.kernels.mapper->declare_clear(here_W(), context_.airframe.body());
+    const Pose X_WB = looking(here_W(), yaw_of(path_.at(s_m_).tangent_W));
+    if (const Status seen = perception_.look(X_WB, loads_.kernels); !seen) {
+      return seen.error();
+    }
+    const auto coarse = perception_.prepare(scene_.coarse_resolution_m);
+    if (!coarse) {
+      return coarse.error();
+    }
+    loads_.coarse_map.calls.push_back(*coarse);
+    return Done{};
+  }
+
+  /// Leaves a way that is clear as far as the map knows.
+  Status check() {
+    const double end_m = std::min(s_m_ + scene_.checked_m, path_.length_m());
+    const Path ahead = Path::polyline({here_W(), path_.at(end_m).p_W});
+    Work priced;
+    check(ahead, 0.0, priced);
+    loads_.kernels[context_.scenario.kernels.collision_check].calls.push_back(priced);
+    Work all;
+    return check(path_, s_m_, all).blocked_at_m ? plan() : Done{};
+  }
+
+  PathCheck check(const Path& path, double from_m, Work& work) {
+    const PathSpan span{&path, from_m, context_.scenario.map.range_m};
+    return context_.kernels.collision_check->check(context_.map(), span, context_.body_at(slow_m_s),
+                                                   work);
+  }
+
+  Status plan() {
+    PlanQuery query;
+    query.id = ++plans_;
+    query.start_W = here_W();
+    query.goal_W = goal_W_;
+    Cylinder body;
+    const Plan plan = plan_with_tubes(context_, query, body);
+    if (plan.waypoints_W.empty()) {
+      return Error{ErrorCode::failed, "in the recorded delivery: " + plan.failure};
+    }
+    loads_.kernels[context_.scenario.kernels.planner].calls.push_back(plan.work);
+    path_ = Path::polyline(plan.waypoints_W);
+    s_m_ = 0.0;
+    return Done{};
+  }
+
+  const DeliveryScene& scene_;
+  MissionContext& context_;
+  Perception perception_;
+  DeliveryLoads loads_{};
+  Path path_{};
+  double s_m_{};
+  Vec3 goal_W_{Vec3::Zero()};
+  std::uint64_t plans_{};
+};
+
+}  // namespace
+
+Work KernelLoad::mean() const {
+  Work sum;
+  for (const Work& work : calls) {
+    for (const WorkItem& item : work.items()) {
+      sum.add(item.name, item.count / static_cast<double>(calls.size()));
+    }
+  }
+  return sum;
+}
+
+DeliveryScene scene_a() {
+  return {delivery(), 3.0, 7.0, 0.98};
+}
+
+RoomsScene scene_b() {
+  RoomsScene scene;
+  scene.scenario = delivery();
+  scene.first_room_W = {304.5, -10.2, 1.2};
+  scene.rows = 4;
+  scene.columns = 3;
+  scene.row_pitch_m = 9.0;
+  scene.column_pitch_m = 10.2;
+  scene.headings = 4;
+  return scene;
+}
+
+Result<DeliveryLoads> record(const DeliveryScene& scene) {
+  auto setup = set_up(scene.scenario);
+  if (!setup) {
+    return setup.error();
+  }
+  MemoryRecorder events;
+  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+                         std::move(setup->equipment)};
+  return Delivery{scene, context, setup->world}.go();
+}
+
+Result<KernelLoads> record(const RoomsScene& scene) {
+  auto setup = set_up(scene.scenario);
+  if (!setup) {
+    return setup.error();
+  }
+  MemoryRecorder events;
+  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+                         std::move(setup->equipment)};
+  const Clearance clearance{setup->world};
+  Perception perception{context, setup->world};
+  KernelLoads loads;
+  for (int room = 0; room < scene.rows * scene.columns; ++room) {
+    const Vec3 middle_W =
+        scene.first_room_W + Vec3{room / scene.columns * scene.row_pitch_m,
+                                  room % scene.columns * scene.column_pitch_m, 0.0};
+    if (clearance.distance_m(middle_W, context.airframe.body(), 1.0, true) <= 0.0) {
+      continue;
+    }
+    for (int i = 0; i < scene.headings; ++i) {
+      const double yaw_rad = 6.283185307179586 * i / scene.headings;
+      if (const Status seen = perception.look(looking(middle_W, yaw_rad), loads); !seen) {
+        return seen.error();
+      }
+    }
+  }
+  return loads;
+}
+
+}  // namespace flyball

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The scenes on which a platform file is fitted and checked, and what the kernels do there.
+
+#include "flyball/apps/scenario.h"
+#include "flyball/runtime/geometry.h"
+#include "flyball/runtime/result.h"
+#include "flyball/runtime/work.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// What one kernel did, call by call.
+struct KernelLoad {
+  std::vector<Work> calls{};
+  [[nodiscard]] Work mean() const;
+};
+
+using KernelLoads = std::map<std::string, KernelLoad>;  ///< By the name on the price list.
+
+/// The outdoor part of a delivery, without dynamics: look, map, check the way to the goal, plan
+/// again where it is blocked, go on by a step. Ends where the world's speed zone, its building,
+/// begins.
+struct DeliveryScene {
+  Scenario scenario{};
+  double step_m{};
+  double checked_m{};            ///< Of the way ahead, in the check that is priced.
+  double coarse_resolution_m{};  ///< Each frame is also counted at this resolution.
+};
+
+struct DeliveryLoads {
+  KernelLoads kernels{};
+  KernelLoad coarse_map{};
+};
+
+/// A look around in the middle of each room of a building.
+struct RoomsScene {
+  Scenario scenario{};
+  Vec3 first_room_W{Vec3::Zero()};  ///< The room's middle at least x and y, at camera height.
+  int rows{};                       ///< Along x.
+  int columns{};                    ///< Along y.
+  double row_pitch_m{};
+  double column_pitch_m{};
+  int headings{};  ///< Evenly spread, the first along x.
+};
+
+/// The shipped delivery_outdoor_to_indoor, seed 1, from take-off to the door.
+[[nodiscard]] DeliveryScene scene_a();
+/// The rooms of the same building as MAVBench's 3-D mapping sees them: same camera, same map.
+[[nodiscard]] RoomsScene scene_b();
+
+/// @error `not_found`, `invalid_input` (the scenario), `failed` (a kernel, or no way to the goal).
+[[nodiscard]] Result<DeliveryLoads> record(const DeliveryScene& scene);
+/// Perception only. Places that furniture takes are left out.
+[[nodiscard]] Result<KernelLoads> record(const RoomsScene& scene);
+
+}  // namespace flyball
