@@ -179,7 +179,7 @@ int OctomapView::occupied_columns(const Columns& block) const {
 
 double OctomapView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double half_band_m) const {
   NearestShape shape{p_W, limit_m, half_band_m};
-  any_obstacle(shape, [&](const Aabb& part) {
+  (void)any_obstacle(shape, [&](const Aabb& part) {
     shape.shrink_to(part);
     return false;
   });
@@ -188,13 +188,15 @@ double OctomapView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double h
 
 void OctomapView::for_each_occupied(const std::function<void(const Aabb& cube)>& show) const {
   const BoxShape space{everywhere()};
+  const auto show_if_it_counts = [&](std::size_t layer, const Aabb& cube) {
+    if (any_gap(layer, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
+      show(cube);
+    }
+    return false;
+  };
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
-    OctreeWalk{*layers_[layer]}.any_occupied(space.bounds(), space, [&](const Aabb& cube) {
-      if (any_gap(layer, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
-        show(cube);
-      }
-      return false;
-    });
+    const auto visit = [&](const Aabb& cube) { return show_if_it_counts(layer, cube); };
+    (void)OctreeWalk{*layers_[layer]}.any_occupied(space.bounds(), space, visit);
   }
 }
 

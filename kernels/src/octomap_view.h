@@ -63,16 +63,19 @@ class OctomapView final : public OccupancyView {
 
   /// Shows the parts of `region` in the shape that none of the first `layers` trees knows.
   template <class Shape, class Show>
-  bool any_gap(std::size_t layers, const Aabb& region, const Shape& shape, Show&& show) const;
+  [[nodiscard]] bool any_gap(std::size_t layers,
+                             const Aabb& region,
+                             const Shape& shape,
+                             Show&& show) const;
   template <class Shape, class Show>
-  bool any_gap_from(std::size_t layer,
-                    std::size_t layers,
-                    const Aabb& region,
-                    const Shape& shape,
-                    Show& show) const;
+  [[nodiscard]] bool any_gap_from(std::size_t layer,
+                                  std::size_t layers,
+                                  const Aabb& region,
+                                  const Shape& shape,
+                                  Show& show) const;
   /// Shows the occupied parts in the shape, each cut to where its tree is the one that answers.
   template <class Shape, class Show>
-  bool any_obstacle(const Shape& shape, Show&& show) const;
+  [[nodiscard]] bool any_obstacle(const Shape& shape, Show&& show) const;
   template <class Shape>
   [[nodiscard]] bool hits(const Shape& shape) const;
 

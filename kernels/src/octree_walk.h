@@ -21,7 +21,7 @@ class OctreeWalk {
   /// Shows each occupied leaf's cube, cut to `region`, that overlaps the shape, near ones first.
   /// Ends when `show(part)` returns true, and says whether it did.
   template <class Shape, class Show>
-  bool any_occupied(const Aabb& region, const Shape& shape, Show&& show) const {
+  [[nodiscard]] bool any_occupied(const Aabb& region, const Shape& shape, Show&& show) const {
     const octomap::OcTreeNode* root = tree_.getRoot();
     return root != nullptr &&
            occupied_below({root, {0, 0, 0}, all_keys}, scope(region, shape), show);
@@ -29,7 +29,7 @@ class OctreeWalk {
 
   /// The same for the cubes of which the tree knows nothing.
   template <class Shape, class Show>
-  bool any_unknown(const Aabb& region, const Shape& shape, Show&& show) const {
+  [[nodiscard]] bool any_unknown(const Aabb& region, const Shape& shape, Show&& show) const {
     const octomap::OcTreeNode* root = tree_.getRoot();
     if (root == nullptr || !contains(region)) {
       return show(region);
@@ -108,7 +108,7 @@ class OctreeWalk {
   /// Goes down from a known cube, as long as one octant holds all of the scope, `more(cube)` is
   /// true and the cube has children. Most of a query's levels pass here, so this is kept tight.
   template <class Shape, class More>
-  Cube descended(Cube cube, const Scope<Shape>& scope, More&& more) const {
+  [[nodiscard]] Cube descended(Cube cube, const Scope<Shape>& scope, More&& more) const {
     int differing = 0;
     Keys first{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -124,7 +124,7 @@ class OctreeWalk {
 
   /// Visits the children that overlap the shape, near ones first.
   template <class Shape, class Visit>
-  bool any_child(const Cube& cube, const Scope<Shape>& scope, Visit&& visit) const {
+  [[nodiscard]] bool any_child(const Cube& cube, const Scope<Shape>& scope, Visit&& visit) const {
     const unsigned nearest = octant_of(cube, scope.focus);
     const unsigned low = octant_of(cube, scope.first);
     const unsigned high = octant_of(cube, scope.last);
@@ -142,14 +142,14 @@ class OctreeWalk {
   }
 
   template <class Shape, class Show>
-  bool show_part(const Cube& cube, const Scope<Shape>& scope, Show& show) const {
+  [[nodiscard]] bool show_part(const Cube& cube, const Scope<Shape>& scope, Show& show) const {
     const Aabb part = intersection(box_of(cube), scope.region);
     return scope.shape.overlaps(part) && show(part);
   }
 
   // An inner node holds the largest log-odds below it, so free space ends the recursion early.
   template <class Shape, class Show>
-  bool occupied_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
+  [[nodiscard]] bool occupied_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
     const auto is_occupied = [this](const Cube& cube) { return tree_.isNodeOccupied(cube.node); };
     const Cube cube = descended(top, scope, is_occupied);
     if (cube.node == nullptr || !is_occupied(cube)) {
@@ -164,7 +164,7 @@ class OctreeWalk {
   }
 
   template <class Shape, class Show>
-  bool unknown_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
+  [[nodiscard]] bool unknown_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
     const Cube cube = descended(top, scope, [](const Cube&) { return true; });
     if (cube.node == nullptr) {
       return show_part(cube, scope, show);

@@ -213,12 +213,10 @@ void ScanUpdate::span_window(const octomap::OcTree& lattice, const octomap::poin
 
 double ScanUpdate::mark_cells(const octomap::OcTree& lattice, const octomap::point3d& origin_W) {
   // Copies: a store into the window may change the members, as far as the compiler knows.
-  Brick* const window = window_.data();
-  const auto [left, front, bottom] = first_brick_;
-  const auto [width, depth, height] = window_size_;
-  const auto brick_of = [=](const RayWalk::Cell& cell) -> Brick& {
-    const int row = ((cell[2] >> 2) - bottom) * depth + (cell[1] >> 2) - front;
-    return window[static_cast<std::size_t>(row * width + (cell[0] >> 2) - left)];
+  const auto brick_of = [window = window_.data(), first = first_brick_,
+                         size = window_size_](const RayWalk::Cell& cell) -> Brick& {
+    const int row = ((cell[2] >> 2) - first[2]) * size[1] + (cell[1] >> 2) - first[1];
+    return window[static_cast<std::size_t>(row * size[0] + (cell[0] >> 2) - first[0])];
   };
   std::size_t traversals = 0;
   for (const Ray& ray : rays_) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/octomap_view.h"
 
+#include "random_map.h"
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -13,105 +13,14 @@
 namespace flyball {
 namespace {
 
+using kit::dense;
+using kit::Fill;
+using kit::random_point;
+using kit::Rig;
+using kit::sparse;
+using kit::stacks;
+
 constexpr Cylinder body{0.35, 0.15};
-
-struct Fill {
-  double free;
-  double occupied;
-};
-
-/// Blocks of a random state each, in a cube of 6.4 m around the origin; the rest is unknown.
-std::unique_ptr<octomap::OcTree> random_tree(double resolution_m, Fill fill, unsigned seed) {
-  auto tree = std::make_unique<octomap::OcTree>(resolution_m);
-  std::mt19937 generator{seed};
-  const int cells = static_cast<int>(std::lround(6.4 / resolution_m));
-  const auto key = [&](int i) { return static_cast<octomap::key_type>(32768 - cells / 2 + i); };
-  for (int i = 0; i < cells * cells * cells; ++i) {
-    const double dice = 1e-3 * static_cast<double>(generator() % 1000);
-    const octomap::OcTreeKey at{key(i % cells), key(i / cells % cells), key(i / cells / cells)};
-    if (dice < fill.free + fill.occupied) {
-      tree->setNodeValue(at, dice < fill.free ? -1.0F : 1.0F);
-    }
-  }
-  return tree;
-}
-
-/// The map cell by cell, by definition: each cell of a lattice that all trees share.
-class Reference {
- public:
-  Reference(double cell_m, std::vector<const octomap::OcTree*> trees)
-      : cell_m_{cell_m}, trees_{std::move(trees)} {}
-
-  [[nodiscard]] CellState at(const Vec3& p) const {
-    for (const auto* tree : trees_) {
-      if (const auto* node = tree->search(p.x(), p.y(), p.z())) {
-        return tree->isNodeOccupied(node) ? CellState::occupied : CellState::free;
-      }
-    }
-    return CellState::unknown;
-  }
-
-  /// Calls `visit(cube, state)` for every cell that the box overlaps.
-  template <class Visit>
-  void visit(const Aabb& box, Visit&& visit) const {
-    const auto first = [&](int axis) { return std::floor(box.min[axis] / cell_m_); };
-    for (double x = first(0); x * cell_m_ < box.max.x(); ++x) {
-      for (double y = first(1); y * cell_m_ < box.max.y(); ++y) {
-        for (double z = first(2); z * cell_m_ < box.max.z(); ++z) {
-          const Vec3 low = cell_m_ * Vec3{x, y, z};
-          visit(Aabb{low, low + Vec3::Constant(cell_m_)}, at(low + Vec3::Constant(0.5 * cell_m_)));
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] CellState body_state(const Vec3& p, const Cylinder& space) const {
-    const Vec3 half{space.radius_m, space.radius_m, space.half_height_m};
-    CellState worst = CellState::free;
-    visit({p - half, p + half}, [&](const Aabb& cube, CellState state) {
-      const Vec3 nearest = p.cwiseMax(cube.min).cwiseMin(cube.max) - p;
-      if (nearest.head<2>().norm() < space.radius_m - 1e-9 &&
-          std::abs(nearest.z()) < space.half_height_m - 1e-9) {
-        worst = std::max(worst, state);
-      }
-    });
-    return worst;
-  }
-
- private:
-  double cell_m_;
-  std::vector<const octomap::OcTree*> trees_;
-};
-
-/// A map of one or two random trees with its reference.
-struct Rig {
-  std::vector<std::unique_ptr<octomap::OcTree>> trees;  ///< The active one first.
-  OctomapView view;
-  std::optional<Reference> reference;
-
-  Rig(const std::vector<double>& resolutions_m, Fill fill) {
-    std::vector<const octomap::OcTree*> order;
-    for (const double resolution_m : resolutions_m) {
-      trees.push_back(random_tree(resolution_m, fill, 7));
-      order.push_back(trees.back().get());
-    }
-    for (auto tree = order.rbegin(); tree != order.rend(); ++tree) {
-      view.activate(**tree);
-    }
-    reference.emplace(*std::min_element(resolutions_m.begin(), resolutions_m.end()), order);
-  }
-};
-
-const std::vector<std::vector<double>> stacks{{0.2}, {0.2, 0.8}, {0.8, 0.2}, {0.4, 0.8, 0.2}};
-constexpr Fill dense{0.90, 0.01};
-constexpr Fill sparse{0.40, 0.02};
-
-Vec3 random_point(std::mt19937& generator, double half_m) {
-  std::uniform_real_distribution<double> coordinate{-half_m, half_m};
-  const double x = coordinate(generator);
-  const double y = coordinate(generator);
-  return {x, y, coordinate(generator)};
-}
 
 TEST(OctomapView, gives_the_worst_state_of_the_cubes_that_the_body_overlaps) {
   for (const auto& stack : stacks) {
@@ -248,53 +157,6 @@ TEST(OctomapView, trusts_no_place_that_is_not_finite) {
     EXPECT_EQ(view.body_state({0, bad, 0}, body), CellState::unknown);
     EXPECT_TRUE(view.segment_hits({0, 0, 0}, {0, 0, bad}, body));
   }
-}
-
-TEST(OctomapView, calls_a_declared_cylinder_free_where_nothing_is_known) {
-  octomap::OcTree tree{0.15};
-  tree.updateNode(0.7, 0.0, 1.0, true);
-  OctomapView view;
-  view.activate(tree);
-  const Cylinder space{1.0, 1.25};
-  view.declare_clear({0, 0, 1.25}, space);
-  EXPECT_EQ(view.state({0.5, 0.5, 2.0}), CellState::free);
-  EXPECT_EQ(view.state({1.1, 0.0, 2.0}), CellState::unknown);
-  EXPECT_EQ(view.body_state({0.7, 0.0, 1.0}, body), CellState::occupied);
-  for (int i = 0; i < 16; ++i) {
-    const double room_m = space.radius_m - body.radius_m;
-    const Vec3 p{room_m * std::cos(0.4 * i), room_m * std::sin(0.4 * i), 1.9};
-    EXPECT_EQ(view.body_state(p, body), CellState::free) << p.transpose();
-    EXPECT_EQ(view.body_state(1.01 * p, body), CellState::unknown) << p.transpose();
-  }
-  EXPECT_EQ(view.body_state({0, 0, 2.35}, body), CellState::free);
-  EXPECT_EQ(view.body_state({0, 0, 2.36}, body), CellState::unknown);
-}
-
-TEST(OctomapView, joins_declared_cylinders_and_known_free_space) {
-  octomap::OcTree tree{0.15};
-  for (int i = 0; i < 40 * 40 * 20; ++i) {
-    const double x = 0.15 * (i % 40) + 0.675;  // free from x = .6 m on
-    tree.updateNode(x, 0.15 * (i / 40 % 40) - 2.925, 0.15 * (i / 1600) + 0.075, false);
-  }
-  OctomapView view;
-  view.activate(tree);
-  view.declare_clear({0, 0, 1.25}, {1.0, 1.25});
-  view.declare_clear({-1.2, 0, 1.25}, {1.0, 1.25});
-  for (double x = -1.7; x < 3.0; x += 0.1) {
-    EXPECT_EQ(view.body_state({x, 0, 1.2}, body), CellState::free) << x;
-  }
-  EXPECT_EQ(view.body_state({-1.9, 0, 1.2}, body), CellState::unknown);
-}
-
-TEST(OctomapView, keeps_wide_clear_cylinders_when_many_thin_ones_follow) {
-  OctomapView view;
-  view.declare_clear({0, 0, 1.25}, {1.0, 1.25});
-  for (int i = 0; i < 100; ++i) {
-    view.declare_clear({5.0 + i, 0, 1.0}, {0.4, 0.2});
-  }
-  EXPECT_EQ(view.state({0, 0, 1.0}), CellState::free);
-  EXPECT_EQ(view.state({5.0, 0, 1.0}), CellState::unknown);
-  EXPECT_EQ(view.state({104.0, 0, 1.0}), CellState::free);
 }
 
 TEST(OctomapView, measures_density_in_columns_of_fixed_size) {
