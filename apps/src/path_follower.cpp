@@ -46,10 +46,11 @@ void PathFollower::adopt(const Path& tail, double splice_m) {
   path_ = path_.empty() ? tail : Path::joined(path_, s_m_, std::max(s_m_, splice_m), tail);
   s_m_ = 0.0;
   stop_at_m_ = path_.length_m();
-  const double longitudinal = std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2);
-  profile_ = SpeedProfile{path_, {comfort_m_s2, longitudinal}, [this](const Vec3& p_W) {
-                            return context_.speed_limit_m_s(p_W);
-                          }};
+  SpeedProfileLimits limits;
+  limits.lateral_m_s2 = comfort_m_s2;
+  limits.longitudinal_m_s2 = std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2);
+  profile_ = SpeedProfile{path_, limits,
+                          [this](const Vec3& p_W) { return context_.speed_limit_m_s(p_W); }};
   stalled_since_.reset();
 }
 
@@ -104,11 +105,18 @@ double PathFollower::braked_speed(double dt_s) const {
   return speed_m_s_ + comfort_m_s2 * dt_s;
 }
 
-PathReference PathFollower::tick(MissionTime now, Duration dt) {
+// A vehicle that has fallen out of its tube is waited for: the reference slows down to a crawl.
+double PathFollower::wait_for_vehicle(double tracking_error_m) const {
+  const double tube_m = context_.tube.radius_m(speed_m_s_);
+  constexpr double patience_m = 0.2;
+  return std::clamp(1.0 - (tracking_error_m - tube_m) / patience_m, 0.1, 1.0);
+}
+
+PathReference PathFollower::tick(MissionTime now, Duration dt, double tracking_error_m) {
   const double dt_s = to_seconds(dt);
   double acceleration = 0.0;
   if (has_path()) {
-    target_m_s_ = target_speed();
+    target_m_s_ = target_speed() * wait_for_vehicle(tracking_error_m);
     const double wished = towards(speed_m_s_, target_m_s_, comfort_m_s2 * dt_s);
     const double next = std::min(wished, braked_speed(dt_s));
     acceleration = (next - speed_m_s_) / dt_s;

@@ -13,11 +13,14 @@ namespace {
 // error.
 constexpr double crawl_m_s = 0.05;
 
-double curve_speed_squared(double curvature_1_m, double lateral_m_s2) {
+double curve_speed_squared(double curvature_1_m, const SpeedProfileLimits& limits) {
+  const double crawl = crawl_m_s * crawl_m_s;
   if (!std::isfinite(curvature_1_m)) {
-    return crawl_m_s * crawl_m_s;
+    return crawl;
   }
-  return lateral_m_s2 / std::max(curvature_1_m, 1e-9);
+  const double bend = std::max(curvature_1_m, 1e-9);
+  const double turning = limits.turn_rad_s / bend;
+  return std::max(crawl, std::min(limits.lateral_m_s2 / bend, turning * turning));
 }
 
 }  // namespace
@@ -35,8 +38,8 @@ SpeedProfile::SpeedProfile(const Path& path,
     const double place = place_limit(sample.p_W);
     const double reachable =
         next_speed_squared + 2.0 * limits.longitudinal_m_s2 * (next_s - sample.s_m);
-    next_speed_squared = std::min(
-        {place * place, curve_speed_squared(sample.curvature_1_m, limits.lateral_m_s2), reachable});
+    next_speed_squared =
+        std::min({place * place, curve_speed_squared(sample.curvature_1_m, limits), reachable});
     next_s = sample.s_m;
     s_m_[i] = sample.s_m;
     speed_squared_[i] = next_speed_squared;

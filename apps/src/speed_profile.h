@@ -14,6 +14,7 @@ namespace flyball {
 struct SpeedProfileLimits {
   double lateral_m_s2{3.0};       ///< Half of the 6 m/s^2 that the guard may brake with,
   double longitudinal_m_s2{3.0};  ///< so that both together stay below it.
+  double turn_rad_s{1.2};  ///< Of the heading, which follows the velocity: below its 90 degrees/s.
 };
 
 /// Largest speeds along a path such that curvature, places and the standstill at its end are

@@ -16,7 +16,8 @@ using flyball::Vec3;
 
 constexpr double position_gain_1_s = 0.8;
 constexpr double max_correction_m_s =
-    0.5;                        // A jump of the estimate must not become a jump of the vehicle.
+    0.5;  // A jump of the estimate must not become a jump of the vehicle.
+constexpr double max_centripetal_m_s2 = 4.0;  // Half the tilt that braking takes: more is a kink.
 constexpr double look_m = 0.1;  // Two samples of a path: their tangents differ enough.
 
 /// Towards the centre of the curve; zero where the path is straight.
@@ -45,7 +46,8 @@ class FeedforwardPd final : public flyball::PathTracker {
     setpoint.v_WB = speed_m_s * here.tangent_W + correction(here.p_W - where.X_WB.translation());
     setpoint.a_WB = reference.acceleration_m_s2 * here.tangent_W;
     if (std::isfinite(here.curvature_1_m)) {  // A corner is passed at a crawl: nothing to feed.
-      setpoint.a_WB += speed_m_s * speed_m_s * here.curvature_1_m * normal_at(path, here);
+      const double towards_centre = speed_m_s * speed_m_s * here.curvature_1_m;
+      setpoint.a_WB += std::min(towards_centre, max_centripetal_m_s2) * normal_at(path, here);
     }
     return setpoint;
   }

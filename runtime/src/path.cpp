@@ -34,7 +34,7 @@ struct Point {
 class Flattening {
  public:
   Flattening(const Trajectory& trajectory, double step_m)
-      : limit_m_{0.95 * step_m}, merge_m_{0.01 * step_m} {
+      : limit_m_{0.95 * step_m}, merge_m_{0.2 * step_m} {
     for (std::size_t i = 0; i < trajectory.pieces.size(); ++i) {
       const PolynomialPiece& piece = trajectory.pieces[i];
       add_point(piece.derivative(0, 0.0));
@@ -56,7 +56,8 @@ class Flattening {
 
  private:
   void add_point(const Vec3& p_W) {
-    // A chord that is too short has no direction.
+    // A chord that is too short has no direction, and where a trajectory comes to rest its last
+    // millimetres would pass for a sharp bend.
     if (points_.empty() || (points_.back().p_W - p_W).norm() >= merge_m_) {
       points_.push_back({p_W, false});
     }

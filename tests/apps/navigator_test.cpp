@@ -9,6 +9,7 @@ namespace flyball {
 namespace {
 
 using namespace std::chrono_literals;
+using kit::GridMap;
 
 Trajectory straight(const Vec3& from, const Vec3& to) {
   PolynomialPiece piece;
