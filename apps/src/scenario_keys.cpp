@@ -78,7 +78,8 @@ std::string same_stem(const std::string& unknown, const std::vector<std::string>
   for (const std::string& key : known) {
     const KeyParts has = parts_of(key);
     if (has.stem == wanted.stem && has.unit != wanted.unit) {
-      return key + (has.unit.empty() ? " has no unit" : " is in " + has.unit) + ": use that one;";
+      return "did you mean " + key +
+             (has.unit.empty() ? ", without a unit?" : ", in " + has.unit + "?");
     }
   }
   return {};

@@ -51,6 +51,16 @@ int add_object(dl_phdr_info* object, std::size_t, void* hash) {
   return 0;
 }
 
+std::string fingerprint_of_loaded() {
+  TraceHash hash;
+  dl_iterate_phdr(add_object, &hash);
+  return hash.hex();
+}
+
+// Taken before `main`: libraries that are opened later (some open theirs at first use) depend on
+// what the program has done so far, and the fingerprint must not.
+const std::string at_start = fingerprint_of_loaded();
+
 }  // namespace
 
 std::string version() {
@@ -58,9 +68,7 @@ std::string version() {
 }
 
 std::string build_fingerprint() {
-  TraceHash hash;
-  dl_iterate_phdr(add_object, &hash);
-  return hash.hex();
+  return at_start;
 }
 
 }  // namespace flyball

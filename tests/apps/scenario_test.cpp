@@ -62,7 +62,7 @@ budget = 1.5
   for (const char* sentence :
        {"seed = -3 (mine.toml:1) must be a whole number, 0 or more",
         "vehicle.payload_kg = -0.5 (mine.toml:3) must be at least 0 kg and at most 20 kg",
-        "\"map.range_cm\" (mine.toml:5); map.range_m is in m",
+        "\"map.range_cm\" (mine.toml:5); did you mean map.range_m, in m?",
         "(mine.toml:6) must be a number in Hz",
         "\"mision.time_limit_s\" (mine.toml:8); did you mean mission.time_limit_s?",
         "no mapper \"octomapp\" (mine.toml:10); did you mean octomap?",
@@ -146,9 +146,9 @@ TEST(Scenario, worlds_declare_their_own_parameters) {
       errors_of("[world]\ngenerator = \"forest\"\nwidth_cm = 3000\ngoal_distance_m = \"far\"\n"
                 "min_gap_m = 99\ndensity = 0.01\n"));
   for (const char* sentence :
-       {"\"world.width_cm\" (mine.toml:3); world.width_m is in m",
+       {"\"world.width_cm\" (mine.toml:3); did you mean world.width_m, in m?",
         "world.goal_distance_m = \"far\" (mine.toml:4) must be a number in m", "min_gap_m",
-        "\"world.density\" (mine.toml:6); world.density_1_m2 is in 1/m^2"}) {
+        "\"world.density\" (mine.toml:6); did you mean world.density_1_m2, in 1/m^2?"}) {
     EXPECT_NE(said.find(sentence), std::string::npos) << sentence << "\nis missing from\n" << said;
   }
 }
