@@ -45,8 +45,10 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
   if (!name_or_path.empty() && fs::is_regular_file(file, failed)) {
     return file;
   }
-  const std::string thing = kind.substr(0, kind.size() - 1);  // `scenarios` -> `scenario`
-  const std::string list = kind == "presets" ? "policies" : kind;
+  const bool is_preset =
+      kind == "presets";  // People choose a policy; that it has a preset is ours.
+  const std::string thing = is_preset ? "policy" : kind.substr(0, kind.size() - 1);
+  const std::string list = is_preset ? "policies" : kind;
   return Error{ErrorCode::not_found,
                is_path
                    ? "no file \"" + name_or_path + "\" to read the " + thing +

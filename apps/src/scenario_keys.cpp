@@ -77,7 +77,7 @@ std::string same_stem(const std::string& unknown, const std::vector<std::string>
   const KeyParts wanted = parts_of(unknown);
   for (const std::string& key : known) {
     const KeyParts has = parts_of(key);
-    if (has.stem == wanted.stem && has.unit != wanted.unit) {
+    if (has.stem == wanted.stem) {
       return "did you mean " + key +
              (has.unit.empty() ? ", without a unit?" : ", in " + has.unit + "?");
     }

@@ -13,7 +13,8 @@ const charts = [
   { title: 'Map resolution', unit: 'm', lines: [{ key: 'resolution', step: true }], digits: 2 },
   { title: 'Latency bound', unit: 's', lines: [{ key: 'latency' }], digits: 2 },
   { title: 'Speed', unit: 'm/s', lines: [{ key: 'limit', dash: [4, 3], name: 'limit' }, { key: 'speed' }], digits: 2 },
-  { title: 'Power', unit: 'W', lines: [{ key: 'computer', dash: [4, 3], name: 'computer' }, { key: 'rotor', name: 'rotors' }], digits: 0 },
+  { title: 'Rotor power', unit: 'W', lines: [{ key: 'rotor' }], digits: 0 },
+  { title: 'Computer power', unit: 'W', lines: [{ key: 'computer' }], digits: 1 },
   { title: 'Battery', unit: '%', lines: [{ key: 'battery' }], digits: 1, top: 100 },
 ];
 
