@@ -116,16 +116,19 @@ class Smoothing {
   /// first guess, which never does, replaces the optimum.
   bool pin_disorderly_knots() {
     const auto first_guess = flyball::knots_of(polygon_).knots;
+    const auto pin = [&](std::size_t k) {
+      const bool was_free = !curve_.knots[k].is_fixed;
+      if (was_free) {
+        curve_.knots[k] = first_guess[k];
+        curve_.knots[k].is_fixed = true;
+      }
+      return was_free;
+    };
     bool pinned = false;
     for (std::size_t i = 0; i < curve_.durations_s.size(); ++i) {
-      if (is_orderly(i)) {
-        continue;
-      }
-      for (const std::size_t k : {i, i + 1}) {
-        if (!curve_.knots[k].is_fixed) {
-          curve_.knots[k] = first_guess[k];
-          curve_.knots[k].is_fixed = pinned = true;
-        }
+      if (!is_orderly(i)) {
+        pinned = pin(i) || pinned;
+        pinned = pin(i + 1) || pinned;
       }
     }
     return pinned;

@@ -148,33 +148,40 @@ bool bridge(const ColumnGrid& grid, const Vec3& from, const WidthRange& width, G
   return false;
 }
 
+/// By place, so that the order does not depend on how the gaps were found.
+using GapMap = std::map<std::pair<double, double>, GapGroup>;
+
+void add_gaps_from(const ColumnGrid& grid,
+                   const Vec3& from,
+                   const WidthRange& width,
+                   GapMap& gaps) {
+  static const auto across = half_turn();
+  for (const Vec3& direction : across) {
+    Gap gap;
+    gap.across_W = direction;
+    if (bridge(grid, from, width, gap)) {
+      const Eigen::Vector2d place = gap.centre_W.head<2>() / group_size_m;
+      gaps[{std::floor(place.x()), std::floor(place.y())}].push_back(gap);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<GapGroup> find_gaps(MotionChecker& checker, const Aabb& region_W) {
   const ColumnGrid grid{checker, region_W};
   const double diameter_m = 2.0 * checker.body().radius_m;
-  const WidthRange width{diameter_m, 2.0 * diameter_m};
-  const auto across = half_turn();
-  std::map<std::pair<double, double>, GapGroup> groups;
+  GapMap gaps;
   for (const auto& column : grid.occupied()) {
-    const Vec3 from = grid.centre(column);
-    for (const Vec3& direction : across) {
-      Gap gap;
-      gap.across_W = direction;
-      if (bridge(grid, from, width, gap)) {
-        groups[{std::floor(gap.centre_W.x() / group_size_m),
-                std::floor(gap.centre_W.y() / group_size_m)}]
-            .push_back(gap);
-      }
-    }
+    add_gaps_from(grid, grid.centre(column), {diameter_m, 2.0 * diameter_m}, gaps);
   }
-  std::vector<GapGroup> result;
-  for (auto& [place, group] : groups) {
+  std::vector<GapGroup> groups;
+  for (auto& [place, group] : gaps) {
     std::stable_sort(group.begin(), group.end(),
                      [](const Gap& a, const Gap& b) { return a.width_m < b.width_m; });
-    result.push_back(std::move(group));
+    groups.push_back(std::move(group));
   }
-  return result;
+  return groups;
 }
 
 }  // namespace flyball

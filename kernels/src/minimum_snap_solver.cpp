@@ -19,17 +19,22 @@ using Matrix3 = Eigen::Matrix3d;
 // piece a long one weighs nothing, and what only the long one decides would drown in rounding.
 constexpr double ridge = 1e-6;
 
-/// Row n of a half: the n-th derivative of t^k at `t`, for unit duration.
+/// k! / (k - n)!: the factor that n derivatives bring to t^k.
+double derivative_factor(int k, int n) {
+  double factor = 1.0;
+  for (int i = 0; i < n; ++i) {
+    factor *= k - i;
+  }
+  return factor;
+}
+
+/// From coefficients to [p, v, a, j] at both ends, for unit duration.
 Matrix8 end_derivatives() {
   Matrix8 rows = Matrix8::Zero();
   for (int n = 0; n < 4; ++n) {
+    rows(n, n) = derivative_factor(n, n);
     for (int k = n; k < 8; ++k) {
-      double factor = 1.0;
-      for (int i = 0; i < n; ++i) {
-        factor *= k - i;
-      }
-      rows(n, k) = k == n ? factor : 0.0;
-      rows(4 + n, k) = factor;
+      rows(4 + n, k) = derivative_factor(k, n);
     }
   }
   return rows;
@@ -41,19 +46,20 @@ const Matrix8& coefficients_from_ends() {
   return inverse;
 }
 
+Matrix8 snap_of_coefficients() {
+  Matrix8 form = Matrix8::Zero();
+  for (int i = 4; i < 8; ++i) {
+    for (int k = 4; k < 8; ++k) {
+      form(i, k) = derivative_factor(i, 4) * derivative_factor(k, 4) / (i + k - 7);
+    }
+  }
+  return form;
+}
+
 /// Squared snap as a quadratic form of [p, v, a, j] at both ends, for unit duration.
 const Matrix8& snap_of_ends() {
-  static const Matrix8 form = [] {
-    Matrix8 of_coefficients = Matrix8::Zero();
-    const auto factor = [](int k) { return static_cast<double>(k * (k - 1) * (k - 2) * (k - 3)); };
-    for (int i = 4; i < 8; ++i) {
-      for (int k = 4; k < 8; ++k) {
-        of_coefficients(i, k) = factor(i) * factor(k) / (i + k - 7);
-      }
-    }
-    const Matrix8& c = coefficients_from_ends();
-    return Matrix8{c.transpose() * of_coefficients * c};
-  }();
+  static const Matrix8 form =
+      coefficients_from_ends().transpose() * snap_of_coefficients() * coefficients_from_ends();
   return form;
 }
 
@@ -74,6 +80,7 @@ void add_piece(NormalEquations& equations,
                std::size_t i,
                const std::vector<SnapKnot>& knots,
                double duration_s) {
+  FLYBALL_ASSERT(duration_s > 0.0, "duration_s=%g", duration_s);
   const SnapKnot& from = knots[i];
   const SnapKnot& to = knots[i + 1];
   const Matrix8& q = snap_of_ends();
@@ -134,7 +141,6 @@ void minimise_snap(std::vector<SnapKnot>& knots, const std::vector<double>& dura
                  durations_s.size());
   NormalEquations equations{knots.size()};
   for (std::size_t i = 0; i < durations_s.size(); ++i) {
-    FLYBALL_ASSERT(durations_s[i] > 0.0, "duration_s=%g", durations_s[i]);
     add_piece(equations, i, knots, durations_s[i]);
   }
   constrain(equations, knots);

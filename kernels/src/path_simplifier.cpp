@@ -4,7 +4,6 @@
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -82,37 +81,43 @@ void shortcut(Polygon& points, MotionChecker& checker, RandomStream& random) {
   }
 }
 
-/// Moves one corner to the first of a few places that is farther from obstacles.
-bool centre(Polygon& points, std::size_t i, MotionChecker& checker) {
+/// Where to move a corner, the best place first: away from its inside, where its obstacle stands.
+std::vector<Vec3> places_near(const Polygon& points, std::size_t i) {
+  const Vec3 inside = 0.5 * (points[i - 1] + points[i + 1]) - points[i];
+  const double away_rad = inside.head<2>().norm() > 1e-6 ? yaw_of(-inside) : 0.0;
+  constexpr double quarter_rad = 1.5707963267948966;
+  std::vector<Vec3> places;
+  for (const double step_m : {0.6, 0.3, 0.1}) {
+    for (const double turn_rad : {0.0, quarter_rad, -quarter_rad}) {
+      const double yaw_rad = away_rad + turn_rad;
+      places.push_back(points[i] + step_m * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0});
+    }
+  }
+  return places;
+}
+
+/// Moves one corner to the first place that is farther from obstacles.
+bool centre(Polygon& points, std::size_t i, MotionChecker& checker, const Aabb& bounds_W) {
   const double now_m = checker.clearance_m(points[i], enough_clearance_m);
   if (now_m >= enough_clearance_m) {
     return false;
   }
-  // Away from the inside of the corner first: that is where its obstacle stands.
-  const Vec3 inside = 0.5 * (points[i - 1] + points[i + 1]) - points[i];
-  const double away_rad = inside.head<2>().norm() > 1e-6 ? yaw_of(-inside) : 0.0;
-  constexpr double quarter_rad = 1.5707963267948966;
-  constexpr std::array<double, 3> turns_rad{0.0, quarter_rad, -quarter_rad};
-  constexpr std::array<double, 3> steps_m{0.6, 0.3, 0.1};
-  for (const double step_m : steps_m) {
-    for (const double turn_rad : turns_rad) {
-      const double yaw_rad = away_rad + turn_rad;
-      const Vec3 moved = points[i] + step_m * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
-      if (checker.clearance_m(moved, enough_clearance_m) > now_m + worthwhile_m &&
-          checker.is_flyable(points[i - 1], moved) && checker.is_flyable(moved, points[i + 1])) {
-        points[i] = moved;
-        return true;
-      }
+  for (const Vec3& place : places_near(points, i)) {
+    if (bounds_W.contains(place) &&
+        checker.clearance_m(place, enough_clearance_m) > now_m + worthwhile_m &&
+        checker.is_flyable(points[i - 1], place) && checker.is_flyable(place, points[i + 1])) {
+      points[i] = place;
+      return true;
     }
   }
   return false;
 }
 
-void centre_all(Polygon& points, MotionChecker& checker) {
+void centre_all(Polygon& points, MotionChecker& checker, const Aabb& bounds_W) {
   for (int round = 0; round < centring_rounds; ++round) {
     bool moved = false;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-      moved = centre(points, i, checker) || moved;
+      moved = centre(points, i, checker, bounds_W) || moved;
     }
     if (!moved) {
       return;
@@ -136,12 +141,13 @@ void merge_close(Polygon& points, MotionChecker& checker) {
 
 std::vector<Vec3> simplify(std::vector<Vec3> points_W,
                            MotionChecker& checker,
+                           const Aabb& bounds_W,
                            RandomStream random) {
   FLYBALL_ASSERT(points_W.size() >= 2, "points=%zu", points_W.size());
   drop_vertices(points_W, checker);
   shortcut(points_W, checker, random);
   drop_vertices(points_W, checker);
-  centre_all(points_W, checker);
+  centre_all(points_W, checker, bounds_W);
   merge_close(points_W, checker);
   return points_W;
 }

@@ -16,9 +16,11 @@ namespace flyball {
 /// blocks nothing. Start and goal stay exactly; every piece of the result is flyable if every
 /// piece of `points_W` is. Points closer than .2 m are merged where their neighbours allow it.
 ///
+/// @param bounds_W  Points are moved only to places inside.
 /// @pre At least two points.
 [[nodiscard]] std::vector<Vec3> simplify(std::vector<Vec3> points_W,
                                          MotionChecker& checker,
+                                         const Aabb& bounds_W,
                                          RandomStream random);
 
 }  // namespace flyball

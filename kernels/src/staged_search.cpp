@@ -64,7 +64,7 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   } else {
     found = search_all(request, search, checker);
     if (!found.points_W.empty()) {
-      plan.waypoints_W = simplify(std::move(found.points_W), checker,
+      plan.waypoints_W = simplify(std::move(found.points_W), checker, request.bounds_W,
                                   RandomStream{request.seed, "path_simplifier"});
     }
   }

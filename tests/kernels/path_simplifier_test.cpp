@@ -16,9 +16,14 @@ using flyball::kit::GridMap;
 
 using Polygon = std::vector<Vec3>;
 
-Polygon simplified(const GridMap& map, const Polygon& points) {
+constexpr double far_m = 1000.0;
+const flyball::Aabb everywhere{{-far_m, -far_m, -far_m}, {far_m, far_m, far_m}};
+
+Polygon simplified(const GridMap& map,
+                   const Polygon& points,
+                   const flyball::Aabb& bounds_W = everywhere) {
   MotionChecker checker{map, flyball::kit::slow_body(), 0.35};
-  Polygon result = flyball::simplify(points, checker, RandomStream{1, "test"});
+  Polygon result = flyball::simplify(points, checker, bounds_W, RandomStream{1, "test"});
   EXPECT_EQ(result.front(), points.front());
   EXPECT_EQ(result.back(), points.back());
   for (std::size_t i = 0; i + 1 < result.size(); ++i) {
@@ -56,6 +61,16 @@ TEST(PathSimplifier, goes_round_a_block_with_room_to_spare) {
   }
 }
 
+TEST(PathSimplifier, moves_nothing_out_of_bounds) {
+  GridMap map{{{0, -8, 0}, {24, 8, 3}}, 0.15};
+  map.fill({{9, -3, 0}, {12, 3, 3}}, CellState::occupied);
+  const flyball::Aabb bounds_W{{0, -3.6, 0}, {24, 3.6, 3}};
+  const Polygon detour{{2, 0, 1.5}, {8.5, 3.5, 1.5}, {12.5, 3.5, 1.5}, {20, 0, 1.5}};
+  for (const Vec3& point : simplified(map, detour, bounds_W)) {
+    EXPECT_TRUE(bounds_W.contains(point)) << point.transpose();
+  }
+}
+
 TEST(PathSimplifier, merges_points_that_lie_close_together) {
   GridMap map{{{0, -8, 0}, {24, 8, 3}}, 0.15};
   map.fill({{9, -8, 0}, {12, 3, 3}}, CellState::occupied);
@@ -71,7 +86,9 @@ TEST(PathSimplifier, gives_the_same_for_the_same_stream) {
   const auto scene = flyball::kit::random_world(3);
   const Polygon open{scene.request.start_W, {1, -7, 1.5}, {12, -7.4, 1.5}, scene.request.goal_W};
   MotionChecker checker{scene.map, {0.1, 0.1}, 1.5};
-  const auto run = [&] { return flyball::simplify(open, checker, RandomStream{9, "test"}); };
+  const auto run = [&] {
+    return flyball::simplify(open, checker, everywhere, RandomStream{9, "test"});
+  };
   EXPECT_EQ(run(), run());
 }
 
