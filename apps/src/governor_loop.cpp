@@ -26,9 +26,26 @@ GovernorLoop::GovernorLoop(MissionContext& context,
 
 void GovernorLoop::tick(MissionTime now) {
   const Observation seen = observe(now);
+  record(seen);
   const Decision decision = governor_.decide(seen);
   apply(now, decision);
   ++decisions_;
+}
+
+void GovernorLoop::record(const Observation& seen) {
+  context_.recorder.record(
+      seen.now, "observation",
+      {{"speed_m_s", seen.speed_m_s},
+       {"known_free_m", seen.known_free_m},
+       {"obstacle_density", seen.obstacle_density},
+       {"nearest_obstacle_m", seen.nearest_obstacle_m},
+       {"distance_to_goal_m", seen.distance_to_goal_m},
+       {"latency_s", to_seconds(seen.latency)},
+       {"latency_bound_s", to_seconds(seen.latency_bound)},
+       {"busy_cores", seen.busy_cores},
+       {"deadline_misses", static_cast<std::int64_t>(seen.deadline_misses)},
+       {"queue_drops", static_cast<std::int64_t>(seen.queue_drops)},
+       {"planner_failures", static_cast<std::int64_t>(seen.planner_failures)}});
 }
 
 Observation GovernorLoop::observe(MissionTime now) {

@@ -34,6 +34,7 @@ class GovernorLoop {
 
  private:
   [[nodiscard]] Observation observe(MissionTime now);
+  void record(const Observation& seen);
   void observe_computer(MissionTime now, Observation& seen);
   void apply(MissionTime now, const Decision& decision);
 

@@ -143,8 +143,9 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
 }
 
 Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where) {
-  tracking_error_m_ = (follower_.position_W() - where.X_WB.translation()).norm();
-  const PathReference reference = follower_.tick(now, dt, tracking_error_m_);
+  const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
+  tracking_error_m_ = error_W.norm();
+  const PathReference reference = follower_.tick(now, dt, error_W);
   if (reference.speed_m_s > 0.02 || !goal_W_ || has_arrived()) {
     without_path_since_ = now;
   } else if (to_seconds(now - without_path_since_) > context_.scenario.mission.plan_time_limit_s) {

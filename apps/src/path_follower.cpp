@@ -13,13 +13,17 @@ using namespace std::chrono_literals;
 constexpr double slow_m_s = 1.0;
 // Half of what the guard may brake with; the rest is for curves and for the guard.
 constexpr double comfort_m_s2 = 3.0;
+// A planned stop brakes harder, a little less than the guard would: the later the vehicle must
+// stop before an obstacle, the more room is left to turn.
+constexpr double stopping_m_s2 = 5.0;
 constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
 constexpr double look_ahead_s = 1.0;
 constexpr double look_ahead_min_m = 1.0;
 constexpr auto odometer_memory = 10s;
 
-double towards(double value, double target, double step) {
-  return value < target ? std::min(target, value + step) : std::max(target, value - step);
+double towards(double value, double target, double dt_s) {
+  return value < target ? std::min(target, value + comfort_m_s2 * dt_s)
+                        : std::max(target, value - stopping_m_s2 * dt_s);
 }
 
 GuardSettings guard_settings(const MissionContext& context) {
@@ -89,7 +93,7 @@ double PathFollower::cruise_speed(double free_until_m) const {
 double PathFollower::target_speed() const {
   const double fast = cruise_speed(fast_free_until_m_);
   const double slow = std::min(slow_m_s, cruise_speed(slow_free_until_m_));
-  const double stop = std::sqrt(2.0 * comfort_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
+  const double stop = std::sqrt(2.0 * stopping_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
   const double knob = context_.knobs.value("mission.max_speed_m_s");
   return std::min({std::max(fast, slow), profile_.at(s_m_), stop, knob});
 }
@@ -106,18 +110,24 @@ double PathFollower::braked_speed(double dt_s) const {
 }
 
 // A vehicle that has fallen out of its tube is waited for: the reference slows down to a crawl.
-double PathFollower::wait_for_vehicle(double tracking_error_m) const {
+// Lagging along the path is no danger, and waiting for it would make both swing.
+double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
+  const Vec3 tangent_W = path_.at(s_m_).tangent_W;
+  const double along_m = error_W.dot(tangent_W);
+  const double across_m = (error_W - along_m * tangent_W).norm();
   const double tube_m = context_.tube.radius_m(speed_m_s_);
   constexpr double patience_m = 0.2;
-  return std::clamp(1.0 - (tracking_error_m - tube_m) / patience_m, 0.1, 1.0);
+  constexpr double lag_m = 0.5;
+  const double out_m = std::max(across_m - tube_m, std::abs(along_m) - lag_m);
+  return std::clamp(1.0 - out_m / patience_m, 0.1, 1.0);
 }
 
-PathReference PathFollower::tick(MissionTime now, Duration dt, double tracking_error_m) {
+PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error_W) {
   const double dt_s = to_seconds(dt);
   double acceleration = 0.0;
   if (has_path()) {
-    target_m_s_ = target_speed() * wait_for_vehicle(tracking_error_m);
-    const double wished = towards(speed_m_s_, target_m_s_, comfort_m_s2 * dt_s);
+    target_m_s_ = target_speed() * wait_for_vehicle(error_W);
+    const double wished = towards(speed_m_s_, target_m_s_, dt_s);
     const double next = std::min(wished, braked_speed(dt_s));
     acceleration = (next - speed_m_s_) / dt_s;
     const double moved =
@@ -165,7 +175,7 @@ Vec3 PathFollower::position_W() const {
 double PathFollower::stop_point_m() const {
   const double v = speed_m_s_;
   return s_m_ + v * to_seconds(guard_.reaction_time()) +
-         v * v / (2.0 * std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2));
+         v * v / (2.0 * std::min(stopping_m_s2, guard_.settings().max_deceleration_m_s2));
 }
 
 bool PathFollower::is_at_end() const {

@@ -33,8 +33,8 @@ class PathFollower {
   /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b.
   void set_latency_bound(Duration bound) { latency_bound_ = bound; }
 
-  /// Moves the reference by `dt`; the vehicle was `tracking_error_m` away from it.
-  PathReference tick(MissionTime now, Duration dt, double tracking_error_m);
+  /// Moves the reference by `dt`; it was `error_W` away from the vehicle.
+  PathReference tick(MissionTime now, Duration dt, const Vec3& error_W);
 
   [[nodiscard]] bool has_path() const { return !path_.empty(); }
   [[nodiscard]] const Path& path() const { return path_; }
@@ -56,7 +56,7 @@ class PathFollower {
  private:
   [[nodiscard]] double cruise_speed(double free_until_m) const;
   [[nodiscard]] double target_speed() const;
-  [[nodiscard]] double wait_for_vehicle(double tracking_error_m) const;
+  [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
   [[nodiscard]] double braked_speed(double dt_s) const;
   void turn(double dt_s, MissionTime now);
   [[nodiscard]] double distance_since(MissionTime captured) const;

@@ -109,13 +109,18 @@ CellState OctomapView::state(const Vec3& p_W) const {
   if (!p_W.allFinite()) {
     return CellState::unknown;
   }
-  for (const octomap::OcTree* tree : layers_) {
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    const octomap::OcTree& tree = *layers_[layer];
     octomap::OcTreeKey key;
-    if (!tree->coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key)) {
+    if (!tree.coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key)) {
       continue;
     }
-    if (const octomap::OcTreeNode* node = tree->search(key)) {
-      return tree->isNodeOccupied(node) ? CellState::occupied : CellState::free;
+    const octomap::OcTreeNode* node = tree.search(key);
+    if (node != nullptr && !tree.isNodeOccupied(node)) {
+      return CellState::free;
+    }
+    if (node != nullptr && !is_vague(layer, Use::move)) {
+      return CellState::occupied;
     }
   }
   const auto contains = [&](const Clear& clear) {
@@ -130,20 +135,20 @@ CellState OctomapView::body_state(const Vec3& p_WB, const Cylinder& body) const 
     return CellState::unknown;
   }
   const BodyShape shape{p_WB, body};
-  if (hits(shape)) {
+  if (hits(shape, Use::move)) {
     return CellState::occupied;
   }
   const auto is_open = [&](const Aabb& part) { return !is_cleared(part, shape); };
-  return any_gap(layers_.size(), shape.bounds(), shape, is_open) ? CellState::unknown
-                                                                 : CellState::free;
+  return any_gap({layers_.size(), Use::move}, shape.bounds(), shape, is_open) ? CellState::unknown
+                                                                              : CellState::free;
 }
 
 bool OctomapView::has_occupied(const Aabb& box) const {
-  return hits(BoxShape{box});
+  return hits(BoxShape{box}, Use::move);
 }
 
 bool OctomapView::segment_hits(const Vec3& from, const Vec3& to, const Cylinder& body) const {
-  return !from.allFinite() || !to.allFinite() || hits(SweepShape{from, to, body});
+  return !from.allFinite() || !to.allFinite() || hits(SweepShape{from, to, body}, Use::move);
 }
 
 double OctomapView::obstacle_density(const Vec3& p_W, double radius_m, double half_band_m) const {
@@ -164,7 +169,7 @@ double OctomapView::obstacle_density(const Vec3& p_W, double radius_m, double ha
 }
 
 int OctomapView::occupied_columns(const Columns& block) const {
-  if (!has_occupied(block.inside())) {
+  if (!hits(BoxShape{block.inside()}, Use::look)) {
     return 0;
   }
   if (block.count == 1) {
@@ -179,7 +184,7 @@ int OctomapView::occupied_columns(const Columns& block) const {
 
 double OctomapView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double half_band_m) const {
   NearestShape shape{p_W, limit_m, half_band_m};
-  (void)any_obstacle(shape, [&](const Aabb& part) {
+  (void)any_obstacle(shape, Use::look, [&](const Aabb& part) {
     shape.shrink_to(part);
     return false;
   });
@@ -189,7 +194,7 @@ double OctomapView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double h
 void OctomapView::for_each_occupied(const std::function<void(const Aabb& cube)>& show) const {
   const BoxShape space{everywhere()};
   const auto show_if_it_counts = [&](std::size_t layer, const Aabb& cube) {
-    if (any_gap(layer, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
+    if (any_gap({layer, Use::look}, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
       show(cube);
     }
     return false;
@@ -200,8 +205,14 @@ void OctomapView::for_each_occupied(const std::function<void(const Aabb& cube)>&
   }
 }
 
+bool OctomapView::is_vague(std::size_t layer, Use use) const {
+  constexpr double same = 1.001;
+  return use == Use::move &&
+         layers_[layer]->getResolution() > same * layers_.front()->getResolution();
+}
+
 template <class Shape, class Show>
-bool OctomapView::any_gap(std::size_t layers,
+bool OctomapView::any_gap(Layers layers,
                           const Aabb& region,
                           const Shape& shape,
                           Show&& show) const {
@@ -209,24 +220,27 @@ bool OctomapView::any_gap(std::size_t layers,
 }
 
 template <class Shape, class Show>
-bool OctomapView::any_gap_from(std::size_t layer,
-                               std::size_t layers,
-                               const Aabb& region,
-                               const Shape& shape,
-                               Show& show) const {
-  if (layer == layers) {
+bool OctomapView::any_gap_from(
+    std::size_t layer, Layers layers, const Aabb& region, const Shape& shape, Show& show) const {
+  if (layer == layers.count) {
     return show(region);
   }
-  return OctreeWalk{*layers_[layer]}.any_unknown(region, shape, [&](const Aabb& part) {
+  const OctreeWalk walk{*layers_[layer]};
+  const auto deeper = [&](const Aabb& part) {
     return any_gap_from(layer + 1, layers, part, shape, show);
-  });
+  };
+  return walk.any_unknown(region, shape, deeper) ||
+         (is_vague(layer, layers.use) && walk.any_occupied(region, shape, deeper));
 }
 
 template <class Shape, class Show>
-bool OctomapView::any_obstacle(const Shape& shape, Show&& show) const {
+bool OctomapView::any_obstacle(const Shape& shape, Use use, Show&& show) const {
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
-    const auto show_visible = [&](const Aabb& part) { return any_gap(layer, part, shape, show); };
-    if (OctreeWalk{*layers_[layer]}.any_occupied(shape.bounds(), shape, show_visible)) {
+    const auto show_visible = [&](const Aabb& part) {
+      return any_gap({layer, use}, part, shape, show);
+    };
+    if (!is_vague(layer, use) &&
+        OctreeWalk{*layers_[layer]}.any_occupied(shape.bounds(), shape, show_visible)) {
       return true;
     }
   }
@@ -234,8 +248,8 @@ bool OctomapView::any_obstacle(const Shape& shape, Show&& show) const {
 }
 
 template <class Shape>
-bool OctomapView::hits(const Shape& shape) const {
-  return any_obstacle(shape, [](const Aabb&) { return true; });
+bool OctomapView::hits(const Shape& shape, Use use) const {
+  return any_obstacle(shape, use, [](const Aabb&) { return true; });
 }
 
 bool OctomapView::is_cleared(const Aabb& part, const BodyShape& body) const {

@@ -5,13 +5,17 @@
 /// Several OctoMap trees of different resolutions, seen as one map.
 ///
 /// The tree used last answers. For a cube that it does not know, of whatever size, the tree used
-/// before it answers, cut to that cube, and so on. What no tree knows is unknown, except inside the
+/// before it answers, cut to that cube, and so on. A coarser tree's occupied cube does not say
+/// which of the finer cells in it is occupied: where it answers for a finer tree it stands for
+/// unknown, so that a planner may look there for a door, and the guard still does not go. (Density
+/// and nearest obstacle take it as it is.) What no tree knows is unknown, except inside the
 /// cylinders that were declared clear. A place that is not finite is unknown, a way there is
 /// blocked.
 
 #include "flyball/runtime/occupancy.h"
 
 #include "overlap.h"
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -61,23 +65,29 @@ class OctomapView final : public OccupancyView {
     Cylinder space;
   };
 
-  /// Shows the parts of `region` in the shape that none of the first `layers` trees knows.
+  /// What a coarser tree's occupied cube stands for: unknown for whoever moves, an obstacle for
+  /// whoever looks around.
+  enum class Use : std::uint8_t { move, look };
+  struct Layers {
+    std::size_t count;
+    Use use;
+  };
+
+  [[nodiscard]] bool is_vague(std::size_t layer, Use use) const;
+  /// Shows the parts of `region` in the shape that none of the first `layers.count` trees knows.
   template <class Shape, class Show>
-  [[nodiscard]] bool any_gap(std::size_t layers,
+  [[nodiscard]] bool any_gap(Layers layers,
                              const Aabb& region,
                              const Shape& shape,
                              Show&& show) const;
   template <class Shape, class Show>
-  [[nodiscard]] bool any_gap_from(std::size_t layer,
-                                  std::size_t layers,
-                                  const Aabb& region,
-                                  const Shape& shape,
-                                  Show& show) const;
+  [[nodiscard]] bool any_gap_from(
+      std::size_t layer, Layers layers, const Aabb& region, const Shape& shape, Show& show) const;
   /// Shows the occupied parts in the shape, each cut to where its tree is the one that answers.
   template <class Shape, class Show>
-  [[nodiscard]] bool any_obstacle(const Shape& shape, Show&& show) const;
+  [[nodiscard]] bool any_obstacle(const Shape& shape, Use use, Show&& show) const;
   template <class Shape>
-  [[nodiscard]] bool hits(const Shape& shape) const;
+  [[nodiscard]] bool hits(const Shape& shape, Use use) const;
 
   struct Columns;
   [[nodiscard]] int occupied_columns(const Columns& block) const;

@@ -40,6 +40,9 @@ class Flattening {
       add_point(piece.derivative(0, 0.0));
       if (i > 0) {
         points_.back().is_stop = is_at_rest(trajectory.pieces[i - 1], piece);
+        if (points_.back().is_stop) {  // Merging must not move a corner.
+          points_.back().p_W = piece.derivative(0, 0.0);
+        }
       }
       // Eight parts first: a loop could bring the ends of a whole piece together.
       constexpr int parts = 8;

@@ -23,7 +23,7 @@ struct Ride {
     for (int i = 0; i < n; ++i) {
       now += 20ms;
       follower.map_published({1, now, now, 0.15});
-      follower.tick(now, 20ms, 0.0);
+      follower.tick(now, 20ms, Vec3::Zero());
     }
   }
   GridMap map;
@@ -91,7 +91,7 @@ TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
   follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0);
   MissionTime now{};
   for (int i = 0; i < 150; ++i) {
-    follower.tick(now += 20ms, 20ms, 0.0);
+    follower.tick(now += 20ms, 20ms, Vec3::Zero());
   }
   EXPECT_GT(std::abs(follower.yaw_rad()), 2.5);
 }

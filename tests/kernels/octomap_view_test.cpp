@@ -178,7 +178,8 @@ TEST(OctomapView, measures_density_in_columns_of_fixed_size) {
         ++columns;
         bool hit = false;
         rig.reference->visit(
-            box, [&](const Aabb&, CellState state) { hit = hit || state == CellState::occupied; });
+            box, [&](const Aabb&, CellState state) { hit = hit || state == CellState::occupied; },
+            false);
         filled += hit ? 1 : 0;
       }
       ASSERT_NEAR(rig.view.obstacle_density(p, radius_m, band_m),
@@ -209,17 +210,19 @@ TEST(OctomapView, finds_the_nearest_obstacle_in_the_band) {
       const Vec3 p = random_point(generator, 2.5);
       double nearest = 3.0;
       const double band_m = 0.7;
-      rig.reference->visit({p - Vec3{3, 3, band_m}, p + Vec3{3, 3, band_m}},
-                           [&](const Aabb& cube, CellState state) {
-                             if (state == CellState::occupied) {
-                               Vec3 low = cube.min;
-                               Vec3 high = cube.max;
-                               low.z() = std::max(low.z(), p.z() - band_m);
-                               high.z() = std::min(high.z(), p.z() + band_m);
-                               const Vec3 near = p.cwiseMax(low).cwiseMin(high);
-                               nearest = std::min(nearest, (near - p).norm());
-                             }
-                           });
+      rig.reference->visit(
+          {p - Vec3{3, 3, band_m}, p + Vec3{3, 3, band_m}},
+          [&](const Aabb& cube, CellState state) {
+            if (state == CellState::occupied) {
+              Vec3 low = cube.min;
+              Vec3 high = cube.max;
+              low.z() = std::max(low.z(), p.z() - band_m);
+              high.z() = std::min(high.z(), p.z() + band_m);
+              const Vec3 near = p.cwiseMax(low).cwiseMin(high);
+              nearest = std::min(nearest, (near - p).norm());
+            }
+          },
+          false);
       ASSERT_NEAR(rig.view.nearest_obstacle_m(p, 3.0, band_m), nearest, 1e-9);
     }
   }

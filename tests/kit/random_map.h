@@ -44,10 +44,16 @@ class Reference {
   Reference(double cell_m, std::vector<const octomap::OcTree*> trees)
       : cell_m_{cell_m}, trees_{std::move(trees)} {}
 
-  [[nodiscard]] CellState at(const Vec3& p) const {
+  /// `moving`: an occupied cube of a tree coarser than the first does not count as known.
+  [[nodiscard]] CellState at(const Vec3& p, bool moving = true) const {
     for (const auto* tree : trees_) {
-      if (const auto* node = tree->search(p.x(), p.y(), p.z())) {
-        return tree->isNodeOccupied(node) ? CellState::occupied : CellState::free;
+      const auto* node = tree->search(p.x(), p.y(), p.z());
+      if (node != nullptr && !tree->isNodeOccupied(node)) {
+        return CellState::free;
+      }
+      if (node != nullptr &&
+          (!moving || tree->getResolution() <= 1.001 * trees_.front()->getResolution())) {
+        return CellState::occupied;
       }
     }
     return CellState::unknown;
@@ -55,13 +61,14 @@ class Reference {
 
   /// Calls `visit(cube, state)` for every cell that the box overlaps.
   template <class Visit>
-  void visit(const Aabb& box, Visit&& visit) const {
+  void visit(const Aabb& box, Visit&& visit, bool moving = true) const {
     const auto first = [&](int axis) { return std::floor(box.min[axis] / cell_m_); };
     for (double x = first(0); x * cell_m_ < box.max.x(); ++x) {
       for (double y = first(1); y * cell_m_ < box.max.y(); ++y) {
         for (double z = first(2); z * cell_m_ < box.max.z(); ++z) {
           const Vec3 low = cell_m_ * Vec3{x, y, z};
-          visit(Aabb{low, low + Vec3::Constant(cell_m_)}, at(low + Vec3::Constant(0.5 * cell_m_)));
+          visit(Aabb{low, low + Vec3::Constant(cell_m_)},
+                at(low + Vec3::Constant(0.5 * cell_m_), moving));
         }
       }
     }
