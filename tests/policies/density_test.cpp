@@ -66,18 +66,22 @@ TEST(Density, keeps_its_level_when_the_density_is_not_a_number) {
   EXPECT_EQ(0.15, resolution_m(*density.policy, 30.0, std::nan("")));
 }
 
-TEST(Density, has_the_levels_of_the_paper_by_default) {
+TEST(Density, tells_a_single_block_from_a_facade_and_a_room_by_default) {
   const auto density = start_policy("density", {});
   ASSERT_TRUE(density.status.ok());
-  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.02));
-  EXPECT_EQ(0.15, resolution_m(*density.policy, 1.0, 0.06));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.051));   // beside a single block, at most
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 10.0, 0.068));  // 4 m before a facade
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 20.0, 0.085));  // in a room, at least
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 30.0, 0.034));  // beside a single block again
 }
 
 TEST(Density, refuses_levels_and_thresholds_in_the_wrong_order) {
   EXPECT_FALSE(start_policy("density", {{"fine_m", 0.80}, {"coarse_m", 0.15}}).status.ok());
   EXPECT_FALSE(start_policy("density", {{"fine_m", 0.30}, {"coarse_m", 0.30}}).status.ok());
-  EXPECT_FALSE(start_policy("density", {{"leave_density", 0.06}}).status.ok());
-  EXPECT_TRUE(start_policy("density", {{"leave_density", 0.05}}).status.ok());
+  EXPECT_FALSE(
+      start_policy("density", {{"enter_density", 0.05}, {"leave_density", 0.06}}).status.ok());
+  EXPECT_TRUE(
+      start_policy("density", {{"enter_density", 0.05}, {"leave_density", 0.05}}).status.ok());
 }
 
 TEST(Density, refuses_a_mission_without_a_map) {
