@@ -46,6 +46,7 @@ pid_t start(const std::vector<std::string>& arguments, int errors) {
   std::vector<std::string> words{"flyball"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) {
     argv.push_back(word.data());
   }
@@ -105,7 +106,7 @@ bool run_children(const std::vector<std::vector<std::string>>& arguments,
   sigset_t signals{};
   sigset_t before{};
   take_signals(signals);
-  sigprocmask(SIG_BLOCK, &signals, &before);  // They wait for `sigwaitinfo`: none is lost.
+  pthread_sigmask(SIG_BLOCK, &signals, &before);  // They wait for `sigwaitinfo`: none is lost.
   Children running;
   std::size_t next = 0;
   bool interrupted = false;
@@ -124,7 +125,7 @@ bool run_children(const std::vector<std::vector<std::string>>& arguments,
     }
     ++next;
   }
-  sigprocmask(SIG_SETMASK, &before, nullptr);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return interrupted;
 }
 

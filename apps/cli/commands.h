@@ -5,7 +5,7 @@
 /// One function for each sub-command: adds it to the program. When it is called it leaves its exit
 /// code in `exit_code`: 0 done, 1 a failed mission, 2 bad input, 130 interrupted.
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
 }
 

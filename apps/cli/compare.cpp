@@ -9,7 +9,9 @@
 #include "flight_options.h"
 #include "seed_list.h"
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -45,25 +47,45 @@ std::vector<std::string> arguments_of(const CompareOptions& options, const Entry
   return words;
 }
 
+using Planned = std::variant<Entry, std::vector<Error>>;
+
+Planned plan_one(const CompareOptions& options, const std::string& policy, std::uint64_t seed) {
+  std::vector<std::string> settings = options.flight.settings;
+  settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
+  auto loaded = load_scenario(options.flight.scenario, settings);
+  if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+    return std::move(*errors);
+  }
+  Entry entry;
+  entry.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
+  entry.folder = run_folder(comparison_folder(options.flight, entry.scenario), policy, seed);
+  entry.arguments = arguments_of(options, entry);
+  return entry;
+}
+
+/// Two policies of one name (files in different folders) would write over each other's flights.
+std::optional<Error> find_shared_folder(const CompareOptions& options) {
+  std::set<std::string> folders;
+  for (const std::string& policy : options.policies) {
+    if (!folders.insert(run_folder("", policy, 0)).second) {
+      return Error{ErrorCode::invalid_input,
+                   "--policies has two that are called \"" + policy + "\"; name each once"};
+    }
+  }
+  return std::nullopt;
+}
+
 /// Every mission, read and checked before the first one flies.
 std::variant<Entries, std::vector<Error>> plan(const CompareOptions& options,
                                                const std::vector<std::uint64_t>& seeds) {
   Entries entries;
-  for (const std::string& policy : options.policies) {
-    for (const std::uint64_t seed : seeds) {
-      std::vector<std::string> settings = options.flight.settings;
-      settings.insert(settings.end(),
-                      {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
-      auto loaded = load_scenario(options.flight.scenario, settings);
-      if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
-        return std::move(*errors);
-      }
-      Entry entry;
-      entry.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
-      entry.folder = run_folder(comparison_folder(options.flight, entry.scenario), policy, seed);
-      entry.arguments = arguments_of(options, entry);
-      entries.push_back(std::move(entry));
+  for (std::size_t i = 0; i < options.policies.size() * seeds.size(); ++i) {
+    Planned planned =
+        plan_one(options, options.policies[i / seeds.size()], seeds[i % seeds.size()]);
+    if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      return std::move(*errors);
     }
+    entries.push_back(std::move(std::get<Entry>(planned)));
   }
   return entries;
 }
@@ -105,8 +127,28 @@ void show_progress(const Entry& entry, std::size_t done, std::size_t all) {
 
 struct Flown {
   bool interrupted{};
+  int exit_code{exit_success};
   std::vector<Error> errors{};
 };
+
+/// A mission without record. What is wrong with the input is wrong for many: it is said once.
+void add_failure(const Entry& entry, const ChildEnd& end, Flown& flown) {
+  Error error = failure_of(entry, end);
+  if (end.exit_code == exit_bad_input) {
+    const std::string program =
+        "flyball: ";  // Each line begins with it, and `refuse` adds it again.
+    const std::size_t last = end.errors.find_last_not_of('\n');
+    error.message = end.errors.substr(std::min(program.size(), end.errors.size()),
+                                      last == std::string::npos ? 0 : last + 1 - program.size());
+  }
+  const auto is_same = [&error](const Error& other) { return other.message == error.message; };
+  if (std::none_of(flown.errors.begin(), flown.errors.end(), is_same)) {
+    flown.errors.push_back(std::move(error));
+  }
+  flown.exit_code = end.exit_code == exit_bad_input
+                        ? exit_bad_input
+                        : std::max(flown.exit_code, exit_mission_failed);
+}
 
 Flown fly_missing(Entries& entries, std::size_t jobs) {
   std::vector<Entry*> missing;
@@ -123,12 +165,20 @@ Flown fly_missing(Entries& entries, std::size_t jobs) {
     Entry& entry = *missing[end.index];
     entry.picture = finished_run(entry.folder, entry.scenario);
     if (!entry.picture) {
-      flown.errors.push_back(failure_of(entry, end));
+      add_failure(entry, end, flown);
     } else if (++done; has_watcher()) {
       show_progress(entry, done, entries.size());
     }
   });
   return flown;
+}
+
+/// The folders in which nothing was written: each process removes its own, but not those it shares.
+void remove_traces(const Entries& entries) {
+  for (const Entry& entry : entries) {
+    const std::filesystem::path of_policy = std::filesystem::path{entry.folder}.parent_path();
+    remove_empty({of_policy.parent_path().string(), of_policy.string()});
+  }
 }
 
 Status write_report(const std::string& path, const Comparison& comparison, const Entries& entries) {
@@ -165,13 +215,17 @@ int compare(const CompareOptions& options) {
   if (!seeds) {
     return refuse({seeds.error()});
   }
+  if (const std::optional<Error> shared = find_shared_folder(options)) {
+    return refuse({*shared});
+  }
   auto planned = plan(options, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
   Entries& entries = std::get<Entries>(planned);
   const std::string folder = comparison_folder(options.flight, entries.front().scenario);
-  if (const Status prepared = prepare_folder(folder); !prepared) {
+  const auto prepared = prepare_folder(folder);
+  if (!prepared) {
     return refuse({prepared.error()});
   }
   reuse_finished(entries, folder);
@@ -182,7 +236,9 @@ int compare(const CompareOptions& options) {
   }
   if (!flown.errors.empty()) {
     (void)refuse(flown.errors);
-    return exit_mission_failed;
+    remove_traces(entries);
+    remove_empty(*prepared);
+    return flown.exit_code;
   }
   return show(options, folder, entries);
 }

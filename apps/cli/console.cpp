@@ -11,8 +11,8 @@ namespace flyball {
 namespace {
 
 // A signal handler has nowhere else to leave its word.
-volatile std::sig_atomic_t interrupted =
-    0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupted = 0;
 
 void remember(int) {
   interrupted = 1;

@@ -94,11 +94,13 @@ int run(const RunOptions& options) {
                                  : options.flight.out;
   catch_interrupt();  // Before the first thing that it writes: a flight can be ended as soon as it
                       // shows.
-  if (const Status prepared = prepare_folder(folder); !prepared) {
+  const Result<std::vector<std::string>> prepared = prepare_folder(folder);
+  if (!prepared) {
     return refuse({prepared.error()});
   }
   const Result<MissionRecord> record = fly(scenario, hooks_of(scenario));
   if (!record) {
+    remove_empty(*prepared);
     return refuse({record.error()});
   }
   if (const Status written = write_run(folder, scenario, *record); !written) {

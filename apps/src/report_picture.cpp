@@ -44,47 +44,71 @@ std::vector<Aabb> boxes_in_the_way(const World& world) {
   return boxes;
 }
 
-/// Top view as filled cells; each row lists start and length of its runs.
-Json raster(const World& world, const std::vector<Aabb>& boxes) {
-  const Vec3 extent = world.bounds_W.max - world.bounds_W.min;
-  const double cell_m = std::max(0.05, std::max(extent.x(), extent.y()) / raster_columns);
-  const auto columns = static_cast<std::size_t>(std::ceil(extent.x() / cell_m)) + 1;
-  const auto rows = static_cast<std::size_t>(std::ceil(extent.y() / cell_m)) + 1;
-  std::vector<std::vector<bool>> filled(rows, std::vector<bool>(columns));
-  const auto index = [cell_m](double at_m, double origin_m, std::size_t count) {
+/// Square cells over the bounds, filled where a box is.
+class Raster {
+ public:
+  explicit Raster(const Aabb& bounds_W)
+      : bounds_W_{bounds_W}, extent_{bounds_W.max - bounds_W.min} {
+    cell_m_ = std::max(0.05, std::max(extent_.x(), extent_.y()) / raster_columns);
+    columns_ = static_cast<std::size_t>(std::ceil(extent_.x() / cell_m_)) + 1;
+    rows_.assign(static_cast<std::size_t>(std::ceil(extent_.y() / cell_m_)) + 1,
+                 std::vector<bool>(columns_));
+  }
+
+  void fill(const Aabb& box) {
+    const Vec3 from = box.min - bounds_W_.min;
+    const Vec3 to = box.max - bounds_W_.min;
+    if (to.x() < 0.0 || to.y() < 0.0 || from.x() > extent_.x() || from.y() > extent_.y()) {
+      return;
+    }
+    for (std::size_t y = index(from.y(), rows_.size()); y <= index(to.y(), rows_.size()); ++y) {
+      const auto row = rows_[y].begin();
+      std::fill(row + static_cast<std::ptrdiff_t>(index(from.x(), columns_)),
+                row + static_cast<std::ptrdiff_t>(index(to.x(), columns_)) + 1, true);
+    }
+  }
+
+  /// Each row lists start and length of its runs.
+  [[nodiscard]] Json json() const {
+    Json rows = Json::array();
+    for (const std::vector<bool>& row : rows_) {
+      rows.push_back(runs_of(row));
+    }
+    return {{"x_m", bounds_W_.min.x()},
+            {"y_m", bounds_W_.min.y()},
+            {"cell_m", cell_m_},
+            {"rows", std::move(rows)}};
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(double at_m, std::size_t count) const {
     return static_cast<std::size_t>(
-        std::clamp((at_m - origin_m) / cell_m, 0.0, static_cast<double>(count - 1)));
-  };
+        std::clamp(at_m / cell_m_, 0.0, static_cast<double>(count - 1)));
+  }
+  static Json runs_of(const std::vector<bool>& row) {
+    Json runs = Json::array();
+    for (auto begin = std::find(row.begin(), row.end(), true); begin != row.end();) {
+      const auto end = std::find(begin, row.end(), false);
+      runs.push_back(begin - row.begin());
+      runs.push_back(end - begin);
+      begin = std::find(end, row.end(), true);
+    }
+    return runs;
+  }
+
+  Aabb bounds_W_;
+  Vec3 extent_;
+  double cell_m_{};
+  std::size_t columns_{};
+  std::vector<std::vector<bool>> rows_{};
+};
+
+Json raster(const World& world, const std::vector<Aabb>& boxes) {
+  Raster cells{world.bounds_W};
   for (const Aabb& box : boxes) {
-    const std::size_t last_row = index(box.max.y(), world.bounds_W.min.y(), rows);
-    const std::size_t last_column = index(box.max.x(), world.bounds_W.min.x(), columns);
-    for (std::size_t y = index(box.min.y(), world.bounds_W.min.y(), rows); y <= last_row; ++y) {
-      for (std::size_t x = index(box.min.x(), world.bounds_W.min.x(), columns); x <= last_column;
-           ++x) {
-        filled[y][x] = true;
-      }
-    }
+    cells.fill(box);
   }
-  Json runs = Json::array();
-  for (const std::vector<bool>& row : filled) {
-    Json line = Json::array();
-    for (std::size_t x = 0; x < columns; ++x) {
-      std::size_t end = x;
-      while (end < columns && row[end]) {
-        ++end;
-      }
-      if (end > x) {
-        line.push_back(x);
-        line.push_back(end - x);
-        x = end;
-      }
-    }
-    runs.push_back(std::move(line));
-  }
-  return {{"x_m", world.bounds_W.min.x()},
-          {"y_m", world.bounds_W.min.y()},
-          {"cell_m", cell_m},
-          {"rows", runs}};
+  return cells.json();
 }
 
 Json world_json(const World& world) {

@@ -67,19 +67,32 @@ std::string run_page(const Scenario& scenario, const RunPicture& picture) {
 
 }  // namespace
 
-Status prepare_folder(const std::string& folder) {
+Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
   std::error_code failed;
-  const bool is_new = fs::create_directories(folder, failed);
+  std::vector<std::string> made;
+  for (fs::path at = fs::absolute(folder, failed).lexically_normal();
+       !at.empty() && !fs::exists(at, failed); at = at.parent_path()) {
+    made.insert(made.begin(), at.string());
+  }
+  fs::create_directories(folder, failed);
   if (failed) {
+    remove_empty(made);
     return cannot_write(folder, failed.message());
   }
   const std::string probe = (fs::path{folder} / ".writable").string();
-  const Status written = write_file(probe, "");
-  fs::remove(probe, failed);
-  if (!written && is_new) {
-    fs::remove(folder, failed);
+  if (Status written = write_file(probe, ""); !written) {
+    remove_empty(made);
+    return written.error();
   }
-  return written;
+  fs::remove(probe, failed);
+  return made;
+}
+
+void remove_empty(const std::vector<std::string>& folders) {
+  std::error_code ignored;  // Of one that is not empty.
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
+    fs::remove(*folder, ignored);
+  }
 }
 
 Status write_file(const std::string& path, const std::string& content) {

@@ -52,16 +52,30 @@ void report_unknown_keys(const Scenario& scenario, const Fields& fields, Scenari
     if (contains(known, key) || (!has_world && key.rfind("world.", 0) == 0)) {
       continue;
     }
-    const std::string hint = suggest_key(key, known);
-    read.errors.push_back({ErrorCode::invalid_input, "no setting \"" + key + "\" (" + given.origin +
-                                                         "); " + hint + (hint.empty() ? "" : " ") +
-                                                         "try: flyball config SCENARIO"});
+    std::string sentence = "no setting \"" + key + "\" (" + given.origin + "); ";
+    if (const std::string hint = suggest_key(key, known); !hint.empty()) {
+      sentence += hint + " ";
+    }
+    sentence += "try: flyball config SCENARIO";
+    read.errors.push_back({ErrorCode::invalid_input, std::move(sentence)});
   }
 }
 
 std::string toml_value(const ParameterValue& value) {
   const double* number = std::get_if<double>(&value);
   return number != nullptr ? toml_number(*number) : toml_text(std::get<std::string>(value));
+}
+
+std::string toml_line(const std::string& name, const std::string& value) {
+  return name + " = " + value + "\n";
+}
+
+std::string parameter_lines(const WorldSettings& world) {
+  std::string lines;
+  for (const auto& [name, value] : world.parameters) {
+    lines += toml_line(name, toml_value(value));
+  }
+  return lines;
 }
 
 std::string origin_of(const std::string& key, const GivenValues& given) {
@@ -131,11 +145,9 @@ std::string to_toml(const Scenario& scenario) {
       section = in;
       text += "\n[" + section + "]\n";
     }
-    text += field.key.substr(dot + 1) + " = " + toml_value(scenario, field) + "\n";
+    text += toml_line(field.key.substr(dot + 1), toml_value(scenario, field));
     if (field.key == "world.generator") {
-      for (const auto& [name, value] : scenario.world.parameters) {
-        text += name + " = " + toml_value(value) + "\n";
-      }
+      text += parameter_lines(scenario.world);
     }
   }
   return text;

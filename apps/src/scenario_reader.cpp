@@ -49,12 +49,13 @@ void flatten(const toml::table& table,
     const std::string key = prefix + std::string{name.str()};
     const std::string origin = file + ":" + std::to_string(node.source().begin.line);
     if (const toml::table* section = node.as_table()) {
-      flatten(*section, key + ".", file, read);
+      flatten(*section, std::string{key}.append("."), file, read);
     } else if (std::optional<GivenValue> given = scalar(node, origin)) {
       read.values[key] = *std::move(given);
     } else {
-      read.errors.push_back({ErrorCode::invalid_input,
-                             key + " (" + origin + ") must be one number, text, true or false"});
+      std::string sentence = key;
+      sentence.append(" (").append(origin).append(") must be one number, text, true or false");
+      read.errors.push_back({ErrorCode::invalid_input, std::move(sentence)});
     }
   }
 }

@@ -44,8 +44,9 @@ int add_object(dl_phdr_info* object, std::size_t, void* hash) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
     if (segment.p_type == PT_NOTE) {
-      add_notes(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr), segment.p_memsz,
-                *static_cast<TraceHash*>(hash));
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as integers
+      const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
+      add_notes(notes, segment.p_memsz, *static_cast<TraceHash*>(hash));
     }
   }
   return 0;

@@ -60,6 +60,19 @@ TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
                  "cannot write \"/proc/flights\"");
 }
 
+TEST_F(Cli, refuses_a_policy_twice) {
+  expect_refused("compare delivery_forest --policies fixed_fine,fixed_fine", "name each once");
+}
+
+TEST_F(Cli, refuses_a_world_that_cannot_be_made) {
+  expect_refused("run delivery_building_079 --set world.file=nowhere.bt --out deep/out",
+                 "nowhere.bt");
+  expect_refused(
+      "compare delivery_building_079 --set world.file=nowhere.bt --policies "
+      "fixed_fine,fixed_coarse",
+      "nowhere.bt");
+}
+
 TEST_F(Cli, refuses_what_is_no_command) {
   expect_refused("", "try: flyball --help");
   expect_refused("fly delivery_forest", "try: flyball --help");

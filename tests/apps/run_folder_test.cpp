@@ -87,7 +87,7 @@ TEST(RunFolder, a_place_that_cannot_be_written_is_refused_and_left_alone) {
   const ScratchFolder scratch;
   const std::string in_the_way = scratch.file("file", "precious");
   for (const std::string& folder : {in_the_way, in_the_way + "/below"}) {
-    const Status prepared = prepare_folder(folder);
+    const auto prepared = prepare_folder(folder);
     ASSERT_FALSE(prepared.ok()) << folder;
     EXPECT_EQ(prepared.error().code, ErrorCode::unavailable);
     EXPECT_NE(prepared.error().message.find(folder), std::string::npos);
@@ -97,10 +97,16 @@ TEST(RunFolder, a_place_that_cannot_be_written_is_refused_and_left_alone) {
   EXPECT_EQ(scratch.content("file"), "precious");
 }
 
-TEST(RunFolder, preparing_leaves_an_empty_folder) {
+TEST(RunFolder, preparing_can_be_undone) {
   const ScratchFolder scratch;
-  ASSERT_TRUE(prepare_folder(scratch.path("a/b")).ok());
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.path("a/b")));
+  const auto made = prepare_folder(scratch.path("a/b/c"));
+  ASSERT_TRUE(made.ok());
+  EXPECT_EQ(made->size(), 3U);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path("a/b/c")));
+  (void)scratch.file("a/kept", "precious");
+  remove_empty(*made);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("a/b")));
+  EXPECT_EQ(scratch.content("a/kept"), "precious");
 }
 
 TEST(RunFolder, a_file_that_cannot_be_replaced_keeps_its_content) {

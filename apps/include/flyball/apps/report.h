@@ -13,8 +13,11 @@
 namespace flyball {
 
 /// Makes the folder, and finds out whether files can be written there: ask before flying.
+/// @return The folders that it made, the outermost first.
 /// @error `unavailable`; nothing is left behind.
-Status prepare_folder(const std::string& folder);
+Result<std::vector<std::string>> prepare_folder(const std::string& folder);
+/// Undoes `prepare_folder`, except for folders that hold something by now.
+void remove_empty(const std::vector<std::string>& folders);
 
 /// Writes a file under a temporary name and renames it: it appears whole or not at all.
 /// @error `unavailable`; an older file of this name is untouched.
