@@ -115,12 +115,12 @@ function rasterImage(world) {
   const image = document.createElement('canvas');
   image.width = columns; image.height = rows.length;
   const pen = image.getContext('2d');
-  pen.fillStyle = '#b9c3cc';
+  pen.fillStyle = '#97a3af';
   rows.forEach((runs, y) => { for (let i = 0; i < runs.length; i += 2) pen.fillRect(runs[i], rows.length - 1 - y, runs[i + 1], 1); });
   return image;
 }
 function drawSolid(pen, world, X, Y) {
-  pen.fillStyle = '#b9c3cc';
+  pen.fillStyle = '#97a3af';
   if (world.raster) {
     world.image = world.image || rasterImage(world);
     const cell = world.raster.cell_m * view.scale;
