@@ -31,7 +31,8 @@ constexpr std::array<Column, 7> columns{{
     {"time ratio", &ComparisonRow::time_ratio, 1.0, 2},
 }};
 
-/// A median, and its interval or nothing where it says nothing more: one flight, or all alike.
+/// A median, and its interval or nothing where it says nothing more: one flight, or all alike to
+/// the digits that are shown.
 struct Figure {
   std::string median;
   std::string interval{};
@@ -43,8 +44,9 @@ Figure figure(const ComparisonRow& row, const Column& column) {
     return {"-"};
   }
   const auto show = [&](double x) { return rounded(x * column.scale, column.digits); };
-  return {show(value->median),
-          value->lo == value->hi ? "" : "[" + show(value->lo) + ", " + show(value->hi) + "]"};
+  const std::string lo = show(value->lo);
+  const std::string hi = show(value->hi);
+  return {show(value->median), lo == hi ? "" : "[" + lo + ", " + hi + "]"};
 }
 
 std::string counts(const ComparisonRow& row) {
