@@ -10,6 +10,7 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 constexpr double slow_m_s = 1.0;
+constexpr double middle_m_s = 4.0;
 
 // What a frame's way through the graph takes by the platform's own price list, before one has been
 // measured: the frustum's volume over the cell's volume bounds the updates, the rays' length over
@@ -74,8 +75,8 @@ PlanRequest plan_request(const MissionContext& context, const PlanQuery& query) 
 
 }  // namespace
 
-// First with the wide tube that cruise speed needs, for a part of the budget; then with the narrow
-// one; and where noise has put a cell into the tube itself, with the bare body.
+// First with the wide tube that cruise speed needs, for a part of the budget; then with a middle
+// and the narrow one; and where noise has put a cell into the tube itself, with the bare body.
 Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
   PlanRequest request = plan_request(context, query);
   Work spent;
@@ -90,10 +91,12 @@ Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& 
     return !plan.waypoints_W.empty();
   };
   const int budget = request.max_iterations;
-  const bool found =
-      (!query.may_be_tight &&
-       attempt(context.body_at(context.knobs.value("mission.max_speed_m_s")), budget / 8)) ||
-      attempt(context.body_at(slow_m_s), budget);
+  bool found = false;
+  if (!query.may_be_tight) {
+    found = attempt(context.body_at(context.knobs.value("mission.max_speed_m_s")), budget / 32) ||
+            attempt(context.body_at(middle_m_s), budget / 32);
+  }
+  found = found || attempt(context.body_at(slow_m_s), budget);
   if (!found && plan.failure == "start blocked") {
     attempt(context.airframe.body(), budget);
   }

@@ -101,11 +101,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   query.goal_W = *goal_W_;
   query.start_W = follower_.position_W();
   if (follower_.has_path()) {
-    // Ahead of the reference by what planning takes, but inside what the guard lets it reach.
-    const double ahead = follower_.s_m() + follower_.speed_m_s() * planning_time_s;
-    const double reach = follower_.s_m() + follower_.known_free_m();
-    splice_m_ =
-        std::min(std::max(follower_.stop_point_m(), ahead), std::max(reach, follower_.s_m()));
+    splice_m_ = follower_.splice_point_m(planning_time_s);
     follower_.commit_stop(splice_m_);
     const auto splice = follower_.path().at(splice_m_);
     query.start_W = splice.p_W;

@@ -9,8 +9,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Below this speed the body needs only its slow tube: narrow passages are flown so.
+// The tube grows with speed, so a passage can be too narrow for cruise and wide enough for a crawl.
+// Three tiers of it: narrow passages, near obstacles, and the knob's largest speed.
 constexpr double slow_m_s = 1.0;
+constexpr double middle_m_s = 4.0;
 // Half of what the guard may brake with; the rest is for curves and for the guard.
 constexpr double comfort_m_s2 = 3.0;
 // A planned stop brakes harder, a little less than the guard would: the later the vehicle must
@@ -21,9 +23,9 @@ constexpr double look_ahead_s = 1.0;
 constexpr double look_ahead_min_m = 1.0;
 constexpr auto odometer_memory = 10s;
 
-double towards(double value, double target, double dt_s) {
+double towards(double value, double target, double braking_m_s2, double dt_s) {
   return value < target ? std::min(target, value + comfort_m_s2 * dt_s)
-                        : std::max(target, value - stopping_m_s2 * dt_s);
+                        : std::max(target, value - braking_m_s2 * dt_s);
 }
 
 GuardSettings guard_settings(const MissionContext& context) {
@@ -42,7 +44,7 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   hover_W_ = p_W;
   yaw_rad_ = yaw_rad;
   s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
-  slow_free_until_m_ = fast_free_until_m_ = 0.0;
+  free_until_m_ = {};
   stalled_since_.reset();
 }
 
@@ -69,12 +71,11 @@ void PathFollower::refresh_known_free(const OccupancyView& map) {
   // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
   constexpr double step_m = 0.075;
   const double horizon_m = context_.knobs.value("map.range_m") + 2.0;
-  const double fast_m_s = context_.knobs.value("mission.max_speed_m_s");
-  const auto look = [&](double speed) {
-    return s_m_ + known_free_distance(map, path_, s_m_, horizon_m, context_.body_at(speed), step_m);
-  };
-  slow_free_until_m_ = look(slow_m_s);
-  fast_free_until_m_ = look(fast_m_s);
+  const auto speeds = tier_speeds_m_s();
+  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
+    const Cylinder body = context_.body_at(speeds[tier]);
+    free_until_m_[tier] = s_m_ + known_free_distance(map, path_, s_m_, horizon_m, body, step_m);
+  }
 }
 
 double PathFollower::distance_since(MissionTime captured) const {
@@ -90,21 +91,30 @@ double PathFollower::cruise_speed(double free_until_m) const {
   return safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, from_capture_m);
 }
 
-double PathFollower::target_speed() const {
-  const double fast = cruise_speed(fast_free_until_m_);
-  const double slow = std::min(slow_m_s, cruise_speed(slow_free_until_m_));
-  const double stop = std::sqrt(2.0 * stopping_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
+std::array<double, 3> PathFollower::tier_speeds_m_s() const {
   const double knob = context_.knobs.value("mission.max_speed_m_s");
-  return std::min({std::max(fast, slow), profile_.at(s_m_), stop, knob});
+  return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
 }
 
-double PathFollower::braked_speed(double dt_s) const {
-  const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
-  if (guard_.must_brake(speed_m_s_, slow_free_until_m_ - s_m_)) {
-    return std::max(0.0, least);
+double PathFollower::target_speed() const {
+  const auto speeds = tier_speeds_m_s();
+  double safe = 0.0;
+  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
+    safe = std::max(safe, std::min(speeds[tier], cruise_speed(free_until_m_[tier])));
   }
-  if (speed_m_s_ > slow_m_s && guard_.must_brake(speed_m_s_, fast_free_until_m_ - s_m_)) {
-    return std::max(slow_m_s, least);
+  const double stop = std::sqrt(2.0 * stopping_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
+  return std::min({safe, profile_.at(s_m_), stop});
+}
+
+// A tier whose free space ends is left for the next slower one; the slowest is left for a stop.
+double PathFollower::braked_speed(double dt_s) const {
+  const auto speeds = tier_speeds_m_s();
+  const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
+  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
+    const double floor = tier == 0 ? 0.0 : speeds[tier - 1];
+    if (speed_m_s_ > floor && guard_.must_brake(speed_m_s_, free_until_m_[tier] - s_m_)) {
+      return std::max(floor, least);
+    }
   }
   return speed_m_s_ + comfort_m_s2 * dt_s;
 }
@@ -127,7 +137,8 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
   double acceleration = 0.0;
   if (has_path()) {
     target_m_s_ = target_speed() * wait_for_vehicle(error_W);
-    const double wished = towards(speed_m_s_, target_m_s_, dt_s);
+    const double wished =
+        towards(speed_m_s_, target_m_s_, guard_.settings().max_deceleration_m_s2, dt_s);
     const double next = std::min(wished, braked_speed(dt_s));
     acceleration = (next - speed_m_s_) / dt_s;
     const double moved =
@@ -172,10 +183,21 @@ Vec3 PathFollower::position_W() const {
   return has_path() ? path_.at(s_m_).p_W : hover_W_;
 }
 
-double PathFollower::stop_point_m() const {
+double PathFollower::stop_point_m(double deceleration_m_s2) const {
   const double v = speed_m_s_;
-  return s_m_ + v * to_seconds(guard_.reaction_time()) +
-         v * v / (2.0 * std::min(stopping_m_s2, guard_.settings().max_deceleration_m_s2));
+  return s_m_ + v * to_seconds(guard_.settings().tick) + v * v / (2.0 * deceleration_m_s2);
+}
+
+// Where room is left for the wide tube, so that the next path can be flown at speed from its start;
+// but not nearer than full braking reaches.
+double PathFollower::splice_point_m(double planning_time_s) const {
+  const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
+  const double wished = std::max(stop_point_m(std::min(stopping_m_s2, limit_m_s2)),
+                                 s_m_ + speed_m_s_ * planning_time_s);
+  const double margin_m = 0.1;
+  const double wide = free_until_m_.back() - margin_m;
+  const double reach = wide > s_m_ ? wide : free_until_m_.front();
+  return std::max(std::min(wished, reach), stop_point_m(limit_m_s2));
 }
 
 bool PathFollower::is_at_end() const {

@@ -9,6 +9,7 @@
 
 #include "mission_context.h"
 #include "speed_profile.h"
+#include <array>
 #include <deque>
 
 namespace flyball {
@@ -44,9 +45,12 @@ class PathFollower {
   [[nodiscard]] Vec3 position_W() const;
   [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
   /// From the reference to the first place that is not known free, for the body at a crawl.
-  [[nodiscard]] double known_free_m() const { return std::max(0.0, slow_free_until_m_ - s_m_); }
-  /// Where the guard's brake would end from here.
-  [[nodiscard]] double stop_point_m() const;
+  [[nodiscard]] double known_free_m() const { return std::max(0.0, free_until_m_.front() - s_m_); }
+  /// Where a stop with this deceleration would end from here.
+  [[nodiscard]] double stop_point_m(double deceleration_m_s2) const;
+  /// Where the next path should begin: ahead of the reference by what planning takes, but inside
+  /// what is known to be free.
+  [[nodiscard]] double splice_point_m(double planning_time_s) const;
   [[nodiscard]] bool is_at_end() const;
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
@@ -54,6 +58,7 @@ class PathFollower {
   [[nodiscard]] Duration latency_bound() const { return latency_bound_; }
 
  private:
+  [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
   [[nodiscard]] double cruise_speed(double free_until_m) const;
   [[nodiscard]] double target_speed() const;
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
@@ -71,8 +76,8 @@ class PathFollower {
   double target_m_s_{};
   double yaw_rad_{};
   double stop_at_m_{};
-  double slow_free_until_m_{};
-  double fast_free_until_m_{};
+  /// Known free up to here, for the body at each tier's speed (see the .cpp); slowest first.
+  std::array<double, 3> free_until_m_{};
   double travelled_m_{};
   Duration latency_bound_{};
   MissionTime newest_capture_{};

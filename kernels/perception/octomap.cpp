@@ -62,6 +62,44 @@ octomap::point3d to_octomap(const flyball::Vec3& p) {
   return {single.x(), single.y(), single.z()};
 }
 
+// In a cell wider than this the body can fly beside the wall that the cell contains, and rays that
+// pass there without touching it would free the cell: stock OctoMap forgets the wall.
+constexpr double wide_cell_m = 0.3;
+constexpr float confirmed_log_odds = 2.2F;  // p = .9: three hits
+
+/// The tree of one resolution as stock insertion makes it, and for wide cells the walls in it:
+/// those cells that were once occupied beyond doubt. The view asks the walls first; obstacles are
+/// static.
+struct Layer {
+  explicit Layer(double resolution_m) : tree{resolution_m}, walls{resolution_m} {
+    tree.setClampingThresMin(0.12);  // both as in MAVBench's code
+    tree.setClampingThresMax(0.97);
+  }
+  [[nodiscard]] bool is_wide() const { return tree.getResolution() > wide_cell_m; }
+
+  void confirm(const std::vector<octomap::point3d>& hits_W) {
+    octomap::OcTreeKey last;
+    bool has_last = false;
+    for (const octomap::point3d& hit_W : hits_W) {
+      octomap::OcTreeKey key;
+      // Neighbouring pixels mostly hit the same cell.
+      if (!tree.coordToKeyChecked(hit_W, key) || (has_last && key == last)) {
+        continue;
+      }
+      last = key;
+      has_last = true;
+      const octomap::OcTreeNode* node = tree.search(key);
+      if (node != nullptr && node->getLogOdds() >= confirmed_log_odds &&
+          walls.search(key) == nullptr) {
+        walls.setNodeValue(key, confirmed_log_odds);
+      }
+    }
+  }
+
+  octomap::OcTree tree;
+  octomap::OcTree walls;
+};
+
 class OctomapMapper final : public flyball::Mapper {
  public:
   flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
@@ -72,10 +110,10 @@ class OctomapMapper final : public flyball::Mapper {
       return status.error();
     }
     try {
-      octomap::OcTree& tree = tree_of(settings.resolution_m);
+      Layer& layer = layer_of(settings.resolution_m);
       take(cloud_C, X_WC, settings.range_m);
-      const auto counts = update_.compute(tree, scan_);
-      pending_ = &tree;
+      const auto counts = update_.compute(layer.tree, scan_);
+      pending_ = &layer;
       flyball::Work work;
       work.add("frame", 1.0);
       work.add("rays", counts.rays);
@@ -89,8 +127,12 @@ class OctomapMapper final : public flyball::Mapper {
 
   void commit() override {
     if (pending_ != nullptr) {
-      update_.apply(*pending_);
-      view_.activate(*pending_);
+      update_.apply(pending_->tree);
+      view_.activate(pending_->tree);
+      if (pending_->is_wide()) {
+        pending_->confirm(scan_.hits_W);
+        view_.activate(pending_->walls);
+      }
       pending_ = nullptr;
     }
   }
@@ -110,16 +152,13 @@ class OctomapMapper final : public flyball::Mapper {
   }
 
  private:
-  octomap::OcTree& tree_of(double resolution_m) {
-    for (const auto& tree : trees_) {
-      if (std::abs(tree->getResolution() - resolution_m) < 1e-9) {
-        return *tree;
+  Layer& layer_of(double resolution_m) {
+    for (const auto& layer : layers_) {
+      if (std::abs(layer->tree.getResolution() - resolution_m) < 1e-9) {
+        return *layer;
       }
     }
-    auto& tree = *trees_.emplace_back(std::make_unique<octomap::OcTree>(resolution_m));
-    tree.setClampingThresMin(0.12);  // both as in MAVBench's code
-    tree.setClampingThresMax(0.97);
-    return tree;
+    return *layers_.emplace_back(std::make_unique<Layer>(resolution_m));
   }
 
   void take(const flyball::PointCloud& cloud_C, const flyball::Pose& X_WC, double range_m) {
@@ -135,11 +174,11 @@ class OctomapMapper final : public flyball::Mapper {
     scan_.range_m = range_m;
   }
 
-  std::vector<std::unique_ptr<octomap::OcTree>> trees_{};
+  std::vector<std::unique_ptr<Layer>> layers_{};
   flyball::OctomapView view_{};
   flyball::Scan scan_{};
   flyball::ScanUpdate update_{};
-  octomap::OcTree* pending_{};
+  Layer* pending_{};
 };
 
 }  // namespace

@@ -28,7 +28,10 @@ TEST(StandardKnobs, every_default_is_legal_for_the_default_scenario) {
 
 TEST(StandardKnobs, clocks_and_cores_are_the_platforms) {
   const ModeledPlatform platform = two_clocks();
-  const KnobSettings knobs{standard_knobs(Scenario{}, platform)};
+  Scenario scenario;
+  scenario.platform.cores = 3;
+  scenario.platform.frequency_hz = 2e9;
+  const KnobSettings knobs{standard_knobs(scenario, platform)};
   EXPECT_EQ(knobs.spec("cpu.frequency_hz")->legal, (std::vector<double>{1e9, 2e9}));
   EXPECT_EQ(knobs.spec("cpu.cores")->legal, (std::vector<double>{1, 2, 3}));
 }

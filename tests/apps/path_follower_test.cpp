@@ -23,6 +23,7 @@ struct Ride {
     for (int i = 0; i < n; ++i) {
       now += 20ms;
       follower.map_published({1, now, now, 0.15});
+      follower.refresh_known_free(map);
       follower.tick(now, 20ms, Vec3::Zero());
     }
   }
@@ -71,7 +72,7 @@ TEST(PathFollower, arrives_at_the_end_of_a_known_path) {
 TEST(PathFollower, stops_at_a_committed_stop_and_goes_on_with_the_next_plan) {
   Ride ride{60.0};
   ride.tick(50);
-  const double splice_m = ride.follower.stop_point_m();
+  const double splice_m = ride.follower.stop_point_m(5.0);
   ride.follower.commit_stop(splice_m);
   ride.tick(500);
   EXPECT_NEAR(ride.follower.s_m(), splice_m, 0.01);

@@ -63,7 +63,7 @@ TEST(PlatformFit, scales_of_the_tx2_file_give_the_kernel_times_of_the_paper) {
   ASSERT_EQ(fit.kernels.size(), 5U);
   for (const KernelFit& kernel : fit.kernels) {
     EXPECT_NEAR(kernel.model_ms / kernel.paper_ms, 1.0, 0.02) << kernel.kernel;
-    EXPECT_GE(kernel.calls, 10) << kernel.kernel;
+    EXPECT_GE(kernel.calls, 5) << kernel.kernel;
   }
   EXPECT_TRUE(fit.is_in_step());
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "governor_loop.h"
+
+#include "short_delivery.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(GovernorLoop, decides_at_its_period_and_applies_the_wish_once) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.period_s = 0.5;
+  const MissionRecord record = kit::flown(scenario);
+  const auto decisions = static_cast<double>(record.summary.decisions);
+  EXPECT_NEAR(decisions, record.summary.mission_time_s / 0.5, 1.5);
+  // fixed_coarse turns one knob, at the first decision, away from the scenario's .15 m.
+  EXPECT_EQ(record.summary.knob_changes, 1U);
+  EXPECT_EQ(record.summary.policy_faults, 0U);
+}
+
+TEST(GovernorLoop, records_what_each_decision_knew) {
+  const MissionRecord record = kit::flown(kit::short_delivery());
+  std::uint64_t observations = 0;
+  for (const auto& row : record.trace->rows()) {
+    observations += row.channel == "observation" ? 1 : 0;
+  }
+  EXPECT_EQ(observations, record.summary.decisions);
+}
+
+}  // namespace
+}  // namespace flyball

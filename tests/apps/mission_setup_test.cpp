@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mission_setup.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::string refusal(const Scenario& scenario) {
+  const auto setup = set_up(scenario);
+  return setup ? "" : setup.error().message;
+}
+
+TEST(MissionSetup, makes_everything_that_the_default_scenario_names) {
+  const auto setup = set_up(Scenario{});
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  EXPECT_EQ(setup->platform->name(), "jetson_tx2");
+  EXPECT_NE(setup->equipment.kernels.mapper, nullptr);
+  EXPECT_NE(setup->governor, nullptr);
+}
+
+TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
+  Scenario scenario;
+  scenario.kernels.planner = "teleport";
+  scenario.kernels.mapper = "crayon";
+  const std::string why = refusal(scenario);
+  EXPECT_NE(why.find("\"teleport\""), std::string::npos) << why;
+  EXPECT_NE(why.find("\"crayon\""), std::string::npos) << why;
+  EXPECT_NE(why.find("flyball list kernels"), std::string::npos) << why;
+  scenario = Scenario{};
+  scenario.world.generator = "moon";
+  EXPECT_NE(refusal(scenario).find("flyball list worlds"), std::string::npos);
+  scenario = Scenario{};
+  scenario.governor.policy = "just_in_tme";
+  EXPECT_NE(refusal(scenario).find("flyball list policies"), std::string::npos);
+}
+
+TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
+  Scenario scenario;
+  scenario.vehicle.airframe = "f450";
+  EXPECT_NE(refusal(scenario).find("thrust"), std::string::npos);
+  scenario.vehicle.rotor_power = "thrust";
+  EXPECT_EQ(refusal(scenario), "");
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "navigation_nodes.h"
+
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+kit::GridMap room_with_gap(double gap_m) {
+  kit::GridMap map{{Vec3{-3, -3, 0}, Vec3{9, 3, 3}}, 0.15, CellState::free};
+  map.fill({Vec3{3, -3, 0}, Vec3{3.15, -0.5 * gap_m, 3}}, CellState::occupied);
+  map.fill({Vec3{3, 0.5 * gap_m, 0}, Vec3{3.15, 3, 3}}, CellState::occupied);
+  return map;
+}
+
+struct Planning {
+  explicit Planning(const kit::GridMap& map) : rig{map} {
+    rig.context->kernels.planner = all_plugins().make<PathPlanner>("rrt_connect");
+    MissionBrief brief;
+    brief.bounds_W = {Vec3{-2.5, -2.5, 1.0}, Vec3{8.5, 2.5, 1.6}};
+    MissionEquipment equipment{rig.context->airframe, rig.context->knobs,
+                               std::move(rig.context->kernels)};
+    rig.context = std::make_unique<MissionContext>(rig.scenario, rig.platform, rig.trace, brief,
+                                                   std::move(equipment));
+    query.id = 1;
+    query.start_W = Vec3{0, 0, 1.3};
+    query.goal_W = Vec3{6, 1, 1.3};
+  }
+  kit::MissionRig rig;
+  PlanQuery query{};
+};
+
+TEST(PlanWithTubes, takes_the_wide_tube_where_there_is_room) {
+  const kit::GridMap map = room_with_gap(3.0);
+  Planning planning{map};
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+  const double cruise_m_s = planning.rig.scenario.mission.max_speed_m_s;
+  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(cruise_m_s).radius_m);
+}
+
+TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
+  const kit::GridMap map = room_with_gap(0.75);  // The middle tube's body measures .77 m.
+  Planning planning{map};
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
+  EXPECT_GT(plan.work.count("iterations"), 0.0);
+}
+
+TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
+  const kit::GridMap map = room_with_gap(0.0);
+  Planning planning{map};
+  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 2000).ok());
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.waypoints_W.empty());
+  EXPECT_FALSE(plan.failure.empty());
+}
+
+}  // namespace
+}  // namespace flyball
