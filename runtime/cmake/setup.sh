@@ -63,13 +63,17 @@ ensure_packages() {
   install_packages "${missing[@]}"
 }
 
-# Another system has other package names: whoever has a compiler, CMake and the libraries may build.
+# Another system names its packages differently: say what is needed, and try with what is there.
 may_go_on_elsewhere() {
-  if command -v cmake > /dev/null && command -v ninja > /dev/null && command -v ccache > /dev/null; then
+  # Configured before, so everything was found.
+  if compgen -G "$top/build/*/build.ninja" > /dev/null; then
     return
   fi
-  printf 'flyball: this is not Debian 12, so nothing is installed for you. Install these (names and versions of Debian 12) and call again:\n%s\n' "$1" >&2
-  exit 1
+  printf 'flyball: this is not Debian 12, so nothing is installed for you. Needed are (names and versions of Debian 12):\n%s\n' "$1" >&2
+  local tool
+  for tool in cmake ninja ccache c++; do
+    command -v "$tool" > /dev/null || fail "no $tool here; install what is listed above and call again"
+  done
 }
 
 install_packages() {
