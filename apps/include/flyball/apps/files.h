@@ -18,6 +18,7 @@ namespace flyball {
 [[nodiscard]] std::vector<std::string> shipped(const std::string& kind);
 /// The file of a bare name, or the path itself when it has a slash or ends in .toml.
 /// @error `not_found`: lists the command that shows the names.
-[[nodiscard]] Result<std::string> find_shipped(const std::string& kind, const std::string& name_or_path);
+[[nodiscard]] Result<std::string> find_shipped(const std::string& kind,
+                                               const std::string& name_or_path);
 
 }  // namespace flyball

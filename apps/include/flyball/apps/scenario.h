@@ -20,10 +20,12 @@ namespace flyball {
 struct MissionSettings {
   std::string workload{"package_delivery"};
   double time_limit_s{1800.0};
-  double plan_time_limit_s{90.0};     ///< Standing without a path for longer ends the mission: `no_plan`.
+  double plan_time_limit_s{
+      90.0};  ///< Standing without a path for longer ends the mission: `no_plan`.
   double max_speed_m_s{10.0};
   double max_acceleration_m_s2{6.0};  ///< MAVBench: a in eq. 2.
-  double goal_tolerance_m{3.0};       ///< A path that ends farther from the goal is replanned (MAVBench).
+  double goal_tolerance_m{
+      3.0};  ///< A path that ends farther from the goal is replanned (MAVBench).
 };
 
 struct WorldSettings {
@@ -35,9 +37,10 @@ struct VehicleSettings {
   std::string airframe{"matrice_100"};
   double payload_kg{0.5};
   double physics_step_s{0.001};
-  double battery_charge{1.0};           ///< At the start, 0..1.
+  double battery_charge{1.0};             ///< At the start, 0..1.
   std::string rotor_power{"regression"};  ///< `regression` (eq. 1) or `thrust`.
-  double drive_efficiency{0.70};        ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
+  double drive_efficiency{
+      0.70};  ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
   double wind_east_m_s{};
   double wind_north_m_s{};
 };
@@ -50,7 +53,8 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
-  bool slam_load{true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
+  bool slam_load{
+      true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
 
 struct MapSettings {
@@ -60,8 +64,9 @@ struct MapSettings {
 };
 
 struct PlannerSettings {
-  int budget{40000};              ///< Iterations per request.
-  double corridor_m{10.0};        ///< First search box around start and goal; grows when nothing is found.
+  int budget{40000};  ///< Iterations per request.
+  double corridor_m{
+      10.0};  ///< First search box around start and goal; grows when nothing is found.
 };
 
 struct PlatformSettings {
@@ -92,10 +97,10 @@ struct Scenario {
 
 /// A value of the configuration as `flyball config` prints it.
 struct ConfigEntry {
-  std::string key;       ///< `map.range_m`
+  std::string key;  ///< `map.range_m`
   std::string value;
   std::string fallback;
-  std::string origin;    ///< `default`, the file's name with line, or `--set`.
+  std::string origin;  ///< `default`, the file's name with line, or `--set`.
   std::string description;
 };
 

@@ -37,7 +37,7 @@ struct Summary {
   double distance_m{};
   double mean_speed_m_s{};
   double max_speed_m_s{};
-  double hover_time_s{};   ///< Airborne below .1 m/s.
+  double hover_time_s{};  ///< Airborne below .1 m/s.
   int replans{};
   std::uint64_t deadline_overruns{};
   std::uint64_t decisions{};

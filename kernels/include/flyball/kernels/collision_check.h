@@ -21,16 +21,19 @@ struct PathSpan {
 };
 
 struct PathCheck {
-  std::optional<double> blocked_at_m{};  ///< Arc length of the first place where an occupied cube hits the body.
-  double known_free_m{};                 ///< From `from_m`, at most the horizon.
+  std::optional<double>
+      blocked_at_m{};     ///< Arc length of the first place where an occupied cube hits the body.
+  double known_free_m{};  ///< From `from_m`, at most the horizon.
 };
 
 class CollisionChecker : public Kernel {
  public:
   /// Looks for occupied cubes up to the path's end, and for unknown ones within the horizon.
   /// Adds `poses` to `work`.
-  [[nodiscard]] virtual PathCheck check(const OccupancyView& map, const PathSpan& span,
-                                        const Cylinder& body, Work& work) = 0;
+  [[nodiscard]] virtual PathCheck check(const OccupancyView& map,
+                                        const PathSpan& span,
+                                        const Cylinder& body,
+                                        Work& work) = 0;
 };
 
 }  // namespace flyball

@@ -37,15 +37,19 @@ class Mapper : public Kernel {
   /// @param X_WC      Pose of the camera at `cloud_C.captured`.
   /// @param settings  A resolution other than the one in force starts (or resumes) the map of that
   ///                  resolution; the others answer where it is still unknown.
-  /// @return          Work: `rays`, `traversals` (cells walked, with repeats), `updates` (unique cells).
+  /// @return          Work: `rays`, `traversals` (cells walked, with repeats), `updates` (unique
+  /// cells).
   /// @error           `invalid_input` if a coordinate is not finite or a setting is not positive;
   ///                  nothing is prepared.
-  virtual Result<Work> prepare(const PointCloud& cloud_C, const Pose& X_WC, const MapperSettings& settings) = 0;
+  virtual Result<Work> prepare(const PointCloud& cloud_C,
+                               const Pose& X_WC,
+                               const MapperSettings& settings) = 0;
   /// Makes the prepared change visible. Without one: nothing.
   virtual void commit() = 0;
 
   /// Marks the vehicle's own surroundings free where they are unknown: take-off and landing
-  /// cylinders that the scenario declares clear, and the space that the body occupies. Visible at once.
+  /// cylinders that the scenario declares clear, and the space that the body occupies. Visible at
+  /// once.
   virtual void declare_clear(const Vec3& centre_W, const Cylinder& space) = 0;
   /// Answers from committed changes only. Lives as long as the mapper.
   [[nodiscard]] virtual const OccupancyView& view() const = 0;

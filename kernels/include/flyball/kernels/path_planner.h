@@ -18,17 +18,18 @@ namespace flyball {
 struct PlanRequest {
   Vec3 start_W{Vec3::Zero()};
   Vec3 goal_W{Vec3::Zero()};
-  Aabb bounds_W{};            ///< The body's centre stays inside.
-  Cylinder body{};            ///< With its tracking tube.
-  int max_iterations{10000};  ///< Planner iterations, over all attempts.
-  double max_slope_rad{0.35}; ///< Of each straight piece; about 20 degrees.
-  std::uint64_t seed{};       ///< Of this one plan.
+  Aabb bounds_W{};             ///< The body's centre stays inside.
+  Cylinder body{};             ///< With its tracking tube.
+  int max_iterations{10000};   ///< Planner iterations, over all attempts.
+  double max_slope_rad{0.35};  ///< Of each straight piece; about 20 degrees.
+  std::uint64_t seed{};        ///< Of this one plan.
 };
 
 struct Plan {
   std::vector<Vec3> waypoints_W{};  ///< From start to goal; empty when none was found.
-  Work work{};                      ///< `iterations`, `collision_queries`; also when none was found.
-  std::string failure{};            ///< Empty on success; else why: `start blocked`, `goal blocked`, `no path within N iterations`.
+  Work work{};            ///< `iterations`, `collision_queries`; also when none was found.
+  std::string failure{};  ///< Empty on success; else why: `start blocked`, `goal blocked`, `no path
+                          ///< within N iterations`.
 };
 
 class PathPlanner : public Kernel {

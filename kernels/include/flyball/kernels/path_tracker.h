@@ -22,8 +22,10 @@ class PathTracker : public Kernel {
  public:
   /// Position, velocity and acceleration to command: the reference's own, plus error feedback on
   /// the velocity. `now` stamps the set-point.
-  [[nodiscard]] virtual Setpoint track(const Path& path, const PathReference& reference,
-                                       const PoseEstimate& where, MissionTime now) = 0;
+  [[nodiscard]] virtual Setpoint track(const Path& path,
+                                       const PathReference& reference,
+                                       const PoseEstimate& where,
+                                       MissionTime now) = 0;
 };
 
 }  // namespace flyball

@@ -16,7 +16,8 @@ namespace flyball {
 
 struct SmoothRequest {
   std::vector<Vec3> waypoints_W{};  ///< At least two, neighbours apart.
-  Vec3 start_velocity_W{Vec3::Zero()};  ///< Direction in which the committed path arrives; may be zero.
+  Vec3 start_velocity_W{
+      Vec3::Zero()};  ///< Direction in which the committed path arrives; may be zero.
   double max_speed_m_s{};
   double max_acceleration_m_s2{};
   Cylinder body{};

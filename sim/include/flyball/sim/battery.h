@@ -7,8 +7,8 @@
 namespace flyball {
 
 /// Cell model of Chen and Rincon-Mora (2006, doi:10.1109/TEC.2006.874229), scaled from its 850 mAh
-/// cell to the pack: series count from the pack, R times .3 * .85 / capacity_Ah (the .3 is fitted to
-/// the maker's endurances), C inversely; both C have a floor. Empty at 3.0 V a cell under load.
+/// cell to the pack: series count from the pack, R times .3 * .85 / capacity_Ah (the .3 is fitted
+/// to the maker's endurances), C inversely; both C have a floor. Empty at 3.0 V a cell under load.
 class Battery {
  public:
   /// @pre `cells >= 1`, `capacity_ah > 0`, 0 < `charge` <= 1.

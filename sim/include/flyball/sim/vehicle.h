@@ -15,8 +15,8 @@ namespace flyball {
 struct VehicleState {
   Pose X_WB{Pose::Identity()};
   Vec3 v_WB{Vec3::Zero()};
-  Vec3 w_WB_B{Vec3::Zero()};       ///< Angular velocity in B [rad/s].
-  Vec3 a_WB{Vec3::Zero()};         ///< Of the last step [m/s^2].
+  Vec3 w_WB_B{Vec3::Zero()};  ///< Angular velocity in B [rad/s].
+  Vec3 a_WB{Vec3::Zero()};    ///< Of the last step [m/s^2].
   std::array<double, 4> rotor_rev_s{};
 };
 
@@ -27,7 +27,11 @@ using RotorSpeeds = std::array<double, 4>;  ///< Commanded, rev/s.
 class Vehicle {
  public:
   /// @param ground_z_m  Height of the plane that it stands on.
-  Vehicle(const Airframe& airframe, double payload_kg, const Vec3& p_WB, double yaw_rad, double ground_z_m);
+  Vehicle(const Airframe& airframe,
+          double payload_kg,
+          const Vec3& p_WB,
+          double yaw_rad,
+          double ground_z_m);
   ~Vehicle();
   Vehicle(const Vehicle&) = delete;
   Vehicle& operator=(const Vehicle&) = delete;
