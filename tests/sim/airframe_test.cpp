@@ -26,7 +26,8 @@ std::string altered(const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const std::string path = testing::TempDir() + "flyball_altered_airframe.toml";
+  const std::string path = testing::TempDir() + "flyball_" +
+                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
   std::ofstream{path} << text;
   return path;
 }
