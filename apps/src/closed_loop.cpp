@@ -131,14 +131,8 @@ void ClosedLoop::publish_navigation() {
 }
 
 void ClosedLoop::publish_depth() {
-  DepthFrame frame;
-  frame.captured = queue_.now();
-  frame.sequence = frame_count_++;
-  const DepthCameraSpec& spec = context_.scenario.camera;
-  frame.pixels = spec.width_px * spec.height_px;
-  frame.read = [this, X_WC = camera_pose(vehicle_.state().X_WB), at = frame.captured,
-                number = frame.sequence] { return camera_.capture(X_WC, at, number); };
-  executor_.publish(topics_.depth, std::move(frame));
+  executor_.publish(topics_.depth, camera_.frame(camera_pose(vehicle_.state().X_WB), queue_.now(),
+                                                 frame_count_++));
 }
 
 void ClosedLoop::obey(const FlightCommand& command) {

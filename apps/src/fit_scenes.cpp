@@ -47,9 +47,9 @@ class Perception {
   /// Looks from `X_WB`; the frame is in the map afterwards.
   Status look(const Pose& X_WB, KernelLoads& loads) {
     Work points;
-    cloud_ = context_.kernels.point_cloud->build(
-        camera_.capture(camera_pose(X_WB), MissionTime{}, frames_++), range_m(), points);
     X_WC_ = camera_pose(X_WB);
+    view_ = context_.kernels.point_cloud->build(camera_.frame(X_WC_, MissionTime{}, frames_++),
+                                                range_m(), points);
     loads[context_.scenario.kernels.point_cloud].calls.push_back(points);
     Work slam;
     slam.add("pixels", points.count("pixels"));
@@ -65,7 +65,8 @@ class Perception {
 
   /// The newest view at another resolution; the map stays as it is.
   Result<Work> prepare(double resolution_m) {
-    return context_.kernels.mapper->prepare(cloud_, X_WC_, {resolution_m, range_m()});
+    return context_.kernels.mapper->prepare(view_.cloud_C.value(), X_WC_,
+                                            {resolution_m, range_m()});
   }
 
  private:
@@ -73,7 +74,7 @@ class Perception {
 
   MissionContext& context_;
   DepthCamera camera_;
-  PointCloud cloud_{};
+  PointCloudFrame view_{};
   Pose X_WC_{Pose::Identity()};
   std::uint64_t frames_{};
 };

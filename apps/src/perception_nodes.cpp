@@ -50,7 +50,7 @@ void add_slam_load(Graph& graph, const VehicleTopics& vehicle) {
 
 void add_points(Graph& graph,
                 const VehicleTopics& vehicle,
-                Topic<PointCloud> cloud,
+                Topic<PointCloudFrame> cloud,
                 MissionContext& context) {
   NodeSpec spec;
   spec.name = "points";
@@ -69,7 +69,7 @@ void add_points(Graph& graph,
     }
     *last = frame->captured;
     const double range_m = context.knobs.value("map.range_m");
-    job.publish(cloud, context.kernels.point_cloud->build(frame->read(), range_m, work));
+    job.publish(cloud, context.kernels.point_cloud->build(*frame, range_m, work));
     return work;
   });
 }
@@ -96,21 +96,22 @@ void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& co
     return Work{};
   });
   graph.node(std::move(spec), [topics, history, revision, &context](JobContext& job) {
-    const auto cloud = job.latest(topics.cloud);
-    const auto pose = cloud ? history->at(cloud->captured) : std::nullopt;
+    const auto frame = job.latest(topics.cloud);
+    const auto pose = frame ? history->at(frame->captured) : std::nullopt;
     if (!pose) {
       return Work{};
     }
     const MapperSettings settings{context.knobs.value("map.resolution_m"),
                                   context.knobs.value("map.range_m")};
-    const auto work = context.kernels.mapper->prepare(*cloud, camera_pose(pose->X_WB), settings);
+    const auto work =
+        context.kernels.mapper->prepare(frame->cloud_C.value(), camera_pose(pose->X_WB), settings);
     if (!work) {
       context.event(job.now(), "frame not mapped: " + work.error().message);
       return Work{};
     }
     job.at_end([&context](MissionTime) { context.kernels.mapper->commit(); });
     job.publish(topics.map,
-                MapRevision{++*revision, cloud->captured, job.now(), settings.resolution_m});
+                MapRevision{++*revision, frame->captured, job.now(), settings.resolution_m});
     return *work;
   });
 }
@@ -167,7 +168,7 @@ PerceptionTopics add_perception(Graph& graph,
                                 MissionContext& context) {
   PerceptionTopics topics;
   topics.pose = graph.topic<PoseEstimate>("pose");
-  topics.cloud = graph.topic<PointCloud>("cloud");
+  topics.cloud = graph.topic<PointCloudFrame>("cloud");
   topics.map = graph.topic<MapRevision>("map_revision");
   add_localizer(graph, vehicle, topics.pose, context);
   if (context.scenario.kernels.slam_load) {

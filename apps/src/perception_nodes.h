@@ -25,7 +25,7 @@ class PoseHistory {
 
 struct PerceptionTopics {
   Topic<PoseEstimate> pose;
-  Topic<PointCloud> cloud;
+  Topic<PointCloudFrame> cloud;
   Topic<MapRevision> map;
 };
 

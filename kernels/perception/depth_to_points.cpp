@@ -13,48 +13,51 @@ namespace {
 
 constexpr double beyond_range = 1.001;  // so that a mapper with the same range cuts the ray there
 
+/// `ray_C` has depth 1. A depth that is not a number, or not in front of the camera, is a broken
+/// measurement: it must neither mark nor clear anything.
+void add(flyball::PointCloud& cloud, const flyball::Vec3& ray_C, double depth_m, double reach_m) {
+  if (std::isnan(depth_m) || depth_m <= 0.0) {
+    return;
+  }
+  const double length = ray_C.norm();
+  if (depth_m * length > reach_m) {
+    cloud.clear_C.emplace_back((ray_C * (beyond_range * reach_m / length)).cast<float>());
+  } else {
+    cloud.hits_C.emplace_back((ray_C * depth_m).cast<float>());
+  }
+}
+
+flyball::PointCloud back_project(const flyball::DepthImage& image, double range_m) {
+  const flyball::Intrinsics& camera = image.camera;
+  const auto pixels =
+      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
+                 image.depth_m.size(), camera.width_px, camera.height_px);
+  flyball::PointCloud cloud{image.captured, image.sequence, {}, {}};
+  cloud.hits_C.reserve(pixels);
+  cloud.clear_C.reserve(pixels);
+  const double reach_m = std::min(range_m, image.max_range_m);
+  std::size_t pixel = 0;
+  for (int row = 0; row < camera.height_px; ++row) {
+    const double y = (row - camera.centre_y_px) / camera.focal_px;
+    for (int column = 0; column < camera.width_px; ++column) {
+      const double x = (column - camera.centre_x_px) / camera.focal_px;
+      add(cloud, {x, y, 1.0}, image.depth_m[pixel++], reach_m);
+    }
+  }
+  return cloud;
+}
+
 class DepthToPoints final : public flyball::PointCloudBuilder {
  public:
-  flyball::PointCloud build(const flyball::DepthImage& image,
-                            double range_m,
-                            flyball::Work& work) override {
-    const flyball::Intrinsics& camera = image.camera;
-    const auto pixels =
-        static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
-    FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
-                   image.depth_m.size(), camera.width_px, camera.height_px);
+  flyball::PointCloudFrame build(const flyball::DepthFrame& frame,
+                                 double range_m,
+                                 flyball::Work& work) override {
     FLYBALL_ASSERT(range_m > 0.0, "range_m=%g", range_m);
-    flyball::PointCloud cloud{image.captured, image.sequence, {}, {}};
-    cloud.hits_C.reserve(pixels);
-    const double reach_m = std::min(range_m, image.max_range_m);
-    std::size_t pixel = 0;
-    for (int row = 0; row < camera.height_px; ++row) {
-      const double y = (row - camera.centre_y_px) / camera.focal_px;
-      for (int column = 0; column < camera.width_px; ++column) {
-        const double x = (column - camera.centre_x_px) / camera.focal_px;
-        add(cloud, {x, y, 1.0}, image.depth_m[pixel++], reach_m);
-      }
-    }
-    work.add("pixels", static_cast<double>(pixels));
-    return cloud;
-  }
-
- private:
-  /// `ray_C` has depth 1. A depth that is not a number, or not in front of the camera, is a broken
-  /// measurement: it must neither mark nor clear anything.
-  static void add(flyball::PointCloud& cloud,
-                  const flyball::Vec3& ray_C,
-                  double depth_m,
-                  double reach_m) {
-    if (std::isnan(depth_m) || depth_m <= 0.0) {
-      return;
-    }
-    const double length = ray_C.norm();
-    if (depth_m * length > reach_m) {
-      cloud.clear_C.emplace_back((ray_C * (beyond_range * reach_m / length)).cast<float>());
-    } else {
-      cloud.hits_C.emplace_back((ray_C * depth_m).cast<float>());
-    }
+    work.add("pixels", frame.pixels);
+    return {frame.captured, frame.sequence,
+            flyball::Deferred<flyball::PointCloud>{
+                [image = frame.image, range_m] { return back_project(image.value(), range_m); }}};
   }
 };
 

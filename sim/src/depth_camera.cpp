@@ -89,6 +89,12 @@ void aim(RTCRayHit8& rays, int lane, const Ray& ray) {
   rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
 }
 
+/// Of a tile: its first pixel.
+struct Corner {
+  int x;
+  int y;
+};
+
 struct EmbreeDevice {
   RTCDevice handle{rtcNewDevice(device_settings)};
   EmbreeDevice() {
@@ -137,6 +143,7 @@ struct DepthCamera::Scene {
       : spec{camera_spec}, camera{camera_spec.intrinsics()}, seed{noise_seed} {
     const FlushDenormals flush;
     scene = rtcNewScene(device.handle);
+    aim_rays();
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // No ray slips between two faces of a solid.
     attach_quads(device.handle, scene, solid_mesh(world, camera_spec.max_range_m));
     rtcCommitScene(scene);
@@ -147,8 +154,12 @@ struct DepthCamera::Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  [[nodiscard]] Eigen::Vector3f direction_C(int x, int y) const;
-  void trace_tile(const Eigen::Isometry3f& X_WC, int x0, int y0, std::vector<float>& depth_m) const;
+  void aim_rays();
+  void trace(const Eigen::Isometry3f& X_WC, std::vector<float>& depth_m) const;
+  void trace_tile(const Eigen::Isometry3f& X_WC,
+                  const Eigen::Vector3f* tile_C,
+                  Corner corner,
+                  std::vector<float>& depth_m) const;
   void add_noise(std::uint64_t sequence, std::vector<float>& depth_m) const;
 
   DepthCameraSpec spec;
@@ -156,27 +167,47 @@ struct DepthCamera::Scene {
   std::uint64_t seed;
   EmbreeDevice device;
   RTCScene scene{};
+  /// Tile by tile, as they are traced; the lanes beyond the image's edge too.
+  std::vector<Eigen::Vector3f> directions_C{};
 };
 
 // Ray directions have length 1 along the optical axis, so that Embree's `tfar` is the depth.
-Eigen::Vector3f DepthCamera::Scene::direction_C(int x, int y) const {
+void DepthCamera::Scene::aim_rays() {
   const auto focal = static_cast<float>(camera.focal_px);
-  return {(static_cast<float>(x) - static_cast<float>(camera.centre_x_px)) / focal,
-          (static_cast<float>(y) - static_cast<float>(camera.centre_y_px)) / focal, 1.0F};
+  const auto centre_x = static_cast<float>(camera.centre_x_px);
+  const auto centre_y = static_cast<float>(camera.centre_y_px);
+  for (int y = 0; y < camera.height_px; y += tile_rows) {
+    for (int x = 0; x < camera.width_px; x += tile_columns) {
+      for (int lane = 0; lane < lanes; ++lane) {
+        directions_C.emplace_back((static_cast<float>(x + lane % tile_columns) - centre_x) / focal,
+                                  (static_cast<float>(y + lane / tile_columns) - centre_y) / focal,
+                                  1.0F);
+      }
+    }
+  }
+}
+
+void DepthCamera::Scene::trace(const Eigen::Isometry3f& X_WC, std::vector<float>& depth_m) const {
+  const Eigen::Vector3f* tile_C = directions_C.data();
+  for (int y = 0; y < camera.height_px; y += tile_rows) {
+    for (int x = 0; x < camera.width_px; x += tile_columns, tile_C += lanes) {
+      trace_tile(X_WC, tile_C, {x, y}, depth_m);
+    }
+  }
 }
 
 void DepthCamera::Scene::trace_tile(const Eigen::Isometry3f& X_WC,
-                                    int x0,
-                                    int y0,
+                                    const Eigen::Vector3f* tile_C,
+                                    Corner corner,
                                     std::vector<float>& depth_m) const {
   alignas(32) RTCRayHit8 rays{};
   alignas(32) std::array<int, lanes> valid{};
   const auto range_m = static_cast<float>(spec.max_range_m);
   for (int lane = 0; lane < lanes; ++lane) {
-    const int x = x0 + lane % tile_columns;
-    const int y = y0 + lane / tile_columns;
+    const int x = corner.x + lane % tile_columns;
+    const int y = corner.y + lane / tile_columns;
     valid[static_cast<std::size_t>(lane)] = x < camera.width_px && y < camera.height_px ? -1 : 0;
-    aim(rays, lane, {X_WC.translation(), X_WC.linear() * direction_C(x, y), range_m});
+    aim(rays, lane, {X_WC.translation(), X_WC.linear() * tile_C[lane], range_m});
   }
   RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
@@ -186,7 +217,8 @@ void DepthCamera::Scene::trace_tile(const Eigen::Isometry3f& X_WC,
     const auto i = static_cast<std::size_t>(lane);
     // Every pixel starts as infinity: no return.
     if (valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      const int pixel = (y0 + lane / tile_columns) * camera.width_px + x0 + lane % tile_columns;
+      const int pixel =
+          (corner.y + lane / tile_columns) * camera.width_px + corner.x + lane % tile_columns;
       depth_m[static_cast<std::size_t>(pixel)] = rays.ray.tfar[i];
     }
   }
@@ -228,14 +260,16 @@ DepthImage DepthCamera::capture(const Pose& X_WC, MissionTime now, std::uint64_t
                            static_cast<std::size_t>(image.camera.height_px),
                        infinity);
   const FlushDenormals flush;
-  const Eigen::Isometry3f X_WC_float = X_WC.cast<float>();
-  for (int y = 0; y < image.camera.height_px; y += tile_rows) {
-    for (int x = 0; x < image.camera.width_px; x += tile_columns) {
-      scene_->trace_tile(X_WC_float, x, y, image.depth_m);
-    }
-  }
+  scene_->trace(X_WC.cast<float>(), image.depth_m);
   scene_->add_noise(sequence, image.depth_m);
   return image;
+}
+
+DepthFrame DepthCamera::frame(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const {
+  const Intrinsics& camera = scene_->camera;
+  return {
+      now, sequence, camera.width_px * camera.height_px,
+      Deferred<DepthImage>{[this, X_WC, now, sequence] { return capture(X_WC, now, sequence); }}};
 }
 
 }  // namespace flyball

@@ -112,10 +112,12 @@ std::vector<View> look_around(const Scenario& scenario, const World& world) {
     }
     Pose X_WB = Pose::Identity();
     X_WB.translation() = p_W;
-    const DepthImage image = camera.capture(camera_pose(X_WB), MissionTime{}, views.size());
-    Work work;
     View view{{}, camera_pose(X_WB)};
-    host_s += seconds([&] { view.cloud = builder->build(image, scenario.map.range_m, work); });
+    const DepthFrame frame = camera.frame(view.X_WC, MissionTime{}, views.size());
+    (void)frame.image.value();  // The sensor's time is not the kernel's.
+    Work work;
+    host_s += seconds(
+        [&] { view.cloud = builder->build(frame, scenario.map.range_m, work).cloud_C.value(); });
     pixels += work.count("pixels");
     views.push_back(std::move(view));
   }

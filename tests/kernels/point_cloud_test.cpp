@@ -30,9 +30,16 @@ DepthImage image_of(float depth_m) {
   return image;
 }
 
+PointCloud points_of(const DepthImage& image, double range_m, Work& work) {
+  const DepthFrame frame{image.captured, image.sequence,
+                         image.camera.width_px * image.camera.height_px,
+                         Deferred<DepthImage>::of(image)};
+  return make_builder()->build(frame, range_m, work).cloud_C.value();
+}
+
 TEST(DepthToPoints, puts_each_pixel_on_its_ray_at_its_depth) {
   Work work;
-  const PointCloud cloud = make_builder()->build(image_of(2.0F), 10.0, work);
+  const PointCloud cloud = points_of(image_of(2.0F), 10.0, work);
   ASSERT_EQ(cloud.hits_C.size(), 45U);
   EXPECT_TRUE(cloud.clear_C.empty());
   EXPECT_EQ(cloud.captured, MissionTime{std::chrono::seconds{3}});
@@ -47,7 +54,7 @@ TEST(DepthToPoints, puts_each_pixel_on_its_ray_at_its_depth) {
 TEST(DepthToPoints, measures_the_range_along_the_ray_not_along_the_axis) {
   Work work;
   // The centre is 2 m away; the outermost columns are 2 sqrt(2) = 2.83 m away, and more.
-  const PointCloud cloud = make_builder()->build(image_of(2.0F), 2.8, work);
+  const PointCloud cloud = points_of(image_of(2.0F), 2.8, work);
   EXPECT_EQ(cloud.clear_C.size(), 2U * 5U);
   EXPECT_EQ(cloud.hits_C.size(), 35U);
   for (const auto& p_C : cloud.clear_C) {
@@ -59,7 +66,7 @@ TEST(DepthToPoints, turns_a_pixel_without_return_into_a_clear_ray) {
   DepthImage image = image_of(3.0F);
   image.depth_m[2 * 9 + 4] = infinity;
   Work work;
-  const PointCloud cloud = make_builder()->build(image, 7.0, work);
+  const PointCloud cloud = points_of(image, 7.0, work);
   ASSERT_EQ(cloud.clear_C.size(), 1U);
   EXPECT_TRUE(cloud.clear_C[0].isApprox(Eigen::Vector3f{0, 0, 7.007F}));
 }
@@ -68,7 +75,7 @@ TEST(DepthToPoints, clears_no_farther_than_the_sensor_sees) {
   DepthImage image = image_of(infinity);
   image.max_range_m = 4.0;
   Work work;
-  for (const auto& p_C : make_builder()->build(image, 7.0, work).clear_C) {
+  for (const auto& p_C : points_of(image, 7.0, work).clear_C) {
     EXPECT_NEAR(p_C.norm(), 4.004, 1e-5);
   }
 }
@@ -80,9 +87,25 @@ TEST(DepthToPoints, drops_broken_pixels_so_that_they_clear_nothing) {
   image.depth_m[2] = -1.0F;
   image.depth_m[3] = -infinity;
   Work work;
-  const PointCloud cloud = make_builder()->build(image, 7.0, work);
+  const PointCloud cloud = points_of(image, 7.0, work);
   EXPECT_EQ(cloud.hits_C.size(), 41U);
   EXPECT_TRUE(cloud.clear_C.empty());
+}
+
+TEST(DepthToPoints, knows_its_work_before_the_frame_is_rendered) {
+  int rendered = 0;
+  const DepthFrame frame{MissionTime{std::chrono::seconds{3}}, 17, 45, Deferred<DepthImage>{[&] {
+                           ++rendered;
+                           return image_of(2.0F);
+                         }}};
+  Work work;
+  const PointCloudFrame cloud = make_builder()->build(frame, 10.0, work);
+  EXPECT_EQ(work.count("pixels"), 45);
+  EXPECT_EQ(cloud.captured, frame.captured);
+  EXPECT_EQ(cloud.sequence, 17U);
+  EXPECT_EQ(rendered, 0);
+  EXPECT_EQ(cloud.cloud_C.value().hits_C.size(), 45U);
+  EXPECT_EQ(rendered, 1);
 }
 
 }  // namespace

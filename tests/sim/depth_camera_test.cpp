@@ -172,6 +172,20 @@ TEST(DepthCamera, gives_the_same_frame_whatever_was_read_before) {
   EXPECT_NE(first.depth_m, reseeded.capture(X_WC, MissionTime{}, 7).depth_m);
 }
 
+TEST(DepthCamera, captures_a_frame_late_as_it_was_at_its_time) {
+  const DepthCamera camera{with_wall(5.0), DepthCameraSpec{}, 3};
+  Pose X_WC = looking_east(Vec3::Zero());
+  const DepthImage at_once = camera.capture(X_WC, MissionTime{std::chrono::seconds{2}}, 7);
+  const DepthFrame frame = camera.frame(X_WC, MissionTime{std::chrono::seconds{2}}, 7);
+  EXPECT_EQ(frame.pixels, 256 * 144);
+  X_WC.translation() = Vec3{1.0, 0.0, 0.0};  // Flown on.
+  (void)camera.capture(X_WC, MissionTime{std::chrono::seconds{3}}, 8);
+  const DepthImage& late = frame.image.value();
+  EXPECT_EQ(late.depth_m, at_once.depth_m);
+  EXPECT_EQ(late.captured, frame.captured);
+  EXPECT_EQ(late.sequence, 7U);
+}
+
 TEST(DepthCamera, leaves_denormal_numbers_alone) {
   const DepthCamera camera{with_wall(5.0), DepthCameraSpec{}, 3};
   (void)camera.capture(looking_east(Vec3::Zero()), MissionTime{}, 1);

@@ -20,6 +20,7 @@ struct KernelStatistics {
   std::uint64_t calls{};
   double mission_ms_mean{};
   double mission_ms_p95{};
+  /// The job that looks at a frame first is the one that renders it.
   double host_ms_mean{};
 };
 

@@ -17,7 +17,13 @@ class PointCloudBuilder : public Kernel {
   ///
   /// @param range_m  Positive; longer than the sensor's range is cut to it.
   /// @return         Points in C. Adds `pixels` to `work`.
-  [[nodiscard]] virtual PointCloud build(const DepthImage& image, double range_m, Work& work) = 0;
+  ///
+  /// Where the work does not depend on what the pixels show, neither they nor the points are
+  /// computed before somebody looks at the cloud; an implementation whose work does depend on them
+  /// looks at once. The result may outlive the builder.
+  [[nodiscard]] virtual PointCloudFrame build(const DepthFrame& frame,
+                                              double range_m,
+                                              Work& work) = 0;
 };
 
 }  // namespace flyball

@@ -4,11 +4,11 @@
 /// @file
 /// What sensors say and what the flight controller hears.
 
+#include "flyball/runtime/deferred.h"
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/time.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace flyball {
@@ -32,13 +32,13 @@ struct DepthImage {
   std::vector<float> depth_m{};
 };
 
-/// A frame as the sensor publishes it. The pixels are computed when somebody looks: frames that
-/// are dropped from a queue cost the simulator nothing. `read` gives the same image at every call.
+/// A frame as the sensor publishes it. Most are overtaken before somebody looks, and then the
+/// simulator need not render them.
 struct DepthFrame {
   MissionTime captured{};
   std::uint64_t sequence{};
   int pixels{};
-  std::function<DepthImage()> read;
+  Deferred<DepthImage> image{};
 };
 
 /// Returns of one frame in the camera frame C.
@@ -47,6 +47,13 @@ struct PointCloud {
   std::uint64_t sequence{};
   std::vector<Eigen::Vector3f> hits_C{};   ///< Surface points [m].
   std::vector<Eigen::Vector3f> clear_C{};  ///< End points of rays without return, at `max_range_m`.
+};
+
+/// A point cloud as its builder publishes it.
+struct PointCloudFrame {
+  MissionTime captured{};
+  std::uint64_t sequence{};
+  Deferred<PointCloud> cloud_C{};
 };
 
 /// What the navigation sensors measured. `truth` fields are for the `truth` localizer and for

@@ -39,6 +39,8 @@ class DepthCamera {
   ///
   /// @cost 1-2 ms for 256 x 144 pixels on one x86 core.
   [[nodiscard]] DepthImage capture(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
+  /// The same image, captured when somebody looks at it. @pre The camera lives until then.
+  [[nodiscard]] DepthFrame frame(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
   [[nodiscard]] const DepthCameraSpec& spec() const;
 
  private:
