@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The one lattice of the brick map. Cells have OctoMap's keys: 65536 along each axis, key 32768
+/// begins at the world's origin. A cell of level k is 2^k finest cells wide, its key is that of any
+/// finest cell in it, shifted right by k. A brick is 4 x 4 x 4 finest cells: a cell of level 2.
+
+#include "flyball/runtime/geometry.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace flyball {
+
+struct CellKey {
+  int x{};
+  int y{};
+  int z{};
+
+  [[nodiscard]] CellKey above(int levels) const { return {x >> levels, y >> levels, z >> levels}; }
+  [[nodiscard]] bool operator==(const CellKey& other) const {
+    return x == other.x && y == other.y && z == other.z;
+  }
+};
+
+inline constexpr int brick_level = 2;
+inline constexpr int chunk_level = 5;
+
+class Lattice {
+ public:
+  static constexpr int keys = 1 << 16;
+  static constexpr int half_keys = keys / 2;
+
+  explicit Lattice(double finest_m) : finest_m_{finest_m}, cells_per_m_{1.0 / finest_m} {}
+
+  [[nodiscard]] double cell_m(int level) const { return finest_m_ * (1 << level); }
+  [[nodiscard]] double edge_m() const { return half_keys * finest_m_; }
+  /// OctoMap's arithmetic: a product, and not a quotient, decides at the borders of cells.
+  [[nodiscard]] int key(double x_m) const {
+    return static_cast<int>(std::floor(cells_per_m_ * x_m)) + half_keys;
+  }
+  /// @pre `contains(p)`.
+  [[nodiscard]] CellKey cell(const Vec3& p) const { return {key(p.x()), key(p.y()), key(p.z())}; }
+  /// False for a place that is not finite.
+  [[nodiscard]] bool contains(const Vec3& p) const {
+    const double edge = edge_m();
+    return (p.array() >= -edge).all() && (p.array() < edge).all();
+  }
+  [[nodiscard]] Aabb cube(const CellKey& cell, int level) const {
+    const auto low_m = [&](int key) { return ((key << level) - half_keys) * finest_m_; };
+    const auto high_m = [&](int key) { return ((key + 1) * (1 << level) - half_keys) * finest_m_; };
+    return {{low_m(cell.x), low_m(cell.y), low_m(cell.z)},
+            {high_m(cell.x), high_m(cell.y), high_m(cell.z)}};
+  }
+
+ private:
+  double finest_m_;
+  double cells_per_m_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What every front-end makes of a scan: for each brick that the scan touched, which of its 64
+/// cells were seen through and which were hit. Free space at a coarser floor is the same thing with
+/// whole blocks of bits, so the map and the record know one input only.
+
+#include "lattice.h"
+#include <cstdint>
+#include <vector>
+
+namespace flyball {
+
+/// Cell (x, y, z) of a brick, each 0..3, is bit 16 z + 4 y + x.
+[[nodiscard]] inline unsigned bit_in_brick(const CellKey& cell) {
+  return static_cast<unsigned>((cell.z & 3) << 4 | (cell.y & 3) << 2 | (cell.x & 3));
+}
+
+struct BrickMasks {
+  CellKey brick{};  ///< At `brick_level`.
+  std::uint64_t free{};
+  std::uint64_t hit{};  ///< No cell is in both masks: what was hit is not freed by the same scan.
+};
+
+struct ScanMasks {
+  std::vector<BrickMasks> bricks{};  ///< Each brick once, in an order that the scan alone decides.
+  double rays{};
+  double traversals{};  ///< Cells that the rays cross, with repeats. Zero where no ray is walked.
+  double updates{};     ///< Cells that change: bits set.
+};
+
+}  // namespace flyball
