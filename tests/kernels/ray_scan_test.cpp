@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/bricks/ray_scan.h"
 
-#include "synthetic_scans.h"
+#include "world_scans.h"
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -12,24 +12,6 @@ namespace flyball {
 namespace {
 
 constexpr double range_m = 7.0;
-
-octomap::point3d to_W(const Vec3& p) {
-  const Eigen::Vector3f single = p.cast<float>();
-  return {single.x(), single.y(), single.z()};
-}
-
-Scan in_world(const kit::SyntheticScan& from) {
-  Scan scan;
-  for (const auto& p_C : from.cloud_C.hits_C) {
-    scan.hits_W.push_back(to_W(from.X_WC * p_C.cast<double>()));
-  }
-  for (const auto& p_C : from.cloud_C.clear_C) {
-    scan.clear_W.push_back(to_W(from.X_WC * p_C.cast<double>()));
-  }
-  scan.origin_W = to_W(from.X_WC.translation());
-  scan.range_m = range_m;
-  return scan;
-}
 
 using Cells = std::map<std::tuple<int, int, int>, bool>;  ///< Whether it was hit.
 
@@ -57,12 +39,7 @@ struct StockUpdate {
 
 StockUpdate stock_update(const Scan& scan, double resolution_m) {
   octomap::OcTree tree{resolution_m};
-  octomap::Pointcloud points;
-  for (const auto* ends : {&scan.hits_W, &scan.clear_W}) {
-    for (const auto& p : *ends) {
-      points.push_back(p);
-    }
-  }
+  const octomap::Pointcloud points = kit::points_of(scan);
   octomap::KeySet free;
   octomap::KeySet hit;
   tree.computeUpdate(points, scan.origin_W, free, hit, scan.range_m);
@@ -97,7 +74,7 @@ TEST(RayScan, marks_and_counts_what_stock_does_with_all_vector_instructions) {
       for (const Simd simd : supported_simd()) {
         RayScan exact{resolution_m, RayScan::Match::stock, simd};
         for (int frame = 0; frame < 3; ++frame) {
-          const Scan scan = in_world(kit::synthetic_scan(place, frame, range_m));
+          const Scan scan = kit::world_scan(place, frame, range_m);
           const ScanMasks& masks = exact.compute(scan);
           EXPECT_EQ(masks.rays, 64 * 36);
           expect_same(masks, stock_update(scan, resolution_m));
@@ -131,7 +108,7 @@ TEST(RayScan, gives_the_same_close_match_with_all_vector_instructions) {
   for (const Simd simd : supported_simd()) {
     RayScan wide{0.15, RayScan::Match::close, simd};
     for (int frame = 0; frame < 3; ++frame) {
-      const Scan scan = in_world(kit::synthetic_scan(kit::Place::outdoor, frame, range_m));
+      const Scan scan = kit::world_scan(kit::Place::outdoor, frame, range_m);
       EXPECT_TRUE(cells_of(wide.compute(scan)) == cells_of(portable.compute(scan)));
     }
   }
@@ -139,7 +116,7 @@ TEST(RayScan, gives_the_same_close_match_with_all_vector_instructions) {
 
 TEST(RayScan, differs_from_stock_in_few_cells_where_it_may) {
   RayScan close{0.15, RayScan::Match::close};
-  const Scan scan = in_world(kit::synthetic_scan(kit::Place::indoor, 3, range_m));
+  const Scan scan = kit::world_scan(kit::Place::indoor, 3, range_m);
   const Cells ours = cells_of(close.compute(scan));
   const Cells stock = stock_update(scan, 0.15).cells;
   std::size_t wrong = 0;

@@ -11,8 +11,6 @@ constexpr std::size_t first_slots = 256;
 /// Where in `Chunk::blocks` a level begins.
 constexpr std::array<std::size_t, 4> level_begin{0, 512, 512 + 64, 512 + 64 + 8};
 
-constexpr std::array<std::size_t, 8> every_third_bit{0, 1, 8, 9, 64, 65, 72, 73};
-
 std::size_t block_index(int level, std::size_t brick) {
   const auto above = static_cast<std::size_t>(level - brick_level);
   return level_begin[above] + (brick >> 3 * above);
@@ -32,11 +30,6 @@ BlockSummary& Chunk::block(int level, std::size_t brick) {
 
 const BlockSummary& Chunk::block(int level, std::size_t brick) const {
   return blocks[block_index(level, brick)];
-}
-
-std::size_t Chunk::number_of(const CellKey& brick) {
-  const auto bits = [](int key) { return every_third_bit[static_cast<std::size_t>(key & 7)]; };
-  return bits(brick.x) | bits(brick.y) << 1U | bits(brick.z) << 2U;
 }
 
 void Chunk::set_summary(std::size_t brick, const BlockSummary& summary) {
@@ -83,7 +76,7 @@ void BrickMap::apply(const std::vector<BrickMasks>& changes) {
     if (chunk == nullptr || !(chunk->key == key)) {
       chunk = &at(key);
     }
-    const std::size_t brick = Chunk::number_of(change.brick);
+    const std::size_t brick = brick_number(change.brick);
     const BlockSummary summary = loops_.update_brick(chunk->bricks[brick], change.free, change.hit);
     const BlockSummary& known = chunk->block(brick_level, brick);
     if (summary.most != known.most || summary.has_unknown != known.has_unknown) {
@@ -99,9 +92,9 @@ BlockSummary BrickMap::summary(const CellKey& cell, int level) const {
   }
   if (level >= brick_level) {
     const int down = level - brick_level;
-    return chunk->block(level, Chunk::number_of({cell.x << down, cell.y << down, cell.z << down}));
+    return chunk->block(level, brick_number({cell.x << down, cell.y << down, cell.z << down}));
   }
-  const Brick& brick = chunk->bricks[Chunk::number_of(cell.above(brick_level - level))];
+  const Brick& brick = chunk->bricks[brick_number(cell.above(brick_level - level))];
   const CellKey low{cell.x << level, cell.y << level, cell.z << level};
   const unsigned first = bit_in_brick(low);
   BlockSummary whole{brick.cells[first], brick.cells[first] == log_odds::unknown};

@@ -32,8 +32,6 @@ struct Chunk {
   /// Of the block of `level` (2..5) that contains the brick with this number.
   [[nodiscard]] BlockSummary& block(int level, std::size_t brick);
   [[nodiscard]] const BlockSummary& block(int level, std::size_t brick) const;
-  /// Its Morton number in the chunk.
-  [[nodiscard]] static std::size_t number_of(const CellKey& brick);
   void set_summary(std::size_t brick, const BlockSummary& summary);
 };
 

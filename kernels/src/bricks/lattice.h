@@ -8,7 +8,9 @@
 
 #include "flyball/runtime/geometry.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace flyball {
@@ -26,6 +28,21 @@ struct CellKey {
 
 inline constexpr int brick_level = 2;
 inline constexpr int chunk_level = 5;
+
+/// Bricks of a chunk are numbered in Morton order: bits 0, 3, 6 are x. So the eight bricks of a
+/// coarser cell, and the 64 of the next coarser one, are neighbours.
+[[nodiscard]] inline std::size_t brick_number(const CellKey& brick) {
+  constexpr std::array<std::uint8_t, 8> every_third_bit{0, 1, 8, 9, 64, 65, 72, 73};
+  const auto bits = [&](int key) {
+    return std::size_t{every_third_bit[static_cast<std::size_t>(key & 7)]};
+  };
+  return bits(brick.x) | bits(brick.y) << 1U | bits(brick.z) << 2U;
+}
+/// The inverse, for one axis.
+[[nodiscard]] inline int brick_offset(std::size_t number, unsigned axis) {
+  const std::size_t bits = number >> axis;
+  return static_cast<int>((bits & 1U) | (bits >> 2U & 2U) | (bits >> 4U & 4U));
+}
 
 class Lattice {
  public:

@@ -44,21 +44,40 @@ void MarkWindow::span(const CellKey& first, const CellKey& last) {
 
 std::size_t MarkWindow::collect(std::vector<BrickMasks>& bricks) {
   std::size_t cells = 0;
-  for (int z = 0; z < bricks_[2]; ++z) {
-    for (int y = 0; y < bricks_[1]; ++y) {
-      const auto row = static_cast<std::size_t>(y) << (brick_shift_[1] - 6) |
-                       static_cast<std::size_t>(z) << (brick_shift_[2] - 6);
-      for (int x = 0; x < bricks_[0]; ++x) {
-        Line& line = lines_[row + static_cast<std::size_t>(x)];
-        BrickMasks masks = masks_of(line);
-        if ((masks.free | masks.hit) == 0) {
-          continue;
-        }
-        line = Line{};
-        masks.brick = {first_brick_[0] + x, first_brick_[1] + y, first_brick_[2] + z};
-        cells += count(masks.free | masks.hit);
-        bricks.push_back(masks);
+  const auto last = [&](std::size_t axis) { return first_brick_[axis] + bricks_[axis] - 1; };
+  for (int z = first_brick_[2] >> 3; z <= last(2) >> 3; ++z) {
+    for (int y = first_brick_[1] >> 3; y <= last(1) >> 3; ++y) {
+      for (int x = first_brick_[0] >> 3; x <= last(0) >> 3; ++x) {
+        cells += collect_chunk({x, y, z}, bricks);
       }
+    }
+  }
+  return cells;
+}
+
+std::size_t MarkWindow::collect_chunk(const CellKey& chunk, std::vector<BrickMasks>& bricks) {
+  const std::array<int, 3> offset{8 * chunk.x - first_brick_[0], 8 * chunk.y - first_brick_[1],
+                                  8 * chunk.z - first_brick_[2]};
+  std::size_t cells = 0;
+  for (unsigned number = 0; number < 512; ++number) {
+    const int x = offset[0] + brick_offset(number, 0);
+    const int y = offset[1] + brick_offset(number, 1);
+    const int z = offset[2] + brick_offset(number, 2);
+    const auto is_inside = [this](int at, std::size_t axis) {
+      return static_cast<unsigned>(at) < static_cast<unsigned>(bricks_[axis]);
+    };
+    if (!is_inside(x, 0) || !is_inside(y, 1) || !is_inside(z, 2)) {
+      continue;
+    }
+    Line& line =
+        lines_[static_cast<std::size_t>(x) | static_cast<std::size_t>(y) << (brick_shift_[1] - 6) |
+               static_cast<std::size_t>(z) << (brick_shift_[2] - 6)];
+    BrickMasks masks = masks_of(line);
+    if ((masks.free | masks.hit) != 0) {
+      line = Line{};
+      masks.brick = {first_brick_[0] + x, first_brick_[1] + y, first_brick_[2] + z};
+      cells += count(masks.free | masks.hit);
+      bricks.push_back(masks);
     }
   }
   return cells;

@@ -40,7 +40,7 @@ class MarkWindow {
   void mark_free(std::uint32_t place) {
     reinterpret_cast<std::uint8_t*>(lines_.data())[place] = free_mark;  // NOLINT
   }
-  /// Appends the bricks with marks, x fastest, wipes them, and returns how many cells these are.
+  /// Appends the bricks with marks, wipes them, and returns how many cells these are.
   std::size_t collect(std::vector<BrickMasks>& bricks);
 
  private:
@@ -48,6 +48,7 @@ class MarkWindow {
   struct alignas(64) Line {
     std::array<std::uint64_t, 8> rows;
   };
+  std::size_t collect_chunk(const CellKey& chunk, std::vector<BrickMasks>& bricks);
   static BrickMasks masks_of(const Line& line);
 
   std::vector<Line> lines_{};  ///< Only grows; without marks between two scans.

@@ -24,7 +24,8 @@ struct BrickMasks {
 };
 
 struct ScanMasks {
-  std::vector<BrickMasks> bricks{};  ///< Each brick once, in an order that the scan alone decides.
+  /// Each brick once; chunk by chunk (8 x 8 x 8 bricks), in a chunk in Morton order.
+  std::vector<BrickMasks> bricks{};
   double rays{};
   double traversals{};  ///< Cells that the rays cross, with repeats. Zero where no ray is walked.
   double updates{};     ///< Cells that change: bits set.
