@@ -33,7 +33,7 @@ std::string result_text(const Summary& s, const std::string& folder) {
              {"  mission time", with_unit(s.mission_time_s, 1, "s")},
              {"  energy", with_unit(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
                               with_unit(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
-             {"  battery used", with_unit(s.battery_start_percent - s.battery_end_percent, 1, "%")},
+             {"  battery used", with_unit(s.battery_used_percent(), 1, "%")},
              {"  distance", with_unit(s.distance_m, 1, "m") + ", mean " +
                                 with_unit(s.mean_speed_m_s, 2, "m/s") + ", max " +
                                 with_unit(s.max_speed_m_s, 2, "m/s")},

@@ -12,10 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Flights = std::vector<const Summary*>;
 
-double battery_used(const Summary& flight) {
-  return flight.battery_start_percent - flight.battery_end_percent;
-}
-
 bool has_succeeded(const Summary& flight) {
   return flight.status == MissionStatus::succeeded;
 }
@@ -57,8 +53,8 @@ void add_ratios(ComparisonRow& row, const Flights& flights, const Flights& first
     if (other == first.end() || !has_succeeded(*flight) || !has_succeeded(**other)) {
       continue;
     }
-    if (battery_used(**other) > 0.0 && (*other)->mission_time_s > 0.0) {
-      battery.push_back(battery_used(*flight) / battery_used(**other));
+    if ((*other)->battery_used_percent() > 0.0 && (*other)->mission_time_s > 0.0) {
+      battery.push_back(flight->battery_used_percent() / (*other)->battery_used_percent());
       time.push_back(flight->mission_time_s / (*other)->mission_time_s);
     }
   }
@@ -71,7 +67,8 @@ ComparisonRow row_of(const Flights& flights, const Flights& first) {
   ComparisonRow row = counted(flights);
   row.mission_time_s = median_over(flights, [](const Summary& s) { return s.mission_time_s; });
   row.energy_total_j = median_over(flights, [](const Summary& s) { return s.energy_total_j(); });
-  row.battery_used_percent = median_over(flights, battery_used);
+  row.battery_used_percent =
+      median_over(flights, [](const Summary& s) { return s.battery_used_percent(); });
   row.mean_speed_m_s = median_over(flights, [](const Summary& s) { return s.mean_speed_m_s; });
   row.latency_p50_s = median_over(flights, [](const Summary& s) { return s.latency_p50_s; });
   add_ratios(row, flights, first);

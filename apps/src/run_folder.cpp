@@ -47,7 +47,7 @@ std::string summary_table(const Summary& summary) {
       {"end", failed ? to_string(summary.failure) : to_string(summary.status)},
       {"time s", rounded(summary.mission_time_s, 1)},
       {"energy kJ", rounded(summary.energy_total_j() * 1e-3, 1)},
-      {"battery %", rounded(summary.battery_start_percent - summary.battery_end_percent, 1)},
+      {"battery %", rounded(summary.battery_used_percent(), 1)},
       {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
       {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
       {"clearance m", rounded(summary.min_clearance_m, 2)}};

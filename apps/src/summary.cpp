@@ -71,8 +71,8 @@ void read_flight(const Json& json, Summary& summary) {
   summary.mission_time_s = number(json.at("mission_time_s"));
   summary.energy_rotor_j = number(json.at("energy_j").at("rotor"));
   summary.energy_computer_j = number(json.at("energy_j").at("computer"));
-  summary.battery_start_percent = number(json.at("battery_percent").at("start"));
-  summary.battery_end_percent = number(json.at("battery_percent").at("end"));
+  summary.battery_start_percent = number(json.at("battery_start_percent"));
+  summary.battery_end_percent = number(json.at("battery_end_percent"));
   summary.distance_m = number(json.at("distance_m"));
   summary.mean_speed_m_s = number(json.at("mean_speed_m_s"));
   summary.max_speed_m_s = number(json.at("max_speed_m_s"));
@@ -134,10 +134,9 @@ std::string to_json(const Summary& summary, int indent) {
        {{"rotor", summary.energy_rotor_j},
         {"computer", summary.energy_computer_j},
         {"total", summary.energy_total_j()}}},
-      {"battery_percent",
-       {{"start", summary.battery_start_percent},
-        {"end", summary.battery_end_percent},
-        {"used", summary.battery_start_percent - summary.battery_end_percent}}},
+      {"battery_start_percent", summary.battery_start_percent},
+      {"battery_end_percent", summary.battery_end_percent},
+      {"battery_used_percent", summary.battery_used_percent()},
       {"distance_m", summary.distance_m},
       {"mean_speed_m_s", summary.mean_speed_m_s},
       {"max_speed_m_s", summary.max_speed_m_s},

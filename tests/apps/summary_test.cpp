@@ -4,6 +4,8 @@
 
 #include "made_flights.h"
 #include <limits>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -41,8 +43,53 @@ TEST(Summary, every_status_and_failure_reads_back) {
 TEST(Summary, derived_figures_are_written_out) {
   const auto json = nlohmann::json::parse(to_json(made_summary("a", 1)));
   EXPECT_EQ(json["energy_j"]["total"], 31000.75);
-  EXPECT_EQ(json["battery_percent"]["used"], 20.0);
+  EXPECT_EQ(json["battery_used_percent"], 20.0);
   EXPECT_EQ(json["latency_s"]["p95"], 0.22);
+}
+
+TEST(Summary, has_exactly_the_documented_keys) {
+  const auto json = nlohmann::json::parse(to_json(made_summary("a", 1)));
+  const auto keys = [](const nlohmann::json& object) {
+    std::set<std::string> all;
+    for (const auto& [key, value] : object.items()) {
+      all.insert(key);
+    }
+    return all;
+  };
+  using Keys = std::set<std::string>;
+  EXPECT_EQ(keys(json), (Keys{"scenario",
+                              "policy",
+                              "seed",
+                              "status",
+                              "failure",
+                              "mission_time_s",
+                              "energy_j",
+                              "battery_start_percent",
+                              "battery_end_percent",
+                              "battery_used_percent",
+                              "distance_m",
+                              "mean_speed_m_s",
+                              "max_speed_m_s",
+                              "hover_time_s",
+                              "min_clearance_m",
+                              "replans",
+                              "deadline_overruns",
+                              "decisions",
+                              "knob_changes",
+                              "policy_faults",
+                              "latency_s",
+                              "kernels",
+                              "host_s",
+                              "real_time_factor",
+                              "trace_hash",
+                              "numeric_fingerprint",
+                              "version"}));
+  EXPECT_EQ(keys(json["energy_j"]), (Keys{"rotor", "computer", "total"}));
+  EXPECT_EQ(keys(json["latency_s"]), (Keys{"p50", "p95", "max"}));
+  EXPECT_EQ(keys(json["kernels"]["octomap"]),
+            (Keys{"calls", "mission_ms_mean", "mission_ms_p95", "host_ms_mean"}));
+  EXPECT_EQ(json["battery_start_percent"], 100.0);
+  EXPECT_EQ(json["battery_end_percent"], 80.0);
 }
 
 TEST(Summary, a_clearance_without_obstacles_stays_infinite) {

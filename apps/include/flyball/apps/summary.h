@@ -56,9 +56,13 @@ struct Summary {
   std::string version{};
 
   [[nodiscard]] double energy_total_j() const { return energy_rotor_j + energy_computer_j; }
+  [[nodiscard]] double battery_used_percent() const {
+    return battery_start_percent - battery_end_percent;
+  }
 };
 
-/// Nested as the command line documents it: `energy_j {rotor, computer, total}`, `latency_s {...}`.
+/// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
+/// {name: {...}}`.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
 /// @return Empty optional-like result when the text is not a summary.
 [[nodiscard]] bool from_json(const std::string& text, Summary& summary);
