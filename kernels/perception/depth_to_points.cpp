@@ -33,7 +33,7 @@ flyball::PointCloud back_project(const flyball::DepthImage& image, double range_
       static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
   FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
                  image.depth_m.size(), camera.width_px, camera.height_px);
-  flyball::PointCloud cloud{image.captured, image.sequence, {}, {}};
+  flyball::PointCloud cloud{image.captured, image.sequence, {}, {}, camera};
   cloud.hits_C.reserve(pixels);
   cloud.clear_C.reserve(pixels);
   const double reach_m = std::min(range_m, image.max_range_m);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/bricks/ray_scan.h"
 
+#include "mask_cells.h"
 #include "world_scans.h"
-#include <algorithm>
-#include <map>
-#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -13,24 +11,8 @@ namespace {
 
 constexpr double range_m = 7.0;
 
-using Cells = std::map<std::tuple<int, int, int>, bool>;  ///< Whether it was hit.
-
-Cells cells_of(const ScanMasks& masks) {
-  Cells cells;
-  for (const BrickMasks& brick : masks.bricks) {
-    EXPECT_EQ(brick.free & brick.hit, 0U);
-    for (unsigned bit = 0; bit < 64; ++bit) {
-      if (((brick.free | brick.hit) >> bit & 1U) != 0) {
-        const auto at = [&](int key, unsigned shift) {
-          return 4 * key + static_cast<int>(bit >> shift & 3U);
-        };
-        cells[{at(brick.brick.x, 0), at(brick.brick.y, 2), at(brick.brick.z, 4)}] =
-            (brick.hit >> bit & 1U) != 0;
-      }
-    }
-  }
-  return cells;
-}
+using kit::Cells;
+using kit::cells_of;
 
 struct StockUpdate {
   Cells cells;

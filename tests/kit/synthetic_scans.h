@@ -65,6 +65,8 @@ inline SyntheticScan synthetic_scan(Place place, int frame, double range_m, int 
   const double yaw_rad = 0.05 * frame;
   scan.X_WC.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix() * R_BC;
   scan.cloud_C.sequence = static_cast<std::uint64_t>(frame);
+  scan.cloud_C.camera =
+      Intrinsics{width_px, height_px, 0.5 * width_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)};
   for (int pixel = 0; pixel < width_px * height_px; ++pixel) {
     const double half_px = 0.5 * width_px;
     const Vec3 ray_C = Vec3{(pixel % width_px + 0.5 - half_px) / half_px,

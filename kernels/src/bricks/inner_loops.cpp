@@ -21,6 +21,13 @@ inline ByteMask byte_mask(std::uint64_t mask) {
   return bytes;
 }
 
+/// The lowest bits of eight bytes as one byte.
+inline std::uint64_t gathered(std::uint64_t bytes) {
+  constexpr std::uint64_t lowest = 0x0101010101010101;
+  constexpr std::uint64_t to_top_byte = 0x0102040810204080;
+  return (bytes & lowest) * to_top_byte >> 56U;
+}
+
 // The pragmas, and not flags for a file, set the instruction set: they do not reach the inline
 // functions of other headers, of which the linker keeps one copy for the whole program.
 namespace portable {
@@ -81,9 +88,11 @@ Simd widest_simd() {
 }
 
 const InnerLoops& inner_loops(Simd simd) {
-  static constexpr InnerLoops of_portable{portable::update_brick, portable::walk_rays};
-  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::walk_rays};
-  static constexpr InnerLoops of_avx512{avx512::update_brick, avx512::walk_rays};
+  static constexpr InnerLoops of_portable{portable::update_brick, portable::walk_rays,
+                                          portable::seen_cells};
+  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::walk_rays, avx2::seen_cells};
+  static constexpr InnerLoops of_avx512{avx512::update_brick, avx512::walk_rays,
+                                        avx512::seen_cells};
   return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
 }
 

@@ -44,11 +44,28 @@ struct WindowAxes {
   std::array<std::uint32_t, 3> start;  ///< Where the rays begin.
 };
 
+/// A depth image, set up for the cells of one brick at a time.
+struct alignas(64) CellProbe {
+  std::array<std::array<float, 64>, 3> offset_C;  ///< From the brick's centre to its cells' [m].
+  float focal_px;
+  float centre_u_px;
+  float centre_v_px;
+  float nearest_m;
+  float squared_range_m2;
+  float half_cell_m;
+  int width_px;
+  int height_px;
+  const float* depth_m;
+};
+
 struct InnerLoops {
   /// Frees and hits the cells of two masks that have no bit in common.
   BlockSummary (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
   /// Writes the first `steps` places of each lane: lane l of step k to `places[16 k + l]`.
   void (*walk_rays)(RayBlock& rays, const WindowAxes& axes, int steps, std::uint32_t* places);
+  /// Which cells of the brick around `centre_C` are in view, in range, and nearer by half a cell
+  /// than the depth of the pixel in which their centre is.
+  std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
 };
 
 /// @pre `simd` is supported.

@@ -28,6 +28,7 @@ struct ScanMasks {
   std::vector<BrickMasks> bricks{};
   double rays{};
   double traversals{};  ///< Cells that the rays cross, with repeats. Zero where no ray is walked.
+  double blocks{};      ///< Blocks of space held against a depth image. Zero where rays are walked.
   double updates{};     ///< Cells that change: bits set.
 };
 

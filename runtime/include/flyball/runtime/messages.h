@@ -9,6 +9,7 @@
 #include "flyball/runtime/time.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -47,6 +48,7 @@ struct PointCloud {
   std::uint64_t sequence{};
   std::vector<Eigen::Vector3f> hits_C{};   ///< Surface points [m].
   std::vector<Eigen::Vector3f> clear_C{};  ///< End points of rays without return, at `max_range_m`.
+  std::optional<Intrinsics> camera{};  ///< Of the image whose pixels these are, if they are any.
 };
 
 /// A point cloud as its builder publishes it.

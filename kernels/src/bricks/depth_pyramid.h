@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A depth image and, at every coarser scale, the least and the greatest depth: how far a block of
+/// pixels can be seen through, answered with a few look-ups whatever the block's size.
+
+#include "flyball/runtime/messages.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace flyball {
+
+/// Least and greatest depth in a block of pixels [m].
+struct DepthSpan {
+  float least;
+  float most;
+};
+
+/// Pixels from (u0, v0) to (u1, v1), both included.
+struct PixelBlock {
+  int u0;
+  int v0;
+  int u1;
+  int v1;
+};
+
+class DepthPyramid {
+ public:
+  /// Puts the cloud's points back into the pixels from which they came. A pixel without a point has
+  /// depth 0: nothing was seen there. One that is clear up to `range_m` has depth infinity.
+  ///
+  /// @pre The cloud has a camera.
+  void build(const PointCloud& cloud_C, double range_m);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }
+  /// @pre The block lies in the image. May look at pixels beside it.
+  [[nodiscard]] DepthSpan span(const PixelBlock& block) const;
+
+ private:
+  struct Scale {
+    std::size_t first;  ///< In `spans_`.
+    int width;
+    int height;
+  };
+  void put(const std::vector<Eigen::Vector3f>& points_C, const Intrinsics& camera, float cut_m);
+  void build_scales();
+
+  int width_{};
+  int height_{};
+  std::vector<float> depth_m_{};
+  std::vector<Scale> scales_{};
+  std::vector<DepthSpan> spans_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+constexpr float nearest_depth_m = 0.05F;  // nearer, a block's image has no bounds
+
+}  // namespace
+
+void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  depth_.build(cloud_C, range_m);
+  const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
+  measure_cubes(R_CW, range_m);
+  aim_probe(R_CW, *cloud_C.camera, range_m);
+}
+
+void DepthView::measure_cubes(const Eigen::Matrix3d& R_CW, double range_m) {
+  for (std::size_t level = 0; level < extents_.size(); ++level) {
+    const double half_m = 0.5 * finest_m_ * (1 << level);
+    const double ball_m = std::sqrt(3.0) * half_m;
+    const double near_m = std::max(range_m - ball_m, 0.0);
+    const double far_m = range_m + ball_m;
+    extents_[level] = {(R_CW.cwiseAbs() * Vec3::Constant(half_m)).cast<float>(),
+                       static_cast<float>(near_m * near_m), static_cast<float>(far_m * far_m)};
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      const auto side = [&](unsigned axis) { return (octant >> axis & 1U) != 0 ? 1.0 : -1.0; };
+      to_octant_C_[level][octant] =
+          (R_CW * (0.5 * half_m * Vec3{side(0), side(1), side(2)})).cast<float>();
+    }
+  }
+}
+
+void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera, double range_m) {
+  for (int cell = 0; cell < 64; ++cell) {
+    const Vec3 from_centre{cell % 4 - 1.5, cell / 4 % 4 - 1.5, cell / 16 - 1.5};
+    const Eigen::Vector3f offset_C = (R_CW * (finest_m_ * from_centre)).cast<float>();
+    for (int axis = 0; axis < 3; ++axis) {
+      probe_.offset_C[static_cast<std::size_t>(axis)][static_cast<std::size_t>(cell)] =
+          offset_C[axis];
+    }
+  }
+  probe_.focal_px = static_cast<float>(camera.focal_px);
+  // A pixel's ray passes through its middle, which is a whole number.
+  probe_.centre_u_px = static_cast<float>(camera.centre_x_px + 0.5);
+  probe_.centre_v_px = static_cast<float>(camera.centre_y_px + 0.5);
+  probe_.width_px = camera.width_px;
+  probe_.height_px = camera.height_px;
+  probe_.nearest_m = nearest_depth_m;
+  probe_.squared_range_m2 = static_cast<float>(range_m * range_m);
+  probe_.half_cell_m = static_cast<float>(0.5 * finest_m_);
+  probe_.depth_m = depth_.depth_m();
+}
+
+Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
+  const Extent& extent = extents_[static_cast<std::size_t>(level)];
+  const float first_z = centre_C.z() - extent.half.z();
+  const float last_z = centre_C.z() + extent.half.z();
+  const float squared_distance = centre_C.squaredNorm();
+  if (last_z <= nearest_depth_m || squared_distance > extent.squared_far) {
+    return Sight::none;
+  }
+  if (first_z <= nearest_depth_m) {
+    return Sight::part;
+  }
+  // The image of the box of C around the cube: at its near end where it spreads, else at its far.
+  const float near_scale = probe_.focal_px / first_z;
+  const float far_scale = probe_.focal_px / last_z;
+  const auto low_px = [&](float x) { return x * (x < 0.0F ? near_scale : far_scale); };
+  const auto high_px = [&](float x) { return x * (x < 0.0F ? far_scale : near_scale); };
+  const float u0 = low_px(centre_C.x() - extent.half.x()) + probe_.centre_u_px;
+  const float u1 = high_px(centre_C.x() + extent.half.x()) + probe_.centre_u_px;
+  const float v0 = low_px(centre_C.y() - extent.half.y()) + probe_.centre_v_px;
+  const float v1 = high_px(centre_C.y() + extent.half.y()) + probe_.centre_v_px;
+  const auto width = static_cast<float>(probe_.width_px);
+  const auto height = static_cast<float>(probe_.height_px);
+  if (u1 < 0.0F || v1 < 0.0F || u0 >= width || v0 >= height) {
+    return Sight::none;
+  }
+  const PixelBlock pixels{
+      static_cast<int>(std::max(u0, 0.0F)), static_cast<int>(std::max(v0, 0.0F)),
+      static_cast<int>(std::min(u1, width - 1.0F)), static_cast<int>(std::min(v1, height - 1.0F))};
+  const DepthSpan behind = depth_.span(pixels);
+  if (first_z >= behind.most) {
+    return Sight::none;
+  }
+  const bool in_view = u0 >= 0.0F && v0 >= 0.0F && u1 < width && v1 < height;
+  const bool is_whole =
+      in_view && squared_distance <= extent.squared_near && last_z <= behind.least;
+  return is_whole ? Sight::whole : Sight::part;
+}
+
+}  // namespace flyball

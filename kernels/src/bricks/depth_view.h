@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a depth image says about a block of space.
+
+#include "depth_pyramid.h"
+#include "inner_loops.h"
+#include "lattice.h"
+#include <array>
+
+namespace flyball {
+
+/// How much of a block the camera sees through.
+enum class Sight : std::uint8_t {
+  none,   ///< Behind every surface, out of view or out of range.
+  part,   ///< Perhaps some.
+  whole,  ///< All: in view, in range, and nearer than the least depth behind it.
+};
+
+class DepthView {
+ public:
+  explicit DepthView(double finest_m) : finest_m_{finest_m} {}
+
+  /// @pre The cloud has a camera.
+  void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  /// A cube of level 1..5 around a point of C.
+  [[nodiscard]] Sight sight_of(const Eigen::Vector3f& centre_C, int level) const;
+  /// From the centre of a block of `level` to that of its octant.
+  [[nodiscard]] const Eigen::Vector3f& to_octant(int level, unsigned octant) const {
+    return to_octant_C_[static_cast<std::size_t>(level)][octant];
+  }
+  /// For the single cells of a brick; see InnerLoops::seen_cells.
+  [[nodiscard]] const CellProbe& probe() const { return probe_; }
+
+ private:
+  /// Of a cube of one level, in C.
+  struct Extent {
+    Eigen::Vector3f half;  ///< Of the box of C around it.
+    float squared_near{};  ///< Centres nearer than this: the cube is in range as a whole.
+    float squared_far{};   ///< Centres farther than this: it is out of range.
+  };
+  void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
+  void aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera, double range_m);
+
+  double finest_m_;
+  DepthPyramid depth_{};
+  std::array<Extent, chunk_level + 1> extents_{};
+  std::array<std::array<Eigen::Vector3f, 8>, chunk_level + 1> to_octant_C_{};
+  CellProbe probe_{};
+};
+
+}  // namespace flyball

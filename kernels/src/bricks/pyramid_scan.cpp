@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pyramid_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+PyramidScan::PyramidScan(double finest_m, Simd simd)
+    : lattice_{finest_m}, loops_{inner_loops(simd)}, view_{finest_m} {}
+
+const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
+                                      const Pose& X_WC,
+                                      double range_m,
+                                      int floor_level) {
+  floor_level_ = floor_level;
+  masks_.blocks = 0.0;
+  view_.look(cloud_C, X_WC, range_m);
+  span_window(X_WC, range_m);
+  const Pose X_CW = X_WC.inverse();
+  for (int z = first_chunk_.z; z <= last_chunk_.z; ++z) {
+    for (int y = first_chunk_.y; y <= last_chunk_.y; ++y) {
+      for (int x = first_chunk_.x; x <= last_chunk_.x; ++x) {
+        free_chunk({x, y, z}, X_CW);
+      }
+    }
+  }
+  mark_origin(X_WC.translation());
+  mark_hits(cloud_C, X_WC, range_m);
+  masks_.bricks.clear();
+  masks_.updates = static_cast<double>(window_.collect(masks_.bricks));
+  masks_.rays = static_cast<double>(cloud_C.hits_C.size() + cloud_C.clear_C.size());
+  return masks_;
+}
+
+/// The box around the camera and the far corners of its view.
+void PyramidScan::span_window(const Pose& X_WC, double range_m) {
+  const CellProbe& probe = view_.probe();
+  const Vec3 p_WC = X_WC.translation();
+  Vec3 low = p_WC;
+  Vec3 high = p_WC;
+  for (const float u : {0.0F, static_cast<float>(probe.width_px)}) {
+    for (const float v : {0.0F, static_cast<float>(probe.height_px)}) {
+      const Vec3 corner_C{(u - probe.centre_u_px) / probe.focal_px,
+                          (v - probe.centre_v_px) / probe.focal_px, 1.0};
+      const Vec3 corner_W = X_WC * (range_m * corner_C);
+      low = low.cwiseMin(corner_W);
+      high = high.cwiseMax(corner_W);
+    }
+  }
+  const Vec3 reach = Vec3::Constant(range_m + lattice_.cell_m(0));
+  const Vec3 first = low.cwiseMax(p_WC - reach) - Vec3::Constant(lattice_.cell_m(0));
+  const Vec3 last = high.cwiseMin(p_WC + reach) + Vec3::Constant(lattice_.cell_m(0));
+  first_chunk_ = lattice_.cell(first).above(chunk_level);
+  last_chunk_ = lattice_.cell(last).above(chunk_level);
+  window_.span(first_chunk_, last_chunk_);
+}
+
+// Poses and points are rounded as the ray front-ends round them, so that hits fall into the same
+// cells.
+void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
+  for (const Eigen::Vector3f& p_C : cloud_C.hits_C) {
+    const Eigen::Vector3f p_W = (X_WC * p_C.cast<double>()).cast<float>();
+    const Eigen::Vector3f ray = p_W - origin_W;
+    const float squared = ray.x() * ray.x() + ray.y() * ray.y() + ray.z() * ray.z();
+    if (std::sqrt(static_cast<double>(squared)) > range_m) {
+      continue;
+    }
+    const CellKey cell = lattice_.cell(p_W.cast<double>());
+    const CellKey chunk = cell.above(chunk_level);
+    // Outside only by rounding, at the very edge of the view.
+    if (window_.contains(chunk)) {
+      window_.at(chunk).add_hit(brick_number(cell.above(brick_level)),
+                                std::uint64_t{1} << bit_in_brick(cell));
+    }
+  }
+}
+
+/// The cell that the camera is in is too near to be looked at, and free.
+void PyramidScan::mark_origin(const Vec3& p_WC) {
+  const CellKey cell = lattice_.cell(p_WC.cast<float>().cast<double>());
+  window_.at(cell.above(chunk_level))
+      .add_free(brick_number(cell.above(brick_level)), std::uint64_t{1} << bit_in_brick(cell));
+}
+
+void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
+  const Aabb cube = lattice_.cube(chunk, chunk_level);
+  const Vec3 centre_W = 0.5 * (cube.min + cube.max);
+  chunk_ = &window_.at(chunk);
+  free_block({(X_CW * centre_W).cast<float>(), 0, chunk_level});
+}
+
+void PyramidScan::free_block(const Block& block) {
+  ++masks_.blocks;
+  const Sight sight = view_.sight_of(block.centre_C, block.level);
+  if (sight == Sight::whole) {
+    free_whole(block);
+  }
+  if (sight != Sight::part || block.level == std::max(floor_level_, brick_level)) {
+    if (sight == Sight::part && floor_level_ < brick_level) {
+      floor_level_ == 0 ? free_cells(block) : free_eighths(block);
+    }
+    return;
+  }
+  const int below = block.level - 1;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const std::size_t first = std::size_t{octant} << 3 * static_cast<unsigned>(below - brick_level);
+    free_block({block.centre_C + view_.to_octant(block.level, octant), block.brick + first, below});
+  }
+}
+
+void PyramidScan::free_whole(const Block& block) {
+  const std::size_t bricks = std::size_t{1} << 3 * static_cast<unsigned>(block.level - brick_level);
+  for (std::size_t i = 0; i < bricks; ++i) {
+    chunk_->add_free(block.brick + i, ~std::uint64_t{0});
+  }
+}
+
+void PyramidScan::free_eighths(const Block& brick) {
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    ++masks_.blocks;
+    const Eigen::Vector3f centre_C = brick.centre_C + view_.to_octant(brick_level, octant);
+    if (view_.sight_of(centre_C, 1) == Sight::whole) {
+      const unsigned shift = (octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32;
+      chunk_->add_free(brick.brick, std::uint64_t{0x330033} << shift);
+    }
+  }
+}
+
+void PyramidScan::free_cells(const Block& brick) {
+  ++masks_.blocks;
+  const std::uint64_t seen = loops_.seen_cells(view_.probe(), brick.centre_C.data());
+  if (seen != 0) {
+    chunk_->add_free(brick.brick, seen);
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../../kernels/src/bricks/pyramid_scan.h"
+
+#include "../../kernels/src/bricks/ray_scan.h"
+#include "mask_cells.h"
+#include "world_scans.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using kit::Cells;
+using kit::cells_of;
+
+constexpr double range_m = 7.0;
+constexpr double finest_m = 0.15;
+constexpr int width_px = 160;
+
+kit::SyntheticScan scan_of(kit::Place place, int frame) {
+  return kit::synthetic_scan(place, frame, range_m, width_px);
+}
+
+Cells walked(kit::Place place, int frame) {
+  RayScan exact{finest_m, RayScan::Match::stock};
+  return cells_of(exact.compute(kit::world_scan(place, frame, range_m, width_px)));
+}
+
+struct Agreement {
+  std::size_t hits{};  ///< Of the rays.
+  std::size_t same_hits{};
+  std::size_t free{};  ///< Of the rays.
+  std::size_t same_free{};
+  std::size_t more_free{};  ///< That no ray crosses.
+  std::size_t freed_hits{};
+};
+
+Agreement compare(const Cells& rays, const Cells& pyramid) {
+  Agreement agreement;
+  for (const auto& [cell, is_hit] : rays) {
+    const auto found = pyramid.find(cell);
+    const bool is_known = found != pyramid.end();
+    (is_hit ? agreement.hits : agreement.free) += 1;
+    if (is_known) {
+      agreement.same_hits += is_hit && found->second ? 1 : 0;
+      agreement.same_free += !is_hit && !found->second ? 1 : 0;
+      agreement.freed_hits += is_hit && !found->second ? 1 : 0;
+    }
+  }
+  for (const auto& [cell, is_hit] : pyramid) {
+    agreement.more_free += !is_hit && rays.find(cell) == rays.end() ? 1 : 0;
+  }
+  return agreement;
+}
+
+TEST(PyramidScan, finds_at_the_finest_level_nearly_what_the_rays_find) {
+  for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
+    PyramidScan pyramid{finest_m};
+    for (const int frame : {0, 4}) {
+      const auto scan = scan_of(place, frame);
+      const auto agreement = compare(
+          walked(place, frame), cells_of(pyramid.compute(scan.cloud_C, scan.X_WC, range_m, 0)));
+      EXPECT_EQ(agreement.same_hits, agreement.hits);
+      EXPECT_EQ(agreement.freed_hits, 0U);
+      // A ray may touch a cell whose centre it does not see.
+      EXPECT_GT(agreement.same_free, agreement.free * 9 / 10);
+      EXPECT_LT(agreement.more_free, agreement.free / 50);
+    }
+  }
+}
+
+TEST(PyramidScan, frees_above_the_finest_level_only_what_rays_cross) {
+  for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
+    PyramidScan pyramid{finest_m};
+    const auto scan = scan_of(place, 2);
+    const Cells rays = walked(place, 2);
+    std::size_t freed = rays.size();
+    for (int level = 1; level <= 3; ++level) {
+      const auto agreement =
+          compare(rays, cells_of(pyramid.compute(scan.cloud_C, scan.X_WC, range_m, level)));
+      EXPECT_EQ(agreement.same_hits, agreement.hits);
+      EXPECT_EQ(agreement.freed_hits, 0U);
+      EXPECT_LT(agreement.more_free, agreement.free / 1000);  // between the pixels of far cells
+      // In the room no block of 1.2 m is seen as a whole.
+      EXPECT_TRUE(level == 3 || agreement.same_free > agreement.free / 10);
+      EXPECT_LT(agreement.same_free, freed);
+      freed = agreement.same_free;
+    }
+  }
+}
+
+TEST(PyramidScan, frees_whole_blocks_of_its_floor) {
+  PyramidScan pyramid{finest_m};
+  const auto scan = scan_of(kit::Place::indoor, 1);
+  const CellKey own = Lattice{finest_m}.cell(scan.X_WC.translation());
+  for (const BrickMasks& brick : pyramid.compute(scan.cloud_C, scan.X_WC, range_m, 2).bricks) {
+    const bool has_camera = brick.brick == own.above(brick_level);
+    EXPECT_TRUE(has_camera || brick.free == 0 || (brick.free | brick.hit) == ~std::uint64_t{0});
+  }
+}
+
+TEST(PyramidScan, gives_the_same_masks_with_all_vector_instructions) {
+  for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
+    PyramidScan portable{finest_m, Simd::portable};
+    for (const Simd simd : supported_simd()) {
+      PyramidScan wide{finest_m, simd};
+      for (int level = 0; level <= 3; ++level) {
+        const auto scan = scan_of(place, level);
+        EXPECT_TRUE(cells_of(wide.compute(scan.cloud_C, scan.X_WC, range_m, level)) ==
+                    cells_of(portable.compute(scan.cloud_C, scan.X_WC, range_m, level)));
+      }
+    }
+  }
+}
+
+TEST(PyramidScan, neither_frees_nor_marks_behind_a_pixel_without_a_measurement) {
+  PyramidScan pyramid{finest_m};
+  auto scan = scan_of(kit::Place::indoor, 0);
+  scan.cloud_C.hits_C.clear();
+  scan.cloud_C.clear_C.clear();
+  const ScanMasks& masks = pyramid.compute(scan.cloud_C, scan.X_WC, range_m, 0);
+  ASSERT_EQ(masks.bricks.size(), 1U);  // where the camera is
+  EXPECT_EQ(masks.updates, 1.0);
+}
+
+TEST(PyramidScan, counts_the_blocks_that_it_looked_at) {
+  PyramidScan pyramid{finest_m};
+  const auto scan = scan_of(kit::Place::indoor, 0);
+  const double fine = pyramid.compute(scan.cloud_C, scan.X_WC, range_m, 0).blocks;
+  const double coarse = pyramid.compute(scan.cloud_C, scan.X_WC, range_m, 3).blocks;
+  EXPECT_GT(coarse, 10.0);
+  EXPECT_GT(fine, 2.0 * coarse);
+}
+
+}  // namespace
+}  // namespace flyball
