@@ -49,7 +49,10 @@ void FlightRecorder::record_state(MissionTime now) {
     row.push_back({"set_speed_m_s", navigator_->follower().target_speed_m_s()});
     row.push_back({"known_free_m", navigator_->follower().known_free_m()});
     row.push_back({"latency_bound_s", to_seconds(navigator_->follower().latency_bound())});
-    row.push_back({"tracking_error_m", navigator_->tracking_error_m()});
+    const TrackingError& error = navigator_->tracking_error();
+    row.push_back({"tracking_error_m", error.size_m});
+    row.push_back({"across_error_m", error.across_m});
+    row.push_back({"height_error_m", error.height_m});
   }
   context_.recorder.record(now, "state", row);
 }

@@ -58,7 +58,7 @@ Observation GovernorLoop::observe(MissionTime now) {
     const Vec3 p_W = navigator_->follower().position_W();
     seen.speed_m_s = navigator_->follower().speed_m_s();
     seen.known_free_m = navigator_->follower().known_free_m();
-    seen.tracking_error_m = navigator_->tracking_error_m();
+    seen.tracking_error_m = navigator_->tracking_error().size_m;
     seen.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
     seen.latency = navigator_->newest_latency();
     seen.latency_bound = navigator_->follower().latency_bound();

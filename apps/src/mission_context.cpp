@@ -31,7 +31,7 @@ double MissionContext::speed_limit_m_s(const Vec3& p_W) const {
 Cylinder MissionContext::body_at(double speed_m_s) const {
   const double tube_m = tube.radius_m(speed_m_s);
   const Cylinder body = airframe.body();
-  return {body.radius_m + tube_m, body.half_height_m + tube_m};
+  return {body.radius_m + tube_m, body.half_height_m + tube_m + tube.extra_height_m};
 }
 
 void MissionContext::event(MissionTime at, const std::string& what) {

@@ -11,8 +11,10 @@ using namespace std::chrono_literals;
 constexpr auto retry_after =
     500ms;  // A new plan of the same map would fail again: wait for frames.
 constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
-constexpr double planning_time_s =
-    0.6;  // How far ahead a plan is spliced; late: the stop is flown.
+// A plan is spliced in ahead of the vehicle by what the last one took and half as much again.
+constexpr double lead_over_last = 1.5;
+constexpr double least_lead_s = 0.1;
+constexpr double most_lead_s = 1.0;
 constexpr double arrival_m = 0.3;
 
 }  // namespace
@@ -75,6 +77,10 @@ void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint6
   want_plan(now, "path blocked");
 }
 
+double Navigator::lead_s() const {
+  return std::clamp(lead_over_last * to_seconds(last_planning_), least_lead_s, most_lead_s);
+}
+
 void Navigator::want_plan(MissionTime now, const std::string& why) {
   if (!wants_plan_) {
     wants_plan_ = true;
@@ -101,12 +107,16 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   query.goal_W = *goal_W_;
   query.start_W = follower_.position_W();
   if (follower_.has_path()) {
-    splice_m_ = follower_.splice_point_m(planning_time_s);
-    follower_.commit_stop(splice_m_);
+    const double stop_m = follower_.planned_stop_m();
+    const double moving_m = follower_.s_m() + follower_.speed_m_s() * lead_s();
+    splice_m_ = plan_from_stop_ ? stop_m : std::min(moving_m, stop_m);
+    plan_from_stop_ = false;
+    follower_.commit_stop(stop_m);
     const auto splice = follower_.path().at(splice_m_);
     query.start_W = splice.p_W;
     query.start_direction_W = follower_.speed_m_s() > 0.2 ? splice.tangent_W : Vec3::Zero();
   }
+  asked_at_ = now;
   query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0;
   wants_plan_ = false;
   ++context_.counters.replans;
@@ -133,14 +143,28 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   }
   pending_id_ = 0;
   context_.counters.planner_failures_in_row = 0;
-  follower_.adopt(Path{planned.trajectory}, splice_m_);
+  last_planning_ = now - asked_at_;
+  if (!follower_.adopt(Path{planned.trajectory}, splice_m_)) {
+    plan_from_stop_ = true;
+    want_plan(now, "too late or too fast for the plan");
+    return;
+  }
   ++path_number_;
   follower_.refresh_known_free(context_.map());
 }
 
+TrackingError Navigator::measured(const Vec3& error_W) const {
+  Vec3 tangent_W = Vec3::Zero();
+  if (follower_.has_path()) {
+    tangent_W = follower_.path().at(follower_.s_m()).tangent_W;
+  }
+  const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
+  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
+}
+
 Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where) {
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
-  tracking_error_m_ = error_W.norm();
+  tracking_error_ = measured(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
   if (reference.speed_m_s > 0.02 || !goal_W_ || has_arrived()) {
     without_path_since_ = now;

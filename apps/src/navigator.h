@@ -34,6 +34,13 @@ struct PlannedPath {
   std::string failure{};
 };
 
+/// Where the vehicle is, seen from its reference.
+struct TrackingError {
+  double size_m{};
+  double across_m{};  ///< Level and square to the path.
+  double height_m{};  ///< Upwards.
+};
+
 class Navigator {
  public:
   explicit Navigator(MissionContext& context);
@@ -56,9 +63,11 @@ class Navigator {
   [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
   [[nodiscard]] const PathFollower& follower() const { return follower_; }
   [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
-  [[nodiscard]] double tracking_error_m() const { return tracking_error_m_; }
+  [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
 
  private:
+  [[nodiscard]] double lead_s() const;
+  [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
   [[nodiscard]] LatencyWindow& window(std::map<double, LatencyWindow>& windows,
                                       double resolution_m,
@@ -70,6 +79,9 @@ class Navigator {
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
+  bool plan_from_stop_{};  ///< The last plan came too late or bent too sharply to be flown into.
+  MissionTime asked_at_{};
+  Duration last_planning_{};
   bool wants_plan_{};
   MissionTime not_before_{};
   MissionTime without_path_since_{};
@@ -79,7 +91,7 @@ class Navigator {
   MissionTime last_published_{};
   Duration newest_latency_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
-  double tracking_error_m_{};
+  TrackingError tracking_error_{};
 };
 
 }  // namespace flyball

@@ -28,6 +28,13 @@ double towards(double value, double target, double braking_m_s2, double dt_s) {
                         : std::max(target, value - braking_m_s2 * dt_s);
 }
 
+// The safe speed saws with each published map; a vehicle that followed every tooth at full
+// acceleration would pitch to and fro and lose height. The guard does not wait for this.
+double eased(double value, double target, double dt_s) {
+  constexpr double gain_1_s = 5.0;
+  return value + std::min(1.0, gain_1_s * dt_s) * (target - value);
+}
+
 GuardSettings guard_settings(const MissionContext& context) {
   GuardSettings settings;
   settings.max_deceleration_m_s2 = context.scenario.mission.max_acceleration_m_s2;
@@ -48,16 +55,29 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   stalled_since_.reset();
 }
 
-void PathFollower::adopt(const Path& tail, double splice_m) {
-  path_ = path_.empty() ? tail : Path::joined(path_, s_m_, std::max(s_m_, splice_m), tail);
-  s_m_ = 0.0;
-  stop_at_m_ = path_.length_m();
+SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) const {
   SpeedProfileLimits limits;
   limits.lateral_m_s2 = comfort_m_s2;
-  limits.longitudinal_m_s2 = std::min(comfort_m_s2, guard_.settings().max_deceleration_m_s2);
-  profile_ = SpeedProfile{path_, limits,
-                          [this](const Vec3& p_W) { return context_.speed_limit_m_s(p_W); }};
+  limits.longitudinal_m_s2 = std::min(braking_m_s2, guard_.settings().max_deceleration_m_s2);
+  return {path, limits, [this](const Vec3& p_W) { return context_.speed_limit_m_s(p_W); }};
+}
+
+bool PathFollower::adopt(const Path& tail, double splice_m) {
+  constexpr double rounding_m = 1e-6;
+  if (!path_.empty() && s_m_ > splice_m + rounding_m) {
+    return false;
+  }
+  Path path = path_.empty() ? tail : Path::joined(path_, s_m_, splice_m, tail);
+  constexpr double slack_m_s = 0.1;
+  if (profile_of(path, stopping_m_s2).at(0.0) + slack_m_s < speed_m_s_) {
+    return false;
+  }
+  profile_ = profile_of(path, comfort_m_s2);
+  path_ = std::move(path);
+  s_m_ = 0.0;
+  stop_at_m_ = path_.length_m();
   stalled_since_.reset();
+  return true;
 }
 
 void PathFollower::commit_stop(double s_m) {
@@ -85,10 +105,16 @@ double PathFollower::distance_since(MissionTime captured) const {
   return after == odometer_.end() ? 0.0 : travelled_m_ - after->second;
 }
 
-double PathFollower::cruise_speed(double free_until_m) const {
-  const double from_capture_m = free_until_m - s_m_ + distance_since(newest_capture_);
+// At most what the newest frame itself can have seen: the map remembers free space beyond its
+// range, but something may have come there since.
+double PathFollower::cruise_speed(std::size_t tier) const {
+  const double speed_m_s = tier_speeds_m_s()[tier];
+  const double in_sight_m =
+      context_.knobs.value("map.range_m") - context_.body_at(speed_m_s).radius_m;
+  const double from_capture_m = free_until_m_[tier] - s_m_ + distance_since(newest_capture_);
   const double delta_s = to_seconds(latency_bound_ + guard_.reaction_time());
-  return safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, from_capture_m);
+  return std::min(speed_m_s, safe_speed(guard_.settings().max_deceleration_m_s2, delta_s,
+                                        std::min(from_capture_m, in_sight_m)));
 }
 
 std::array<double, 3> PathFollower::tier_speeds_m_s() const {
@@ -96,14 +122,17 @@ std::array<double, 3> PathFollower::tier_speeds_m_s() const {
   return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
 }
 
-double PathFollower::target_speed() const {
-  const auto speeds = tier_speeds_m_s();
+double PathFollower::safe_cruise() const {
   double safe = 0.0;
-  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
-    safe = std::max(safe, std::min(speeds[tier], cruise_speed(free_until_m_[tier])));
+  for (std::size_t tier = 0; tier < free_until_m_.size(); ++tier) {
+    safe = std::max(safe, cruise_speed(tier));
   }
-  const double stop = std::sqrt(2.0 * stopping_m_s2 * std::max(0.0, stop_at_m_ - s_m_));
-  return std::min({safe, profile_.at(s_m_), stop});
+  return safe;
+}
+
+double PathFollower::speed_limit() const {
+  const double stop = safe_speed(stopping_m_s2, SpeedProfileLimits{}.lag_s, stop_at_m_ - s_m_);
+  return std::min(profile_.at(s_m_), stop);
 }
 
 // A tier whose free space ends is left for the next slower one; the slowest is left for a stop.
@@ -132,14 +161,22 @@ double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
   return std::clamp(1.0 - out_m / patience_m, 0.1, 1.0);
 }
 
+double PathFollower::next_speed(double dt_s, const Vec3& error_W) {
+  const double braking = guard_.settings().max_deceleration_m_s2;
+  const double waiting = wait_for_vehicle(error_W);
+  const double cruise = waiting * safe_cruise();
+  const double limit = waiting * speed_limit();
+  target_m_s_ = std::min(cruise, limit);
+  const double eased_m_s = eased(speed_m_s_, cruise, dt_s);
+  const double wished = towards(speed_m_s_, std::min(eased_m_s, limit), braking, dt_s);
+  return std::min(wished, braked_speed(dt_s));
+}
+
 PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error_W) {
   const double dt_s = to_seconds(dt);
   double acceleration = 0.0;
   if (has_path()) {
-    target_m_s_ = target_speed() * wait_for_vehicle(error_W);
-    const double wished =
-        towards(speed_m_s_, target_m_s_, guard_.settings().max_deceleration_m_s2, dt_s);
-    const double next = std::min(wished, braked_speed(dt_s));
+    const double next = next_speed(dt_s, error_W);
     acceleration = (next - speed_m_s_) / dt_s;
     const double moved =
         std::min(0.5 * (next + speed_m_s_) * dt_s, std::max(0.0, stop_at_m_ - s_m_));
@@ -190,10 +227,10 @@ double PathFollower::stop_point_m(double deceleration_m_s2) const {
 
 // Where room is left for the wide tube, so that the next path can be flown at speed from its start;
 // but not nearer than full braking reaches.
-double PathFollower::splice_point_m(double planning_time_s) const {
+double PathFollower::planned_stop_m() const {
   const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
-  const double wished = std::max(stop_point_m(std::min(stopping_m_s2, limit_m_s2)),
-                                 s_m_ + speed_m_s_ * planning_time_s);
+  const double wished =
+      stop_point_m(std::min(stopping_m_s2, limit_m_s2)) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
   const double margin_m = 0.1;
   const double wide = free_until_m_.back() - margin_m;
   const double reach = wide > s_m_ ? wide : free_until_m_.front();

@@ -24,7 +24,10 @@ class PathFollower {
   /// Hovers at a place; forgets the path.
   void hover_at(const Vec3& p_W, double yaw_rad);
   /// Flies the committed path up to `splice_m`, then `tail`, which begins there.
-  void adopt(const Path& tail, double splice_m);
+  ///
+  /// @return  False, and nothing changed: the reference is past the splice, or too fast for the
+  ///          curves behind it.
+  [[nodiscard]] bool adopt(const Path& tail, double splice_m);
   /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
   void commit_stop(double s_m);
 
@@ -48,9 +51,9 @@ class PathFollower {
   [[nodiscard]] double known_free_m() const { return std::max(0.0, free_until_m_.front() - s_m_); }
   /// Where a stop with this deceleration would end from here.
   [[nodiscard]] double stop_point_m(double deceleration_m_s2) const;
-  /// Where the next path should begin: ahead of the reference by what planning takes, but inside
-  /// what is known to be free.
-  [[nodiscard]] double splice_point_m(double planning_time_s) const;
+  /// Where a comfortable stop would end, inside what is known to be free: the committed stop while
+  /// a plan is sought.
+  [[nodiscard]] double planned_stop_m() const;
   [[nodiscard]] bool is_at_end() const;
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
@@ -59,8 +62,11 @@ class PathFollower {
 
  private:
   [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
-  [[nodiscard]] double cruise_speed(double free_until_m) const;
-  [[nodiscard]] double target_speed() const;
+  [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
+  [[nodiscard]] double cruise_speed(std::size_t tier) const;
+  [[nodiscard]] double safe_cruise() const;
+  [[nodiscard]] double speed_limit() const;
+  [[nodiscard]] double next_speed(double dt_s, const Vec3& error_W);
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
   [[nodiscard]] double braked_speed(double dt_s) const;
   void turn(double dt_s, MissionTime now);

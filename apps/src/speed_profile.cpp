@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "speed_profile.h"
 
+#include "flyball/runtime/guard.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +25,13 @@ double curve_speed_squared(double curvature_1_m, const SpeedProfileLimits& limit
   return std::max(crawl, std::min(limits.lateral_m_s2 / bend, turning * turning));
 }
 
+// The speed `ds_m` before a place that is passed with `speed_m_s`.
+double speed_before(double speed_m_s, double ds_m, const SpeedProfileLimits& limits) {
+  const double a = limits.longitudinal_m_s2;
+  const double to_standstill_m = speed_m_s * speed_m_s / (2.0 * a) + limits.lag_s * speed_m_s;
+  return safe_speed(a, limits.lag_s, ds_m + to_standstill_m);
+}
+
 }  // namespace
 
 SpeedProfile::SpeedProfile(const Path& path,
@@ -32,17 +41,16 @@ SpeedProfile::SpeedProfile(const Path& path,
   s_m_.resize(samples.size());
   speed_squared_.resize(samples.size());
   double next_s = path.length_m();
-  double next_speed_squared = 0.0;
+  double next_speed = 0.0;
   for (std::size_t i = samples.size(); i-- > 0;) {
     const auto& sample = samples[i];
     const double place = place_limit(sample.p_W);
-    const double reachable =
-        next_speed_squared + 2.0 * limits.longitudinal_m_s2 * (next_s - sample.s_m);
-    next_speed_squared =
-        std::min({place * place, curve_speed_squared(sample.curvature_1_m, limits), reachable});
+    const double reachable = speed_before(next_speed, next_s - sample.s_m, limits);
+    next_speed =
+        std::min({place, std::sqrt(curve_speed_squared(sample.curvature_1_m, limits)), reachable});
     next_s = sample.s_m;
     s_m_[i] = sample.s_m;
-    speed_squared_[i] = next_speed_squared;
+    speed_squared_[i] = next_speed * next_speed;
   }
 }
 

@@ -14,6 +14,9 @@ namespace flyball {
 struct SpeedProfileLimits {
   double lateral_m_s2{3.0};       ///< Half of the 6 m/s^2 that the guard may brake with,
   double longitudinal_m_s2{3.0};  ///< so that both together stay below it.
+  /// A stop from v takes v^2 / 2a + v lag: at a crawl the vehicle lags behind a braking reference
+  /// by .07 s (tests/sim/flight_controller_test.cpp), and would swing beyond a corner.
+  double lag_s{0.1};
   double turn_rad_s{1.2};  ///< Of the heading, which follows the velocity: below its 90 degrees/s.
 };
 

@@ -54,7 +54,7 @@ class PackageDelivery final : public Workload {
           }
           break;
         case Stage::flying:
-          if (navigator_->has_arrived() && navigator_->tracking_error_m() < 0.1) {
+          if (navigator_->has_arrived() && navigator_->tracking_error().size_m < 0.1) {
             land(job);
           }
           break;

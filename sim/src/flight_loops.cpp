@@ -53,9 +53,11 @@ void FlightController::observe(const VehicleState& state, double total_mass_kg, 
 
 /// Thrust over mass that follows the set-point, within the tilt limit.
 Vec3 FlightController::specific_force(const VehicleState& state, const Setpoint& wanted) const {
-  const Vec3 correction = gains_.position * (wanted.p_WB - state.X_WB.translation());
+  const Vec3 position_gain{gains_.position, gains_.position, gains_.height};
+  const Vec3 velocity_gain{gains_.velocity, gains_.velocity, gains_.climb};
+  const Vec3 correction = position_gain.cwiseProduct(wanted.p_WB - state.X_WB.translation());
   const Vec3 velocity = wanted.v_WB + limited(correction, largest_correction_m_s);
-  Vec3 f = wanted.a_WB + gains_.velocity * (velocity - state.v_WB) - disturbance_;
+  Vec3 f = wanted.a_WB + velocity_gain.cwiseProduct(velocity - state.v_WB) - disturbance_;
   f.z() = gravity_m_s2 + std::max(-most_descent_m_s2, f.z());
   const double most_sideways = f.z() * std::tan(gains_.max_tilt_rad);
   const double sideways = f.head<2>().norm();

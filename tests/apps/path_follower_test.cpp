@@ -16,7 +16,7 @@ struct Ride {
       : map{kit::corridor(known_to_m)}, rig{map}, follower{*rig.context} {
     follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
     follower.set_latency_bound(200ms);
-    follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0);
+    EXPECT_TRUE(follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0));
     follower.refresh_known_free(map);
   }
   void tick(int n) {
@@ -77,10 +77,43 @@ TEST(PathFollower, stops_at_a_committed_stop_and_goes_on_with_the_next_plan) {
   EXPECT_NEAR(ride.follower.s_m(), splice_m, 0.01);
   EXPECT_FALSE(ride.follower.is_at_end());
   const Vec3 from = ride.follower.position_W();
-  ride.follower.adopt(Path::polyline({from, Vec3{40, 2, 1.5}}), splice_m);
+  ASSERT_TRUE(ride.follower.adopt(Path::polyline({from, Vec3{40, 2, 1.5}}), splice_m));
   ride.follower.refresh_known_free(ride.map);
   ride.tick(2000);
   EXPECT_NEAR((ride.follower.position_W() - Vec3{40, 2, 1.5}).norm(), 0.0, 0.02);
+}
+
+TEST(PathFollower, refuses_a_path_whose_start_it_has_passed) {
+  Ride ride{60.0};
+  ride.tick(100);
+  const double passed_m = ride.follower.s_m() - 0.5;
+  const Vec3 before = ride.follower.position_W();
+  EXPECT_FALSE(ride.follower.adopt(Path::polyline({before, Vec3{40, 2, 1.5}}), passed_m));
+  EXPECT_EQ(ride.follower.position_W(), before);
+}
+
+TEST(PathFollower, refuses_a_corner_that_it_could_not_brake_for) {
+  Ride ride{60.0};
+  ride.tick(100);
+  const double v = ride.follower.speed_m_s();
+  ASSERT_GT(v, 3.0);
+  const auto corner_after = [&](double metres) {
+    const double splice_m = ride.follower.s_m() + metres;
+    const Vec3 at = ride.follower.path().at(splice_m).p_W;
+    return ride.follower.adopt(Path::polyline({at, at + Vec3{0, 5, 0}}), splice_m);
+  };
+  const double stop_m = v * v / 10.0 + v * SpeedProfileLimits{}.lag_s;
+  EXPECT_FALSE(corner_after(0.9 * stop_m));
+  EXPECT_TRUE(corner_after(1.1 * stop_m));
+}
+
+TEST(PathFollower, does_not_trust_free_space_beyond_what_the_newest_frame_can_see) {
+  Ride ride{60.0};
+  ride.tick(200);
+  const double body_m = ride.rig.context->body_at(10.0).radius_m;
+  const double range_m = ride.rig.context->knobs.value("map.range_m");
+  const double delta_s = 0.2 + to_seconds(ride.follower.guard().reaction_time());
+  EXPECT_NEAR(ride.follower.speed_m_s(), safe_speed(6.0, delta_s, range_m - body_m), 0.05);
 }
 
 TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
@@ -88,7 +121,7 @@ TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
   kit::MissionRig rig{map};
   PathFollower follower{*rig.context};
   follower.hover_at(Vec3{10, 0, 1.5}, 0.0);
-  follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0);
+  ASSERT_TRUE(follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0));
   MissionTime now{};
   for (int i = 0; i < 150; ++i) {
     follower.tick(now += 20ms, 20ms, Vec3::Zero());

@@ -46,6 +46,8 @@ class FlightController {
   struct Gains {
     double position{2.5};       ///< 1/s
     double velocity{5.0};       ///< 1/s
+    double height{5.0};         ///< 1/s: thrust answers sooner than tilt, so the vertical loop is
+    double climb{12.0};         ///< 1/s: stiffer than the level one
     double disturbance_s{0.3};  ///< Time constant of the wind and mass observer.
     double attitude{15.0};      ///< 1/s
     double rate{35.0};          ///< 1/s
