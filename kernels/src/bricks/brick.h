@@ -35,4 +35,8 @@ struct BlockSummary {
   bool has_unknown{true};
 };
 
+/// The cells in a state, as bits: cell (x, y, z) is bit 16 z + 4 y + x.
+[[nodiscard]] std::uint64_t occupied_cells(const Brick& brick);
+[[nodiscard]] std::uint64_t unknown_cells(const Brick& brick);
+
 }  // namespace flyball

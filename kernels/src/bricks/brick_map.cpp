@@ -52,7 +52,7 @@ void Chunk::set_summary(std::size_t brick, const BlockSummary& summary) {
 }
 
 BrickMap::BrickMap(double finest_m, Simd simd)
-    : lattice_{finest_m}, loops_{inner_loops(simd)}, slots_(first_slots, nullptr) {}
+    : lattice_{finest_m}, loops_{&inner_loops(simd)}, slots_(first_slots, nullptr) {}
 
 void BrickMap::reserve(std::size_t chunks) {
   while (spare_.size() < chunks) {
@@ -77,7 +77,8 @@ void BrickMap::apply(const std::vector<BrickMasks>& changes) {
       chunk = &at(key);
     }
     const std::size_t brick = brick_number(change.brick);
-    const BlockSummary summary = loops_.update_brick(chunk->bricks[brick], change.free, change.hit);
+    const BlockSummary summary =
+        loops_->update_brick(chunk->bricks[brick], change.free, change.hit);
     const BlockSummary& known = chunk->block(brick_level, brick);
     if (summary.most != known.most || summary.has_unknown != known.has_unknown) {
       chunk->set_summary(brick, summary);

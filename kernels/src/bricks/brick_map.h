@@ -62,7 +62,7 @@ class BrickMap {
   void rehash(std::size_t slots);
 
   Lattice lattice_;
-  const InnerLoops& loops_;
+  const InnerLoops* loops_;
   std::vector<std::unique_ptr<Chunk>> chunks_{};
   std::vector<std::unique_ptr<Chunk>> spare_{};
   std::vector<Chunk*> slots_;  ///< Open addressing; a power of two, at most half full.

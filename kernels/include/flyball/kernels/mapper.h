@@ -7,6 +7,7 @@
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/messages.h"
 #include "flyball/runtime/occupancy.h"
+#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
@@ -30,6 +31,13 @@ struct OccupiedCell {
 /// and becomes visible when the job ends.
 class Mapper : public Kernel {
  public:
+  /// Settings of this implementation that stay for the mission, unlike knobs.
+  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
+  /// Before the first `prepare`; without it every parameter has its default.
+  ///
+  /// @pre `chosen` was resolved from `parameters()`.
+  virtual void configure([[maybe_unused]] const Parameters& chosen) {}
+
   /// Computes what a scan changes; the visible map stays as it is. Replaces an earlier `prepare`
   /// that was not committed.
   ///

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The brick map as planner, collision check and guard see it, at the active level.
+///
+/// A cell of that level is occupied, and blocks with its full cube, when any part of it is. In a
+/// cell without an obstacle every finest cell answers for itself: what was seen is free, the rest
+/// is unknown, except inside the cylinders that were declared clear. (So a coarse cell is free as a
+/// whole only when no part of it is unknown, and a switch to a coarser level forgets nothing.) A
+/// place that is not finite is unknown, a way there is blocked.
+
+#include "flyball/runtime/occupancy.h"
+
+#include "brick_map.h"
+#include "clear_spaces.h"
+#include <functional>
+
+namespace flyball {
+
+class BrickView final : public OccupancyView {
+ public:
+  /// The map outlives the view.
+  explicit BrickView(const BrickMap& map) : map_{map} {}
+
+  /// Which cells block from now on: 0..5. Costs nothing.
+  void activate(int level) { level_ = level; }
+  [[nodiscard]] int level() const { return level_; }
+  /// Ignored when an earlier cylinder contains it.
+  void declare_clear(const Vec3& centre_W, const Cylinder& space) {
+    clear_.declare(centre_W, space);
+  }
+
+  [[nodiscard]] double resolution_m() const override { return map_.lattice().cell_m(level_); }
+  [[nodiscard]] CellState state(const Vec3& p_W) const override;
+  [[nodiscard]] CellState body_state(const Vec3& p_WB, const Cylinder& body) const override;
+  [[nodiscard]] bool has_occupied(const Aabb& box) const override;
+  [[nodiscard]] bool segment_hits(const Vec3& from,
+                                  const Vec3& to,
+                                  const Cylinder& body) const override;
+  [[nodiscard]] double obstacle_density(const Vec3& p_W,
+                                        double radius_m,
+                                        double half_band_m) const override;
+  [[nodiscard]] double nearest_obstacle_m(const Vec3& p_W,
+                                          double limit_m,
+                                          double half_band_m) const override;
+
+  /// Shows the cubes of all occupied cells of the active level, in an order that the scans decide.
+  void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
+
+ private:
+  const BrickMap& map_;
+  ClearSpaces clear_{};
+  int level_{};
+};
+
+}  // namespace flyball

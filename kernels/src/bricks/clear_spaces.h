@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Cylinders that were declared clear: there, and only where a map knows nothing, space is free.
+
+#include "../overlap.h"
+#include <vector>
+
+namespace flyball {
+
+class ClearSpaces {
+ public:
+  /// Cylinders that are kept; past it the oldest of the thinnest goes.
+  static constexpr std::size_t max_clear = 16;
+
+  ClearSpaces() { spaces_.reserve(max_clear); }
+
+  /// Ignored when an earlier cylinder contains it.
+  void declare(const Vec3& centre_W, const Cylinder& space);
+  [[nodiscard]] bool contains(const Vec3& p_W) const;
+  /// Whether the cylinders cover the body's share of a box. The box is taken apart, down to 2 cm,
+  /// and each piece must lie in one cylinder: its own box, or the body's disc and the piece's
+  /// height.
+  [[nodiscard]] bool cover(const Aabb& part, const BodyShape& body) const;
+
+ private:
+  struct Space {
+    Vec3 centre_W;
+    Cylinder space;
+  };
+  static bool holds_disc(const Space& outer, const Vec3& p_W, double radius_m);
+  static bool holds_heights(const Space& outer, double low_m, double high_m);
+  static bool holds_rectangle(const Space& outer, const Aabb& box);
+  [[nodiscard]] bool one_covers(const Aabb& part, const BodyShape& body) const;
+
+  std::vector<Space> spaces_{};
+};
+
+}  // namespace flyball
