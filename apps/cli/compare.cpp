@@ -250,12 +250,12 @@ void add_compare(CLI::App& program, int& exit_code) {
       program.add_subcommand("compare", "flies policies over the same seeds and compares them");
   const auto options = std::make_shared<CompareOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  command
-      ->add_option("--policies", options->policies,
-                   "the first one is what the others are measured by")
-      ->delimiter(',')
-      ->required()
-      ->type_name("A,B,C");
+  refuse_empty(*command
+                    ->add_option("--policies", options->policies,
+                                 "the first one is what the others are measured by")
+                    ->delimiter(',')
+                    ->required()
+                    ->type_name("A,B,C"));
   command->add_option("--seeds", options->seeds, "one seed each for world, sensors and planner")
       ->type_name("1..N");
   command

@@ -21,9 +21,15 @@ void add_scenario(CLI::App& command, FlightOptions& options) {
       ->take_all();
 }
 
+void refuse_empty(CLI::Option& option) {
+  option.check(CLI::Validator{
+      [](const std::string& value) { return std::string{value.empty() ? "is empty" : ""}; }, ""});
+}
+
 void add_output(CLI::App& command, FlightOptions& options) {
-  command.add_option("--out", options.out, "folder for the record (default: under flights/)")
-      ->type_name("DIR");
+  refuse_empty(
+      *command.add_option("--out", options.out, "folder for the record (default: under flights/)")
+           ->type_name("DIR"));
   command.add_flag("--json", options.json, "prints the result as JSON");
 }
 

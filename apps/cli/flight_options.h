@@ -12,7 +12,8 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace flyball {
 
@@ -25,6 +26,9 @@ struct FlightOptions {
 
 /// Adds `SCENARIO` and `--set`.
 void add_scenario(CLI::App& command, FlightOptions& options);
+/// An option that was given, but with nothing (`--policy "$UNSET"`), is a mistake: it does not
+/// stand for the default.
+void refuse_empty(CLI::Option& option);
 /// Adds `--out` and `--json`.
 void add_output(CLI::App& command, FlightOptions& options);
 

@@ -117,8 +117,10 @@ void add_run(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("run", "flies one mission");
   const auto options = std::make_shared<RunOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  command->add_option("--policy", options->policy, "turns the knobs in flight")->type_name("NAME");
-  command->add_option("--seed", options->seed, "of world, sensors and planner")->type_name("N");
+  refuse_empty(*command->add_option("--policy", options->policy, "turns the knobs in flight")
+                    ->type_name("NAME"));
+  refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")
+                    ->type_name("N"));
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -28,6 +28,8 @@ class Cli : public testing::Test {
 TEST_F(Cli, refuses_an_unknown_scenario) {
   expect_refused("run delivery_moon", "no scenario \"delivery_moon\"; try: flyball list scenarios");
   expect_refused("run missing/file.toml", "no file \"missing/file.toml\"");
+  expect_refused("compare missing/file.toml --policies fixed_fine",
+                 "no file \"missing/file.toml\"");
   expect_refused("config delivery_moon", "flyball list scenarios");
 }
 
@@ -36,6 +38,8 @@ TEST_F(Cli, refuses_wrong_settings_all_at_once) {
       "run delivery_forest --set vehicle.payload_kg=-1 --set map.range_cm=500 --set "
       "planner.budjet=9",
       "vehicle.payload_kg = -1 (--set) must be at least 0 kg", 3);
+  expect_refused("run delivery_forest --set vehicle.payloadkg=1",
+                 "no setting \"vehicle.payloadkg\" (--set); did you mean vehicle.payload_kg?");
 }
 
 TEST_F(Cli, refuses_an_unknown_policy) {
@@ -53,11 +57,21 @@ TEST_F(Cli, refuses_bad_seeds) {
   }
 }
 
+TEST_F(Cli, refuses_an_option_with_nothing_in_it) {
+  expect_refused("run delivery_forest --policy ''", "--policy: is empty");
+  expect_refused("run delivery_forest --seed ''", "--seed: is empty");
+  expect_refused("run delivery_forest --out ''", "--out: is empty");
+  expect_refused("compare delivery_forest --policies ''", "--policies: is empty");
+  expect_refused("run ''", "no scenario \"\"; try: flyball list scenarios");
+}
+
 TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
   expect_refused("run delivery_forest --out /dev/null/flights",
                  "cannot write \"/dev/null/flights\"");
   expect_refused("compare delivery_forest --policies fixed_fine --out /proc/flights",
                  "cannot write \"/proc/flights\"");
+  expect_refused("run delivery_forest --out " + FlyballProgram::binary() + "/flights",
+                 "Not a directory; choose another place with --out");
 }
 
 TEST_F(Cli, refuses_a_policy_twice) {
@@ -79,7 +93,8 @@ TEST_F(Cli, refuses_what_is_no_command) {
   expect_refused("run", "SCENARIO");
   expect_refused("run delivery_forest --fast", "--fast");
   expect_refused("compare delivery_forest", "--policies");
-  expect_refused("compare delivery_forest --policies fixed_fine --jobs 0", "--jobs");
+  expect_refused("compare delivery_forest --policies fixed_fine --jobs 0",
+                 "--jobs: Value 0 not in range 1 to 1024");
   expect_refused("list planets", "nothing to list under \"planets\"; there are: scenarios,");
   expect_refused("graph tour", "no workload \"tour\"; try: flyball list workloads");
   expect_refused("graph package_delivery --format png", "--format png is neither text nor dot");

@@ -83,11 +83,15 @@ int interrupt(const FlyballProgram& flyball, std::vector<std::string> words) {
     }
     _exit(127);
   }
+  int status = 0;
   while (!fs::exists(flyball.place.path("out/runs/fixed_fine/seed_1"))) {
+    if (waitpid(child, &status, WNOHANG) == child) {
+      ADD_FAILURE() << "ended before it was interrupted, status " << status;
+      return -1;
+    }
     std::this_thread::yield();
   }
   kill(child, SIGINT);
-  int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

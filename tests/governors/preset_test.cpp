@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/preset.h"
 
-#include <filesystem>
-#include <fstream>
+#include "scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,17 +12,11 @@ using flyball::ErrorCode;
 class Preset : public testing::Test {
  protected:
   flyball::Result<flyball::Preset> load(const std::string& text) const {
-    std::ofstream{path_} << text;
-    return flyball::load_preset(path_);
-  }
-  ~Preset() override {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    return flyball::load_preset(scratch_.file("preset.toml", text));
   }
 
-  // One file per test: tests may run side by side.
-  std::string path_ = testing::TempDir() + "flyball_" +
-                      testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
+  const ScratchFolder scratch_;
+  const std::string path_ = scratch_.path("preset.toml");
 };
 
 TEST_F(Preset, has_a_policy_and_its_parameters) {
@@ -88,7 +81,7 @@ TEST_F(Preset, says_where_a_file_is_not_toml) {
 }
 
 TEST_F(Preset, is_not_found_where_no_file_is) {
-  for (const std::string& path : {path_ + ".missing", testing::TempDir()}) {
+  for (const std::string& path : {path_ + ".missing", scratch_.path()}) {
     const auto preset = flyball::load_preset(path);
     ASSERT_FALSE(preset.ok());
     EXPECT_EQ(ErrorCode::not_found, preset.error().code);

@@ -2,6 +2,7 @@
 
 #include "flyball/sim/airframe.h"
 
+#include "scratch_folder.h"
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -20,16 +21,14 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The Matrice's file with one piece of its text replaced.
-std::string altered(const std::string& from, const std::string& to) {
+/// What comes of the Matrice's file with one piece of its text replaced.
+Result<Airframe> load_altered(const std::string& from, const std::string& to) {
   std::string text = text_of(folder + "matrice_100.toml");
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const std::string path = testing::TempDir() + "flyball_" +
-                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
-  std::ofstream{path} << text;
-  return path;
+  const ScratchFolder scratch;
+  return load_airframe(scratch.file("altered.toml", text));
 }
 
 TEST(Airframe, every_shipped_file_loads_under_its_own_name) {
@@ -76,42 +75,40 @@ TEST(Airframe, knows_when_eq_1_was_not_fitted_for_it) {
 }
 
 TEST(Airframe, all_unknown_missing_and_mistyped_keys_are_in_one_message) {
-  const auto loaded =
-      load_airframe(altered("mass_kg = 2.431", "mas_kg = 2.431\nbattery_ah = \"big\"\n#"));
+  const auto loaded = load_altered("mass_kg = 2.431", "mas_kg = 2.431\nbattery_ah = \"big\"\n#");
   ASSERT_FALSE(loaded.ok());
   EXPECT_EQ(loaded.error().code, ErrorCode::invalid_input);
   // Two battery_ah lines are an error of the format, found first.
   EXPECT_NE(loaded.error().message.find("battery_ah"), std::string::npos) << loaded.error().message;
 
-  const auto renamed = load_airframe(altered("battery_ah = 4.5", "batery_ah = 4.5\ncolour = 3"));
+  const auto renamed = load_altered("battery_ah = 4.5", "batery_ah = 4.5\ncolour = 3");
   ASSERT_FALSE(renamed.ok());
-  for (const char* part :
-       {"batery_ah", "colour", "battery_ah is missing", "flyball_altered_airframe"}) {
+  for (const char* part : {"batery_ah", "colour", "battery_ah is missing", "altered.toml"}) {
     EXPECT_NE(renamed.error().message.find(part), std::string::npos) << renamed.error().message;
   }
 
-  const auto mistyped = load_airframe(altered("battery_cells = 6", "battery_cells = 5.5"));
+  const auto mistyped = load_altered("battery_cells = 6", "battery_cells = 5.5");
   ASSERT_FALSE(mistyped.ok());
   EXPECT_NE(mistyped.error().message.find("battery_cells must be an integer"), std::string::npos);
 }
 
 TEST(Airframe, impossible_values_are_refused_with_both_sides_of_the_inequality) {
-  const auto negative = load_airframe(altered("arm_m = 0.325", "arm_m = -0.325"));
+  const auto negative = load_altered("arm_m = 0.325", "arm_m = -0.325");
   ASSERT_FALSE(negative.ok());
   EXPECT_NE(negative.error().message.find("arm_m = -0.325 must be > 0"), std::string::npos);
 
-  const auto weak = load_airframe(altered("max_rotor_rpm = 5400.0", "max_rotor_rpm = 3700.0"));
+  const auto weak = load_altered("max_rotor_rpm = 5400.0", "max_rotor_rpm = 3700.0");
   ASSERT_FALSE(weak.ok());
   EXPECT_NE(weak.error().message.find("must exceed 1.2 times the weight"), std::string::npos);
 
-  const auto short_list = load_airframe(altered("[0.252, 0.190, 0.131]", "[0.252, 0.190]"));
+  const auto short_list = load_altered("[0.252, 0.190, 0.131]", "[0.252, 0.190]");
   ASSERT_FALSE(short_list.ok());
   EXPECT_NE(short_list.error().message.find("a list of 3 numbers"), std::string::npos);
 }
 
 TEST(Airframe, a_missing_file_is_not_found_and_a_broken_one_names_its_line) {
   EXPECT_EQ(load_airframe(folder + "no_such.toml").error().code, ErrorCode::not_found);
-  const auto broken = load_airframe(altered("name = \"matrice_100\"", "name = = 3"));
+  const auto broken = load_altered("name = \"matrice_100\"", "name = = 3");
   ASSERT_FALSE(broken.ok());
   EXPECT_EQ(broken.error().code, ErrorCode::invalid_input);
   EXPECT_NE(broken.error().message.find("line 4"), std::string::npos) << broken.error().message;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/platform_file.h"
 
-#include <cstdio>
-#include <fstream>
+#include "scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,23 +13,6 @@ const std::string tx2_file = std::string{FLYBALL_TEST_DATA} + "/platforms/jetson
 PlatformModel tx2() {
   return load_platform(tx2_file).value();
 }
-
-// A platform file in the test's own folder, gone when the test ends.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& content)
-      : path_{testing::TempDir() + "flyball_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml"} {
-    std::ofstream{path_} << content;
-  }
-  ~TemporaryFile() { std::remove(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 const char* const whole = R"(
 name = "board"
@@ -62,8 +44,8 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 std::string failure_of(const std::string& content) {
-  const TemporaryFile file{content};
-  const auto model = load_platform(file.path());
+  const ScratchFolder scratch;
+  const auto model = load_platform(scratch.file("board.toml", content));
   if (model) {
     return "";
   }
@@ -72,8 +54,8 @@ std::string failure_of(const std::string& content) {
 }
 
 TEST(PlatformFile, is_read_number_by_number) {
-  const TemporaryFile file{whole};
-  const auto model = load_platform(file.path());
+  const ScratchFolder scratch;
+  const auto model = load_platform(scratch.file("board.toml", whole));
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ(model->name, "board");
   EXPECT_EQ(model->max_cores, 2);

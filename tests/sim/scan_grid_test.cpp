@@ -3,8 +3,8 @@
 
 #include "flyball/runtime/random.h"
 
+#include "scratch_folder.h"
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -17,10 +17,9 @@ using Index = ScanGrid::Index;
 
 class ScanFile : public testing::Test {
  protected:
-  void TearDown() override { std::remove(path.c_str()); }
   void write(const std::string& bytes) const { std::ofstream{path, std::ios::binary} << bytes; }
-  const std::string path = testing::TempDir() + "flyball_" +
-                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".bt";
+  const ScratchFolder scratch;
+  const std::string path = scratch.path("scan.bt");
 };
 
 double volume(const std::vector<Aabb>& boxes) {
