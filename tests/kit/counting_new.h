@@ -30,6 +30,11 @@ inline thread_local std::size_t allocations_of_thread = 0;
   }
   throw std::bad_alloc{};
 }
+// std::stable_sort's buffer comes this way and goes back through the operator below.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  ++flyball::allocations_of_thread;
+  return std::malloc(size == 0 ? 1 : size);
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
