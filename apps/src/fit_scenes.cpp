@@ -166,6 +166,16 @@ class Delivery {
   std::uint64_t plans_{};
 };
 
+/// Room by room, heading by heading.
+Pose view_in(const RoomsScene& scene, int view) {
+  const int room = view / scene.headings;
+  const int row = room / scene.columns;
+  const int column = room % scene.columns;
+  return looking(
+      scene.first_room_W + Vec3{row * scene.row_pitch_m, column * scene.column_pitch_m, 0.0},
+      6.283185307179586 * (view % scene.headings) / scene.headings);
+}
+
 }  // namespace
 
 Work KernelLoad::mean() const {
@@ -216,18 +226,13 @@ Result<KernelLoads> record(const RoomsScene& scene) {
   const Clearance clearance{setup->world};
   Perception perception{context, setup->world};
   KernelLoads loads;
-  for (int room = 0; room < scene.rows * scene.columns; ++room) {
-    const Vec3 middle_W =
-        scene.first_room_W + Vec3{room / scene.columns * scene.row_pitch_m,
-                                  room % scene.columns * scene.column_pitch_m, 0.0};
-    if (clearance.distance_m(middle_W, context.airframe.body(), 1.0, true) <= 0.0) {
+  for (int i = 0; i < scene.rows * scene.columns * scene.headings; ++i) {
+    const Pose X_WB = view_in(scene, i);
+    if (clearance.distance_m(X_WB.translation(), context.airframe.body(), 1.0, true) <= 0.0) {
       continue;
     }
-    for (int i = 0; i < scene.headings; ++i) {
-      const double yaw_rad = 6.283185307179586 * i / scene.headings;
-      if (const Status seen = perception.look(looking(middle_W, yaw_rad), loads); !seen) {
-        return seen.error();
-      }
+    if (const Status seen = perception.look(X_WB, loads); !seen) {
+      return seen.error();
     }
   }
   return loads;

@@ -126,10 +126,33 @@ void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& cont
     answer.failure = plan.failure;
     answer.iterations = plan.work.count("iterations");
     answer.waypoints_W = std::move(plan.waypoints_W);
-    const Work work = plan.work;
     job.publish(topics.plan.response, std::move(answer));
-    return work;
+    return plan.work;
   });
+}
+
+/// The plan as a trajectory, or why there is none.
+PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Work& work) {
+  PlannedPath planned;
+  planned.id = answer.id;
+  planned.failure = answer.failure;
+  if (!planned.failure.empty()) {
+    return planned;
+  }
+  SmoothRequest request;
+  request.waypoints_W = answer.waypoints_W;
+  request.start_velocity_W = answer.start_direction_W;
+  request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
+  request.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
+  request.body = answer.body;
+  auto smooth = context.kernels.smoother->smooth(request, context.map());
+  if (smooth) {
+    planned.trajectory = std::move(smooth->trajectory);
+    work = smooth->work;
+  } else {
+    planned.failure = smooth.error().message;
+  }
+  return planned;
 }
 
 void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
@@ -144,25 +167,8 @@ void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& co
     if (!answer) {
       return Work{};
     }
-    PlannedPath planned;
-    planned.id = answer->id;
-    planned.failure = answer->failure;
     Work work;
-    if (planned.failure.empty()) {
-      SmoothRequest request;
-      request.waypoints_W = answer->waypoints_W;
-      request.start_velocity_W = answer->start_direction_W;
-      request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
-      request.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
-      request.body = answer->body;
-      auto smooth = context.kernels.smoother->smooth(request, context.map());
-      if (smooth) {
-        planned.trajectory = std::move(smooth->trajectory);
-        work = smooth->work;
-      } else {
-        planned.failure = smooth.error().message;
-      }
-    }
+    PlannedPath planned = smoothed(*answer, context, work);
     context.recorder.record(job.now(), "plan",
                             {{"ok", static_cast<std::int64_t>(planned.failure.empty())},
                              {"waypoints", static_cast<std::int64_t>(answer->waypoints_W.size())},

@@ -94,7 +94,7 @@ void PathFollower::refresh_known_free(const OccupancyView& map) {
   const auto speeds = tier_speeds_m_s();
   for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
     const Cylinder body = context_.body_at(speeds[tier]);
-    free_until_m_[tier] = s_m_ + known_free_distance(map, path_, s_m_, horizon_m, body, step_m);
+    free_until_m_[tier] = s_m_ + known_free_distance(map, {&path_, s_m_, horizon_m}, body, step_m);
   }
 }
 

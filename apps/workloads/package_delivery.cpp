@@ -34,7 +34,7 @@ class PackageDelivery final : public Workload {
     graph.node(std::move(spec), [this](JobContext& job) { return step(job); });
   }
 
-  const Navigator* navigator() const override { return navigator_.get(); }
+  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
  private:
   enum class Leg : std::uint8_t { out, back };
@@ -44,28 +44,32 @@ class PackageDelivery final : public Workload {
     const auto pose = job.latest(perception_.pose);
     const auto status = job.latest(vehicle_.status);
     if (pose && status && !context_->is_over()) {
-      switch (stage_) {
-        case Stage::ready:
-          take_off(job, *pose);
-          break;
-        case Stage::climbing:
-          if (status->manoeuvre_done) {
-            depart(job);
-          }
-          break;
-        case Stage::flying:
-          if (navigator_->has_arrived() && navigator_->tracking_error().size_m < 0.1) {
-            land(job);
-          }
-          break;
-        case Stage::landing:
-          if (status->manoeuvre_done) {
-            touched_down(job);
-          }
-          break;
-      }
+      advance(job, *pose, *status);
     }
     return {};
+  }
+
+  void advance(JobContext& job, const PoseEstimate& pose, const FlightStatus& status) {
+    switch (stage_) {
+      case Stage::ready:
+        take_off(job, pose);
+        break;
+      case Stage::climbing:
+        if (status.manoeuvre_done) {
+          depart(job);
+        }
+        break;
+      case Stage::flying:
+        if (navigator_->has_arrived() && navigator_->tracking_error().size_m < 0.1) {
+          land(job);
+        }
+        break;
+      case Stage::landing:
+        if (status.manoeuvre_done) {
+          touched_down(job);
+        }
+        break;
+    }
   }
 
   [[nodiscard]] Vec3 above(const Vec3& ground_W) const {

@@ -53,7 +53,7 @@ class SweptCylinder final : public flyball::CollisionChecker {
     const double from_m = std::clamp(span.from_m, 0.0, span.path->length_m());
     result.blocked_at_m = first_blocked_m(map, *span.path, from_m, body);
     result.known_free_m =
-        flyball::known_free_distance(map, *span.path, from_m, span.horizon_m, body, pose_step_m);
+        flyball::known_free_distance(map, {span.path, from_m, span.horizon_m}, body, pose_step_m);
     const double end_m = result.blocked_at_m.value_or(span.path->length_m());
     work.add("poses", poses_in(end_m - from_m) + poses_in(result.known_free_m));
     return result;

@@ -29,18 +29,9 @@ class KdTree final : public ompl::NearestNeighbors<T> {
   }
   using ompl::NearestNeighbors<T>::add;
   void add(const T& motion) override {
-    Node node{motion, position(motion), {none, none}, false};
-    const std::size_t index = nodes_.size();
-    if (index > 0) {
-      std::size_t at = 0;
-      for (int depth = 0;; ++depth) {
-        std::size_t& next = nodes_[at].child[side(nodes_[at], node.p, depth)];
-        if (next == none) {
-          next = index;
-          break;
-        }
-        at = next;
-      }
+    const Node node{motion, position(motion), {none, none}, false};
+    if (!nodes_.empty()) {
+      leaf_for(node.p) = nodes_.size();
     }
     nodes_.push_back(node);
   }
@@ -80,14 +71,14 @@ class KdTree final : public ompl::NearestNeighbors<T> {
   struct Node {
     T motion;
     Eigen::Vector3d p;
-    std::size_t child[2];
-    bool removed;
+    std::size_t child[2]{none, none};
+    bool removed{};
   };
   /// Candidates as a heap of (squared distance, age): the worst one on top.
   struct Query {
     Eigen::Vector3d p;
-    std::size_t k;
-    double limit;
+    std::size_t k{};
+    double limit{};
     std::vector<std::pair<double, std::size_t>> best;
   };
 
@@ -100,6 +91,17 @@ class KdTree final : public ompl::NearestNeighbors<T> {
     return p[depth % 3] < node.p[depth % 3] ? 0 : 1;
   }
 
+  /// The empty place where a point belongs. @pre There is a root.
+  std::size_t& leaf_for(const Eigen::Vector3d& p) {
+    std::size_t at = 0;
+    for (int depth = 0;; ++depth) {
+      std::size_t& next = nodes_[at].child[side(nodes_[at], p, depth)];
+      if (next == none) {
+        return next;
+      }
+      at = next;
+    }
+  }
   void collect(Query query, std::vector<T>& found) const {
     found.clear();
     if (query.k > 0 && !nodes_.empty()) {

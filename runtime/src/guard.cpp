@@ -20,17 +20,16 @@ double safe_speed(double deceleration_m_s2, double delta_s, double distance_m) {
 }
 
 double known_free_distance(const OccupancyView& map,
-                           const Path& path,
-                           double from_m,
-                           double horizon_m,
+                           const PathSpan& span,
                            const Cylinder& body,
                            double step_m) {
   FLYBALL_ASSERT(step_m > 0.0, "step_m=%g", step_m);
+  const Path& path = *span.path;
   if (path.empty()) {
     return 0.0;
   }
-  const double start_m = std::clamp(from_m, 0.0, path.length_m());
-  const double reach_m = std::max(0.0, std::min(horizon_m, path.length_m() - start_m));
+  const double start_m = std::clamp(span.from_m, 0.0, path.length_m());
+  const double reach_m = std::max(0.0, std::min(span.horizon_m, path.length_m() - start_m));
   double free_m = 0.0;  // the last place known to be free: between two samples nothing is assumed
   for (int i = 0;; ++i) {
     const double ahead_m = std::min(i * step_m, reach_m);

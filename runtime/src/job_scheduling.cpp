@@ -184,6 +184,16 @@ double VirtualComputer::busy_cores() const {
   return sum;
 }
 
+void VirtualComputer::rescale_running_jobs() {
+  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+    auto& job = nodes[index(node)].job;
+    if (job && job->has_started) {
+      job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
+      job->has_end = false;  // at the same share it still ends at another time
+    }
+  }
+}
+
 void VirtualComputer::set_operating_point(const OperatingPoint& wanted) {
   FLYBALL_ASSERT(wanted.cores >= 1 && wanted.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
                  wanted.cores, wanted.frequency.value());
@@ -191,13 +201,7 @@ void VirtualComputer::set_operating_point(const OperatingPoint& wanted) {
   const bool changes_clock = wanted.frequency != point.frequency;
   point = wanted;
   if (changes_clock) {
-    for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-      auto& job = nodes[index(node)].job;
-      if (job && job->has_started) {
-        job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
-        job->has_end = false;  // at the same share it still ends at another time
-      }
-    }
+    rescale_running_jobs();
     stalled_until = queue.now() + platform.switching_time();
     at(stalled_until, EventOrder::trigger,
        [](VirtualComputer& computer) { computer.request_dispatch(); });

@@ -27,6 +27,7 @@ std::string list_of(const std::vector<std::string>& words) {
 
 std::string names_of(const std::vector<ParameterSpec>& specs) {
   std::vector<std::string> names;
+  names.reserve(specs.size());
   for (const ParameterSpec& spec : specs) {
     names.push_back(spec.name);
   }

@@ -39,10 +39,7 @@ class Flattening {
       const PolynomialPiece& piece = trajectory.pieces[i];
       add_point(piece.derivative(0, 0.0));
       if (i > 0) {
-        points_.back().is_stop = is_at_rest(trajectory.pieces[i - 1], piece);
-        if (points_.back().is_stop) {  // Merging must not move a corner.
-          points_.back().p_W = piece.derivative(0, 0.0);
-        }
+        join(piece.derivative(0, 0.0), is_at_rest(trajectory.pieces[i - 1], piece));
       }
       // Eight parts first: a loop could bring the ends of a whole piece together.
       constexpr int parts = 8;
@@ -63,6 +60,13 @@ class Flattening {
     // millimetres would pass for a sharp bend.
     if (points_.empty() || (points_.back().p_W - p_W).norm() >= merge_m_) {
       points_.push_back({p_W, false});
+    }
+  }
+  /// Where two pieces meet. Merging must not move a corner.
+  void join(const Vec3& p_W, bool is_stop) {
+    points_.back().is_stop = is_stop;
+    if (is_stop) {
+      points_.back().p_W = p_W;
     }
   }
   void split(const PolynomialPiece& piece, double from_s, double to_s, int depth) {

@@ -34,6 +34,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
                   EventQueue& events,
                   OperatingPoint first);
   void start();
+  void open_inboxes(int node);
 
   // Messages and jobs.
   void publish(int topic, const Message& message);
@@ -55,6 +56,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void schedule_end(int node);
   void advance();
   void set_operating_point(const OperatingPoint& wanted);
+  void rescale_running_jobs();
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
   [[nodiscard]] std::vector<int> nodes_by_urgency() const;

@@ -23,27 +23,33 @@ VirtualComputer::VirtualComputer(const Graph& hosted,
   FLYBALL_ASSERT(point.cores >= 1 && point.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
                  point.cores, point.frequency.value());
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    std::vector<int> reads = spec(node).reads;
-    if (const auto* message = std::get_if<OnMessage>(&spec(node).trigger)) {
-      nodes[index(node)].has_trigger_inbox = true;
-      reads.insert(reads.begin(), message->topic);
-    }
-    for (const int topic : reads) {
-      auto& readers = topics[index(topic)].readers;
-      if (readers.empty() || readers.back() != node) {
-        readers.push_back(node);
-        nodes[index(node)].inboxes.emplace_back(topic, graph.topics()[index(topic)].capacity);
-      }
+    open_inboxes(node);
+  }
+}
+
+void VirtualComputer::open_inboxes(int node) {
+  std::vector<int> reads = spec(node).reads;
+  if (const auto* message = std::get_if<OnMessage>(&spec(node).trigger)) {
+    nodes[index(node)].has_trigger_inbox = true;
+    reads.insert(reads.begin(), message->topic);
+  }
+  for (const int topic : reads) {
+    auto& readers = topics[index(topic)].readers;
+    if (readers.empty() || readers.back() != node) {
+      readers.push_back(node);
+      nodes[index(node)].inboxes.emplace_back(topic, graph.topics()[index(topic)].capacity);
     }
   }
 }
 
 void VirtualComputer::start() {
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    if (const auto* every = std::get_if<OnPeriod>(&spec(node).trigger)) {
-      at(queue.now() + every->phase, EventOrder::trigger,
-         [node](VirtualComputer& computer) { computer.trigger_periodically(node); });
+    const auto* every = std::get_if<OnPeriod>(&spec(node).trigger);
+    if (every == nullptr) {
+      continue;
     }
+    at(queue.now() + every->phase, EventOrder::trigger,
+       [node](VirtualComputer& computer) { computer.trigger_periodically(node); });
   }
 }
 

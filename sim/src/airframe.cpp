@@ -122,6 +122,14 @@ Airframe read(Reader& reader) {
   return a;
 }
 
+std::vector<std::string> physics_complaints(const Airframe& airframe) {
+  std::vector<std::string> complaints;
+  for (const Error& error : airframe.validate()) {
+    complaints.push_back(error.message);
+  }
+  return complaints;
+}
+
 Error all_of(const std::string& path, const std::vector<std::string>& complaints) {
   std::string message = "airframe file \"" + path + "\": ";
   for (std::size_t i = 0; i < complaints.size(); ++i) {
@@ -206,9 +214,7 @@ Result<Airframe> load_airframe(const std::string& path) {
     Airframe airframe = read(reader);
     std::vector<std::string> complaints = reader.complaints();
     if (complaints.empty()) {
-      for (const Error& error : airframe.validate()) {
-        complaints.push_back(error.message);
-      }
+      complaints = physics_complaints(airframe);
     }
     if (!complaints.empty()) {
       return all_of(path, complaints);

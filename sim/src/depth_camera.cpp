@@ -143,7 +143,11 @@ struct DepthCamera::Scene {
       : spec{camera_spec}, camera{camera_spec.intrinsics()}, seed{noise_seed} {
     const FlushDenormals flush;
     scene = rtcNewScene(device.handle);
-    aim_rays();
+    for (int y = 0; y < camera.height_px; y += tile_rows) {
+      for (int x = 0; x < camera.width_px; x += tile_columns) {
+        aim_tile({x, y});
+      }
+    }
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // No ray slips between two faces of a solid.
     attach_quads(device.handle, scene, solid_mesh(world, camera_spec.max_range_m));
     rtcCommitScene(scene);
@@ -154,7 +158,7 @@ struct DepthCamera::Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  void aim_rays();
+  void aim_tile(Corner corner);
   void trace(const Eigen::Isometry3f& X_WC, std::vector<float>& depth_m) const;
   void trace_tile(const Eigen::Isometry3f& X_WC,
                   const Eigen::Vector3f* tile_C,
@@ -172,18 +176,14 @@ struct DepthCamera::Scene {
 };
 
 // Ray directions have length 1 along the optical axis, so that Embree's `tfar` is the depth.
-void DepthCamera::Scene::aim_rays() {
+void DepthCamera::Scene::aim_tile(Corner corner) {
   const auto focal = static_cast<float>(camera.focal_px);
-  const auto centre_x = static_cast<float>(camera.centre_x_px);
-  const auto centre_y = static_cast<float>(camera.centre_y_px);
-  for (int y = 0; y < camera.height_px; y += tile_rows) {
-    for (int x = 0; x < camera.width_px; x += tile_columns) {
-      for (int lane = 0; lane < lanes; ++lane) {
-        directions_C.emplace_back((static_cast<float>(x + lane % tile_columns) - centre_x) / focal,
-                                  (static_cast<float>(y + lane / tile_columns) - centre_y) / focal,
-                                  1.0F);
-      }
-    }
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int x = corner.x + lane % tile_columns;
+    const int y = corner.y + lane / tile_columns;
+    directions_C.emplace_back(
+        (static_cast<float>(x) - static_cast<float>(camera.centre_x_px)) / focal,
+        (static_cast<float>(y) - static_cast<float>(camera.centre_y_px)) / focal, 1.0F);
   }
 }
 

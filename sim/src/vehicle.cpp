@@ -33,11 +33,12 @@ struct System {
   SimTK::GeneralForceSubsystem forces{system};
   SimTK::Force::UniformGravity gravity{forces, matter, SimTK::Vec3{0.0, 0.0, -gravity_m_s2}};
   SimTK::MobilizedBody::Free body;
+  SimTK::Force::Custom lift_drag_contact;
   SimTK::State state;
 
   System(const Airframe& airframe, double payload_kg, const Shape& shape, Loads& loads)
-      : body{matter.Ground(), SimTK::Transform{}, rigid(airframe, payload_kg), SimTK::Transform{}} {
-    SimTK::Force::Custom{forces, new BodyForce{body, shape, loads}};  // Simbody owns it.
+      : body{matter.Ground(), SimTK::Transform{}, rigid(airframe, payload_kg), SimTK::Transform{}},
+        lift_drag_contact{forces, new BodyForce{body, shape, loads}} {  // Simbody owns it.
     state = system.realizeTopology();
     system.realizeModel(state);
   }

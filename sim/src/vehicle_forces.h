@@ -46,7 +46,9 @@ class BodyForce final : public SimTK::Force::Custom::Implementation {
                  SimTK::Vector_<SimTK::Vec3>& particle_forces,
                  SimTK::Vector& mobility_forces) const override;
   /// Gravity's is counted by the vehicle; the legs' springs count as contact.
-  SimTK::Real calcPotentialEnergy(const SimTK::State& /*state*/) const override { return 0.0; }
+  [[nodiscard]] SimTK::Real calcPotentialEnergy(const SimTK::State& /*state*/) const override {
+    return 0.0;
+  }
 
  private:
   [[nodiscard]] SimTK::SpatialVec rotors(const SimTK::Rotation& R_WB) const;

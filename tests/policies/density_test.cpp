@@ -8,6 +8,8 @@ namespace {
 using flyball::start_policy;
 using Given = std::map<std::string, flyball::ParameterValue>;
 
+/// Thresholds of the test's own, so that it says which value decides; the defaults are further
+/// down.
 const Given two_levels{{"fine_m", 0.15},
                        {"coarse_m", 0.80},
                        {"enter_density", 0.05},
@@ -30,9 +32,9 @@ TEST(Density, is_coarse_in_the_open_and_fine_among_obstacles) {
   const auto density = start_policy("density", two_levels);
   ASSERT_TRUE(density.status.ok());
   EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.0));
-  EXPECT_EQ(0.80, resolution_m(*density.policy, 1.0, 0.025));  // beside a sparse block
-  EXPECT_EQ(0.15, resolution_m(*density.policy, 2.0, 0.07));   // a facade 5 m ahead
-  EXPECT_EQ(0.15, resolution_m(*density.policy, 30.0, 0.16));  // in a room
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 1.0, 0.025));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 2.0, 0.07));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 30.0, 0.16));
   EXPECT_EQ(0.80, resolution_m(*density.policy, 60.0, 0.0));
 }
 
@@ -73,6 +75,15 @@ TEST(Density, tells_a_single_block_from_a_facade_and_a_room_by_default) {
   EXPECT_EQ(0.15, resolution_m(*density.policy, 10.0, 0.068));  // 4 m before a facade
   EXPECT_EQ(0.15, resolution_m(*density.policy, 20.0, 0.085));  // in a room, at least
   EXPECT_EQ(0.80, resolution_m(*density.policy, 30.0, 0.034));  // beside a single block again
+}
+
+TEST(Density, by_default_enters_at_06_leaves_at_045_and_stays_fine_for_2_s) {
+  const auto density = start_policy("density", {});
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 0.0, 0.0599));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 1.0, 0.06));
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 2.99, 0.045));  // too early
+  EXPECT_EQ(0.15, resolution_m(*density.policy, 3.0, 0.0451));
+  EXPECT_EQ(0.80, resolution_m(*density.policy, 3.0, 0.045));
 }
 
 TEST(Density, refuses_levels_and_thresholds_in_the_wrong_order) {

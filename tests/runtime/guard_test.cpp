@@ -39,9 +39,12 @@ class HalfSpace final : public OccupancyView {
 };
 
 constexpr Cylinder body{0.5, 0.2};
-Path straight(double length_m) {
-  return Path::polyline({Vec3::Zero(), length_m * Vec3::UnitX()});
-}
+
+class KnownFreeDistance : public testing::Test {
+ protected:
+  const Path path = Path::polyline({Vec3::Zero(), 20.0 * Vec3::UnitX()});
+  const Path nowhere{};
+};
 
 TEST(SafeSpeed, agrees_with_the_paper) {
   // MAVBench: 8.83 to 1.57 m/s for 0 to 4 s
@@ -66,26 +69,26 @@ TEST(SafeSpeed, is_zero_without_distance) {
   EXPECT_EQ(safe_speed(6.0, 0.0, 0.0), 0.0);
 }
 
-TEST(KnownFreeDistance, ends_before_the_first_cell_that_is_not_free) {
+TEST_F(KnownFreeDistance, ends_before_the_first_cell_that_is_not_free) {
   for (const CellState beyond : {CellState::unknown, CellState::occupied}) {
     const HalfSpace map{5.0, beyond};
-    const double free_m = known_free_distance(map, straight(20.0), 1.0, 15.0, body);
+    const double free_m = known_free_distance(map, {&path, 1.0, 15.0}, body);
     EXPECT_LE(free_m, 3.5);         // 5 m less the body's radius, from 1 m on
     EXPECT_GE(free_m, 3.5 - 0.05);  // and less than one step too short
   }
 }
 
-TEST(KnownFreeDistance, reaches_no_further_than_the_horizon_or_the_path) {
+TEST_F(KnownFreeDistance, reaches_no_further_than_the_horizon_or_the_path) {
   const HalfSpace map{100.0, CellState::unknown};
-  EXPECT_EQ(known_free_distance(map, straight(20.0), 1.0, 7.01, body), 7.01);
-  EXPECT_EQ(known_free_distance(map, straight(20.0), 1.0, 70.0, body), 19.0);
-  EXPECT_EQ(known_free_distance(map, straight(20.0), 25.0, 70.0, body), 0.0);
+  EXPECT_EQ(known_free_distance(map, {&path, 1.0, 7.01}, body), 7.01);
+  EXPECT_EQ(known_free_distance(map, {&path, 1.0, 70.0}, body), 19.0);
+  EXPECT_EQ(known_free_distance(map, {&path, 25.0, 70.0}, body), 0.0);
 }
 
-TEST(KnownFreeDistance, is_zero_where_the_body_stands_in_unknown_space) {
+TEST_F(KnownFreeDistance, is_zero_where_the_body_stands_in_unknown_space) {
   const HalfSpace map{0.4, CellState::unknown};
-  EXPECT_EQ(known_free_distance(map, straight(20.0), 0.0, 7.0, body), 0.0);
-  EXPECT_EQ(known_free_distance(map, Path{}, 0.0, 7.0, body), 0.0);
+  EXPECT_EQ(known_free_distance(map, {&path, 0.0, 7.0}, body), 0.0);
+  EXPECT_EQ(known_free_distance(map, {&nowhere, 0.0, 7.0}, body), 0.0);
 }
 
 TEST(Guard, reacts_after_tick_command_age_and_brake_lag) {

@@ -13,13 +13,6 @@
 
 namespace flyball {
 
-/// Where to look.
-struct PathSpan {
-  const Path* path{};
-  double from_m{};
-  double horizon_m{};  ///< For unknown cells; occupied ones are looked for to the path's end.
-};
-
 struct PathCheck {
   std::optional<double>
       blocked_at_m{};     ///< Arc length of the first place where an occupied cube hits the body.
@@ -28,7 +21,8 @@ struct PathCheck {
 
 class CollisionChecker : public Kernel {
  public:
-  /// Looks for occupied cubes up to the path's end, and for unknown ones within the horizon.
+  /// Looks for occupied cubes from the span's beginning to the path's end, and for unknown ones
+  /// within the horizon.
   /// Adds `poses` to `work`.
   [[nodiscard]] virtual PathCheck check(const OccupancyView& map,
                                         const PathSpan& span,

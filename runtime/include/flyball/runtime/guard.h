@@ -29,13 +29,11 @@ struct TrackingTube {
   [[nodiscard]] double radius_m(double speed_m_s) const { return at_rest_m + per_m_s * speed_m_s; }
 };
 
-/// Distance along `path` from `from_m` to the first place where the body (its centre on the path)
-/// is not in known-free space; at most `horizon_m`.
+/// Distance from the span's beginning to the first place where the body (its centre on the path) is
+/// not in known-free space; at most the horizon.
 /// @cost One body query per `step_m`; `step_m` <= half the finest cell leaves no gap.
 [[nodiscard]] double known_free_distance(const OccupancyView& map,
-                                         const Path& path,
-                                         double from_m,
-                                         double horizon_m,
+                                         const PathSpan& span,
                                          const Cylinder& body,
                                          double step_m = 0.05);
 

@@ -64,4 +64,11 @@ class Path {
   std::vector<Sample> samples_;
 };
 
+/// What lies ahead on a path, by arc length. The path outlives it.
+struct PathSpan {
+  const Path* path{};
+  double from_m{};
+  double horizon_m{};  ///< From `from_m` on.
+};
+
 }  // namespace flyball
