@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: mission
 #include "navigation_nodes.h"
 
-#include "flyball/runtime/random.h"
+#include "plan_with_tubes.h"
 
 namespace flyball {
 namespace {
@@ -10,7 +11,6 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 constexpr double slow_m_s = 1.0;
-constexpr double middle_m_s = 4.0;
 
 // What a frame's way through the graph takes by the platform's own price list, before one has been
 // measured: the frustum's volume over the cell's volume bounds the updates, the rays' length over
@@ -62,49 +62,6 @@ void add_check(Graph& graph,
     return work;
   });
 }
-
-PlanRequest plan_request(const MissionContext& context, const PlanQuery& query) {
-  PlanRequest request;
-  request.start_W = query.start_W;
-  request.goal_W = query.goal_W;
-  request.bounds_W = context.brief.bounds_W;
-  request.max_iterations = static_cast<int>(context.knobs.value("planner.budget"));
-  request.seed = RandomStream{context.scenario.seed, "planner", query.id}.next();
-  return request;
-}
-
-}  // namespace
-
-// First with the wide tube that cruise speed needs, for a part of the budget; then with a middle
-// and the narrow one; and where noise has put a cell into the tube itself, with the bare body.
-Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
-  PlanRequest request = plan_request(context, query);
-  Work spent;
-  Plan plan;
-  const auto attempt = [&](const Cylinder& with, int iterations) {
-    request.body = body = with;
-    request.max_iterations = iterations;
-    plan = context.kernels.planner->plan(request, context.map());
-    for (const auto& item : plan.work.items()) {
-      spent.add(item.name, item.count);
-    }
-    return !plan.waypoints_W.empty();
-  };
-  const int budget = request.max_iterations;
-  bool found = false;
-  if (!query.may_be_tight) {
-    found = attempt(context.body_at(context.knobs.value("mission.max_speed_m_s")), budget / 32) ||
-            attempt(context.body_at(middle_m_s), budget / 32);
-  }
-  found = found || attempt(context.body_at(slow_m_s), budget);
-  if (!found && plan.failure == "start blocked") {
-    attempt(context.airframe.body(), budget);
-  }
-  plan.work = spent;
-  return plan;
-}
-
-namespace {
 
 void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
   NodeSpec spec;

@@ -14,12 +14,6 @@ struct NavigationTopics {
   Topic<PlannedPath> path;
 };
 
-/// One request, with the tube that cruise speed needs where it fits, else with a narrower one.
-///
-/// @param body  Out: for which the plan was found.
-/// @return      Its work is that of all attempts.
-[[nodiscard]] Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body);
-
 /// Adds the nodes `check`, `plan`, `smooth` and `follow`.
 /// @param navigator  Outlives the graph's jobs.
 NavigationTopics add_navigation(Graph& graph,

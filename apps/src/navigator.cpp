@@ -2,6 +2,7 @@
 #include "navigator.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flyball {
 namespace {
@@ -16,6 +17,11 @@ constexpr double lead_over_last = 1.5;
 constexpr double least_lead_s = 0.1;
 constexpr double most_lead_s = 1.0;
 constexpr double arrival_m = 0.3;
+// When the way to the goal has become this much longer than it was at first, a look to both sides
+// may show a door that the vehicle has just flown past.
+constexpr double worth_a_look_m = 5.0;
+constexpr double worth_a_look = 0.1;  // At least this share of the path.
+constexpr double looked_here_m = 2.0;
 
 }  // namespace
 
@@ -31,6 +37,7 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   context_.goal_now_W = goal_W;
   without_path_since_ = now;
   pending_id_ = 0;
+  expected_m_.reset();
   want_plan(now, "new goal");
 }
 
@@ -90,7 +97,7 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
-  if (!goal_W_ || pending_id_ != 0) {
+  if (!goal_W_ || pending_id_ != 0 || follower_.is_looking_around()) {
     return std::nullopt;
   }
   if (follower_.is_at_end() && !has_arrived()) {
@@ -144,13 +151,37 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   pending_id_ = 0;
   context_.counters.planner_failures_in_row = 0;
   last_planning_ = now - asked_at_;
-  if (!follower_.adopt(Path{planned.trajectory}, splice_m_)) {
+  const Path path{planned.trajectory};
+  if (is_worth_a_look(path.length_m())) {
+    look_around(now);
+    return;
+  }
+  if (!follower_.adopt(path, splice_m_)) {
     plan_from_stop_ = true;
     want_plan(now, "too late or too fast for the plan");
     return;
   }
   ++path_number_;
   follower_.refresh_known_free(context_.map());
+}
+
+bool Navigator::is_worth_a_look(double planned_m) {
+  const double total_m = follower_.travelled_m() - follower_.s_m() + splice_m_ + planned_m;
+  if (!expected_m_) {
+    expected_m_ = total_m;
+  }
+  const Vec3 here_W = follower_.position_W();
+  return follower_.has_path() &&
+         total_m > *expected_m_ + std::max(worth_a_look_m, worth_a_look * planned_m) &&
+         !((here_W - looked_at_W_).norm() < looked_here_m);
+}
+
+void Navigator::look_around(MissionTime now) {
+  looked_at_W_ = follower_.position_W();
+  expected_m_.reset();
+  const Vec3 ahead_W = *goal_W_ - looked_at_W_;
+  follower_.look_around(std::atan2(ahead_W.y(), ahead_W.x()));
+  want_plan(now, "looked around, the way has become longer");
 }
 
 TrackingError Navigator::measured(const Vec3& error_W) const {

@@ -6,6 +6,7 @@
 /// committed path, and keeps the latency that the speed limit follows from.
 
 #include "path_follower.h"
+#include <limits>
 #include <map>
 #include <string>
 
@@ -67,6 +68,8 @@ class Navigator {
 
  private:
   [[nodiscard]] double lead_s() const;
+  [[nodiscard]] bool is_worth_a_look(double planned_m);
+  void look_around(MissionTime now);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
   [[nodiscard]] LatencyWindow& window(std::map<double, LatencyWindow>& windows,
@@ -86,6 +89,8 @@ class Navigator {
   MissionTime not_before_{};
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};
+  std::optional<double> expected_m_{};  ///< From the first path on: travelled when at the goal.
+  Vec3 looked_at_W_{Vec3::Constant(std::numeric_limits<double>::infinity())};
   std::map<double, LatencyWindow> latency_{};  ///< By map resolution.
   std::map<double, LatencyWindow> interval_{};
   MissionTime last_published_{};

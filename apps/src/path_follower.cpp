@@ -19,6 +19,10 @@ constexpr double comfort_m_s2 = 3.0;
 // stop before an obstacle, the more room is left to turn.
 constexpr double stopping_m_s2 = 5.0;
 constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
+constexpr double pi = 3.141592653589793;
+// Once left and right by 60 degrees: with a field of 90, all that is not behind.
+constexpr double look_aside_rad = pi / 3.0;
+constexpr double look_around_s = 4.8;
 constexpr double look_ahead_s = 1.0;
 constexpr double look_ahead_min_m = 1.0;
 constexpr auto odometer_memory = 10s;
@@ -195,25 +199,47 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
 
 // Yaw looks where the path goes next, at least as far as the first place that must be seen before
 // it can be flown to: so the vehicle turns in place before it leaves its field of view.
-void PathFollower::turn(double dt_s, MissionTime now) {
+std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
+  if (look_yaw_rad_ && looking_since_) {
+    const double turns = to_seconds(now - *looking_since_) / look_around_s;
+    return *look_yaw_rad_ + look_aside_rad * std::sin(2.0 * pi * std::min(turns, 1.0));
+  }
   const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
   Vec3 direction = path_.at(s_m_ + ahead_m).p_W - path_.at(s_m_).p_W;
   direction.z() = 0.0;
-  if (direction.norm() > 0.1) {
-    double wanted = yaw_of(direction);
-    // Stalled before something unknown: look left and right of it.
-    if (const double s = to_seconds(stalled(now)); s > 2.0) {
-      wanted += 0.8 * std::sin(1.0 * (s - 2.0));
-    }
-    const double error = wrap_angle(wanted - yaw_rad_);
+  if (direction.norm() <= 0.1) {
+    return std::nullopt;
+  }
+  // Stalled before something unknown: look left and right of it.
+  const double stalled_s = std::max(0.0, to_seconds(stalled(now)) - 2.0);
+  return yaw_of(direction) + 0.8 * std::sin(stalled_s);
+}
+
+void PathFollower::turn(double dt_s, MissionTime now) {
+  if (const auto wanted_rad = wanted_yaw_rad(now)) {
+    const double error = wrap_angle(*wanted_rad - yaw_rad_);
     yaw_rad_ =
         wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
   }
-  if (speed_m_s_ > 0.02 || is_at_end()) {
+  const bool stands = speed_m_s_ <= 0.02;
+  if (!stands || is_at_end()) {
     stalled_since_.reset();
   } else if (!stalled_since_) {
     stalled_since_ = now;
   }
+  if (look_yaw_rad_ && stands && !looking_since_) {
+    looking_since_ = now;
+  }
+  // What the last view showed must still come through the map.
+  if (looking_since_ && to_seconds(now - *looking_since_ - latency_bound_) > look_around_s) {
+    look_yaw_rad_.reset();
+    looking_since_.reset();
+  }
+}
+
+void PathFollower::look_around(double yaw_rad) {
+  look_yaw_rad_ = yaw_rad;
+  looking_since_.reset();
 }
 
 Vec3 PathFollower::position_W() const {

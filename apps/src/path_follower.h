@@ -31,6 +31,10 @@ class PathFollower {
   /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
   void commit_stop(double s_m);
 
+  /// Once the reference stands, turns the camera to both sides of this direction.
+  void look_around(double yaw_rad);
+  [[nodiscard]] bool is_looking_around() const { return look_yaw_rad_.has_value(); }
+
   /// Looks up anew how far the path is known to be free. Call after each change of map or path.
   void refresh_known_free(const OccupancyView& map);
   void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
@@ -44,6 +48,8 @@ class PathFollower {
   [[nodiscard]] const Path& path() const { return path_; }
   [[nodiscard]] double s_m() const { return s_m_; }
   [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
+  /// Of all paths so far.
+  [[nodiscard]] double travelled_m() const { return travelled_m_; }
   [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
   [[nodiscard]] Vec3 position_W() const;
   [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
@@ -70,6 +76,7 @@ class PathFollower {
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
   [[nodiscard]] double braked_speed(double dt_s) const;
   void turn(double dt_s, MissionTime now);
+  [[nodiscard]] std::optional<double> wanted_yaw_rad(MissionTime now);
   [[nodiscard]] double distance_since(MissionTime captured) const;
 
   const MissionContext& context_;
@@ -88,6 +95,8 @@ class PathFollower {
   Duration latency_bound_{};
   MissionTime newest_capture_{};
   std::optional<MissionTime> stalled_since_{};
+  std::optional<double> look_yaw_rad_{};
+  std::optional<MissionTime> looking_since_{};
   std::deque<std::pair<MissionTime, double>> odometer_{};
 };
 

@@ -118,8 +118,6 @@ Fields computer_fields() {
        "frames integrated a second, at most"},
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one plan may take"},
-      {"planner.corridor_m", &at<&Scenario::planner, &PlannerSettings::corridor_m>, 1, 1000,
-       "first search box around start and goal"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
        "the companion computer"},
       {"platform.cores", &at<&Scenario::platform, &PlatformSettings::cores>, 1, 256,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "path_simplifier.h"
 
+#include "flyball/kernels/path_planner.h"
+
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
@@ -39,14 +41,6 @@ struct Place {
   Vec3 p_W{Vec3::Zero()};
   double s_m{};
 };
-
-double length_m(const Polygon& points) {
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    sum_m += (points[i] - points[i - 1]).norm();
-  }
-  return sum_m;
-}
 
 Place place_at(const Polygon& points, double s_m) {
   double left_m = s_m;

@@ -4,7 +4,10 @@
 #include "flyball/runtime/random.h"
 
 #include "path_simplifier.h"
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace flyball {
@@ -27,6 +30,19 @@ Aabb search_box(const PlanRequest& request, double around_m) {
   box.min = box.min.cwiseMax(request.bounds_W.min).cwiseMin(request.start_W);
   box.max = box.max.cwiseMin(request.bounds_W.max).cwiseMax(request.start_W);
   return box;
+}
+
+/// A point of the ellipsoid is at most half of what the path may be longer than the straight line
+/// behind its ends, and half the minor axis beside the line.
+SearchStage short_path_stage(const PlanRequest& request) {
+  const double line_m = (request.goal_W - request.start_W).norm();
+  const double longest_m = std::max(request.shorter_than_m, line_m);
+  const double aside_m = 0.5 * std::sqrt(longest_m * longest_m - line_m * line_m);
+  SearchStage stage{request.start_W, request.goal_W, search_box(request, aside_m),
+                    request.max_iterations};
+  stage.seed = RandomStream{request.seed, "short_path_stage"}.next();
+  stage.shorter_than_m = request.shorter_than_m;
+  return stage;
 }
 
 Cylinder with_margin(const Cylinder& body) {
@@ -70,18 +86,27 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   }
   plan.work.add("iterations", found.iterations);
   plan.work.add("collision_queries", checker.queries());
-  if (!plan.waypoints_W.empty()) {
-    return plan;
+  if (!found.error.empty()) {
+    return failed(std::move(plan), found.error);
   }
-  return failed(std::move(plan),
-                found.error.empty()
-                    ? "no path within " + std::to_string(request.max_iterations) + " iterations"
-                    : found.error);
+  if (plan.waypoints_W.empty()) {
+    return failed(std::move(plan),
+                  "no path within " + std::to_string(request.max_iterations) + " iterations");
+  }
+  if (length_m(plan.waypoints_W) >= request.shorter_than_m) {
+    std::array<char, 64> why{};
+    std::snprintf(why.data(), why.size(), "no path shorter than %.1f m", request.shorter_than_m);
+    return failed(std::move(plan), why.data());
+  }
+  return plan;
 }
 
 }  // namespace
 
 std::vector<SearchStage> search_stages(const PlanRequest& request) {
+  if (std::isfinite(request.shorter_than_m)) {
+    return {short_path_stage(request)};
+  }
   std::vector<SearchStage> stages;
   const Aabb whole = search_box(request, (request.bounds_W.max - request.bounds_W.min).norm());
   const auto is_whole = [&](const Aabb& box) {
@@ -90,14 +115,14 @@ std::vector<SearchStage> search_stages(const PlanRequest& request) {
   int left = request.max_iterations;
   for (const double around_m : box_margins_m) {
     SearchStage stage{request.start_W, request.goal_W, search_box(request, around_m),
-                      request.max_iterations / 4, 0};
+                      request.max_iterations / 4};
     if (is_whole(stage.box_W)) {
       break;
     }
     left -= stage.max_iterations;
     stages.push_back(stage);
   }
-  stages.push_back({request.start_W, request.goal_W, whole, left, 0});
+  stages.push_back({request.start_W, request.goal_W, whole, left});
   for (std::size_t i = 0; i < stages.size(); ++i) {
     stages[i].seed = RandomStream{request.seed, "search_stage", i}.next();
   }

@@ -9,6 +9,7 @@
 
 #include "motion_checker.h"
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct SearchStage {
   Aabb box_W{};  ///< Contains start and goal.
   int max_iterations{};
   std::uint64_t seed{};
+  double shorter_than_m{std::numeric_limits<double>::infinity()};
 };
 
 struct StageResult {
@@ -32,7 +34,9 @@ using TreeSearch = std::function<StageResult(const SearchStage&, MotionChecker&)
 
 /// The search boxes of a request: start and goal with 8 m around them for a quarter of the
 /// iterations, with 20 m for another quarter, then the bounds. Boxes that are no larger than the
-/// one before are left out, and their iterations go to the next.
+/// one before are left out, and their iterations go to the next. For a request with a finite
+/// `shorter_than_m` one box, around the ellipsoid that holds all such paths (Gammell et al. 2014,
+/// doi:10.1109/IROS.2014.6942976).
 [[nodiscard]] std::vector<SearchStage> search_stages(const PlanRequest& request);
 
 /// Plans with `search`; the result is simplified.

@@ -86,6 +86,33 @@ TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
   EXPECT_NEAR(again->start_W.x(), trip.navigator.follower().position_W().x(), 0.02);
 }
 
+TEST(Navigator, looks_around_before_it_flies_a_way_that_has_become_longer) {
+  Trip trip;
+  trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+  const auto first = trip.navigator.next_query(trip.now);
+  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.tick(100);
+  const auto replan = [&trip](double detour_m) {
+    trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    const Vec3 end_W = query->goal_W + Vec3{detour_m, 0, 0};
+    trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, end_W), ""});
+  };
+  const auto number = trip.navigator.path_number();
+  replan(4.0);
+  EXPECT_EQ(trip.navigator.path_number(), number + 1);  // A little longer is flown at once.
+  replan(6.0);
+  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+  EXPECT_TRUE(trip.navigator.follower().is_looking_around());
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+  trip.tick(500);
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, {35, 0, 1.5}), ""});
+  EXPECT_EQ(trip.navigator.path_number(), number + 2);  // It has looked: now this is the way.
+}
+
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
   Trip trip;
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});

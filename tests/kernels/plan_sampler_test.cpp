@@ -17,6 +17,13 @@ struct Office {
   MotionChecker checker{scene.map, scene.request.body, 0.35};
   flyball::SampleRegion region{
       {{0.5, -14.5, 0.6}, {44.5, 14.5, 2.6}}, scene.request.start_W, scene.request.goal_W};
+
+  /// Where the body is just out of the first wall, and flies straight through its door.
+  bool is_beside_first_door(const Vec3& p) {
+    const double side_m = p.x() - 10.125;
+    return std::abs(std::abs(side_m) - 0.455) < 0.03 &&
+           checker.is_flyable(p, p - Vec3{2.0 * side_m, 0, 0});
+  }
 };
 
 TEST(PlanSampler, stays_in_its_box_and_mostly_at_the_height_of_the_ends) {
@@ -44,17 +51,16 @@ TEST(PlanSampler, draws_the_same_from_the_same_seed_only) {
     EXPECT_EQ(p, same.draw());
     equal += p == other.draw() ? 1 : 0;
   }
-  EXPECT_LT(equal, 40);  // the middle of a door is one place
+  EXPECT_LT(equal, 60);  // the sides of a door are few places
 }
 
 TEST(PlanSampler, looks_for_passages_only_when_the_plan_is_not_easy) {
   Office office;
   PlanSampler sampler{office.checker, office.region, 1};
-  const auto count_in_door = [&](int draws) {
+  const auto count_beside_door = [&](int draws) {
     int hits = 0;
     for (int i = 0; i < draws; ++i) {
-      const Vec3 p = sampler.draw();
-      hits += std::abs(p.x() - 10.125) < 0.08 && office.checker.is_free(p) ? 1 : 0;
+      hits += office.is_beside_first_door(sampler.draw()) ? 1 : 0;
     }
     return hits;
   };
@@ -63,7 +69,24 @@ TEST(PlanSampler, looks_for_passages_only_when_the_plan_is_not_easy) {
     (void)sampler.draw();
   }
   EXPECT_EQ(office.checker.queries(), before);
-  EXPECT_GT(count_in_door(500), 20);
+  EXPECT_GT(count_beside_door(500), 20);
+}
+
+TEST(PlanSampler, draws_where_short_paths_can_be_and_from_passages_at_once) {
+  Office office;
+  const Vec3 line = office.region.goal_W - office.region.start_W;
+  office.region.shorter_than_m = 1.3 * line.norm();
+  PlanSampler sampler{office.checker, office.region, 1};
+  int outside = 0;
+  int in_door = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 p = sampler.draw();
+    const double over_m = (p - office.region.start_W).norm() + (office.region.goal_W - p).norm();
+    outside += over_m >= office.region.shorter_than_m ? 1 : 0;
+    in_door += i < 48 && office.is_beside_first_door(p) ? 1 : 0;
+  }
+  EXPECT_LT(outside, 4);
+  EXPECT_GT(in_door, 0);
 }
 
 }  // namespace

@@ -45,6 +45,30 @@ TEST(StagedSearch, leaves_out_boxes_that_are_no_smaller_than_the_bounds) {
   EXPECT_EQ(stages[0].max_iterations, 1000);
 }
 
+TEST(StagedSearch, looks_for_shorter_paths_only_where_they_can_be) {
+  PlanRequest request = long_way();
+  request.goal_W = {40, 0, 1.5};
+  request.shorter_than_m = 50;  // half axes of the ellipse: 25 m and 15 m
+  const auto stages = flyball::search_stages(request);
+  ASSERT_EQ(stages.size(), 1U);
+  EXPECT_EQ(stages[0].box_W.min, (Vec3{-15, -15, 0.5}));
+  EXPECT_EQ(stages[0].box_W.max, (Vec3{55, 15, 4.0}));
+  EXPECT_EQ(stages[0].max_iterations, 1000);
+  EXPECT_EQ(stages[0].shorter_than_m, 50);
+}
+
+TEST(StagedSearch, refuses_a_path_that_is_not_shorter_than_wanted) {
+  auto scene = flyball::kit::random_world(1);
+  scene.request.start_W = {1, 0, 1.5};
+  scene.request.goal_W = {1, 6, 1.5};
+  scene.request.shorter_than_m = 5.9;
+  const auto search = [](const SearchStage&, MotionChecker&) { return StageResult{}; };
+  EXPECT_EQ(flyball::staged_plan(scene.request, scene.map, search).failure,
+            "no path shorter than 5.9 m");
+  scene.request.shorter_than_m = 6.1;
+  EXPECT_EQ(flyball::staged_plan(scene.request, scene.map, search).waypoints_W.size(), 2U);
+}
+
 TEST(StagedSearch, lets_a_vehicle_start_that_has_drifted_out_of_bounds) {
   PlanRequest request = long_way();
   request.start_W = {0, 0, 4.1};

@@ -64,9 +64,9 @@ struct MapSettings {
 };
 
 struct PlannerSettings {
-  int budget{40000};  ///< Iterations per request.
-  double corridor_m{
-      10.0};  ///< First search box around start and goal; grows when nothing is found.
+  /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
+  /// the newest map, is worth more.
+  int budget{4000};
 };
 
 struct PlatformSettings {

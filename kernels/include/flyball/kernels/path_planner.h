@@ -10,6 +10,7 @@
 #include "flyball/runtime/work.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,27 @@ struct PlanRequest {
   Aabb bounds_W{};             ///< The body's centre stays inside.
   Cylinder body{};             ///< With its tracking tube.
   int max_iterations{10000};   ///< Planner iterations, over all attempts.
+  /// Longer paths are not wanted. When finite, the search keeps to the places where such paths can
+  /// be and looks at narrow passages first.
+  double shorter_than_m{std::numeric_limits<double>::infinity()};
   double max_slope_rad{0.35};  ///< Of each straight piece; about 20 degrees.
   std::uint64_t seed{};        ///< Of this one plan.
 };
+
+/// Of the polygon through these points.
+[[nodiscard]] inline double length_m(const std::vector<Vec3>& points_W) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < points_W.size(); ++i) {
+    sum_m += (points_W[i] - points_W[i - 1]).norm();
+  }
+  return sum_m;
+}
 
 struct Plan {
   std::vector<Vec3> waypoints_W{};  ///< From start to goal; empty when none was found.
   Work work{};            ///< `iterations`, `collision_queries`; also when none was found.
   std::string failure{};  ///< Empty on success; else why: `start blocked`, `goal blocked`, `no path
-                          ///< within N iterations`.
+                          ///< within N iterations`, `no path shorter than L m`.
 };
 
 class PathPlanner : public Kernel {

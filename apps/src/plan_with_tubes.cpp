@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plan_with_tubes.h"
+
+#include "flyball/runtime/random.h"
+
+namespace flyball {
+namespace {
+
+constexpr double slow_m_s = 1.0;
+constexpr double middle_m_s = 4.0;
+
+constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
+constexpr double worthwhile = 0.5;       // A narrow way, for it is slower, saves this share of it.
+constexpr int shorter_iterations = 400;  // A known door takes fewer (tests/kernels/rrt_test.cpp).
+constexpr int most_improvements = 3;
+
+class Search {
+ public:
+  Search(MissionContext& context, const PlanQuery& query) : context_{context}, query_{query} {
+    request_.start_W = query.start_W;
+    request_.goal_W = query.goal_W;
+    request_.bounds_W = context.brief.bounds_W;
+    request_.seed = RandomStream{context.scenario.seed, "planner", query.id}.next();
+  }
+
+  Plan plan() {
+    if (find_any()) {
+      look_for_shorter();
+    }
+    plan_.work = work_;
+    return plan_;
+  }
+  [[nodiscard]] const Cylinder& body() const { return body_; }
+
+ private:
+  // First with the wide tube that cruise speed needs, for a part of the budget; then with a middle
+  // and the narrow one; and where noise has put a cell into the tube itself, with the bare body.
+  bool find_any() {
+    const int budget = static_cast<int>(context_.knobs.value("planner.budget"));
+    if (!query_.may_be_tight) {
+      const double cruise_m_s = context_.knobs.value("mission.max_speed_m_s");
+      if (try_with(context_.body_at(cruise_m_s), budget / 8) ||
+          try_with(context_.body_at(middle_m_s), budget / 8)) {
+        return true;
+      }
+    }
+    if (try_with(context_.body_at(slow_m_s), budget)) {
+      return true;
+    }
+    return plan_.failure == "start blocked" && try_with(context_.airframe.body(), budget);
+  }
+
+  void look_for_shorter() {
+    const double line_m = (request_.goal_W - request_.start_W).norm();
+    for (int i = 0; i < most_improvements; ++i) {
+      const double now_m = length_m(plan_.waypoints_W);
+      request_.shorter_than_m = now_m - worthwhile * (now_m - line_m);
+      if (now_m <= line_m + detour_m || !try_with(context_.body_at(slow_m_s), shorter_iterations)) {
+        return;
+      }
+    }
+  }
+
+  /// Keeps what was found before when nothing is found.
+  bool try_with(const Cylinder& body, int iterations) {
+    request_.body = body;
+    request_.max_iterations = iterations;
+    Plan plan = context_.kernels.planner->plan(request_, context_.map());
+    for (const auto& item : plan.work.items()) {
+      work_.add(item.name, item.count);
+    }
+    const bool found = !plan.waypoints_W.empty();
+    if (found || plan_.waypoints_W.empty()) {
+      plan_ = std::move(plan);
+      body_ = body;
+    }
+    return found;
+  }
+
+  MissionContext& context_;
+  const PlanQuery& query_;
+  PlanRequest request_;
+  Plan plan_;
+  Cylinder body_;
+  Work work_;
+};
+
+}  // namespace
+
+Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
+  Search search{context, query};
+  Plan plan = search.plan();
+  body = search.body();
+  return plan;
+}
+
+}  // namespace flyball
