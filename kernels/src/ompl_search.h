@@ -156,7 +156,8 @@ StageResult search_with_ompl(const SearchStage& stage,
   StageResult result;
   try {
     ompl::msg::noOutputHandler();
-    PlanSampler sampler{checker, {stage.box_W, stage.start_W, stage.goal_W, stage.shorter_than_m}, stage.seed};
+    PlanSampler sampler{
+        checker, {stage.box_W, stage.start_W, stage.goal_W, stage.shorter_than_m}, stage.seed};
     const auto space = make_space(stage, checker, sampler);
     const auto problem = make_problem(space, stage);
     Seeded<Planner> planner{space, stage.seed};

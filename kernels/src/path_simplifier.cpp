@@ -2,7 +2,6 @@
 #include "path_simplifier.h"
 
 #include "flyball/kernels/path_planner.h"
-
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>

@@ -19,9 +19,9 @@ namespace flyball {
 struct PlanRequest {
   Vec3 start_W{Vec3::Zero()};
   Vec3 goal_W{Vec3::Zero()};
-  Aabb bounds_W{};             ///< The body's centre stays inside.
-  Cylinder body{};             ///< With its tracking tube.
-  int max_iterations{10000};   ///< Planner iterations, over all attempts.
+  Aabb bounds_W{};            ///< The body's centre stays inside.
+  Cylinder body{};            ///< With its tracking tube.
+  int max_iterations{10000};  ///< Planner iterations, over all attempts.
   /// Longer paths are not wanted. When finite, the search keeps to the places where such paths can
   /// be and looks at narrow passages first.
   double shorter_than_m{std::numeric_limits<double>::infinity()};
