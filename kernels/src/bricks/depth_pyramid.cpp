@@ -9,43 +9,44 @@
 
 namespace flyball {
 
-void DepthPyramid::build(const PointCloud& cloud_C, double range_m) {
+void DepthPyramid::build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops) {
   FLYBALL_ASSERT(cloud_C.camera.has_value(), "scan %llu has no camera",
                  static_cast<unsigned long long>(cloud_C.sequence));
   const Intrinsics& camera = *cloud_C.camera;
-  width_ = camera.width_px;
-  height_ = camera.height_px;
-  depth_m_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
-  put(cloud_C.hits_C, camera, static_cast<float>(range_m));
-  put(cloud_C.clear_C, camera, static_cast<float>(range_m));
+  grid_ = {static_cast<float>(camera.focal_px), static_cast<float>(camera.centre_x_px + 0.5),
+           static_cast<float>(camera.centre_y_px + 0.5), camera.width_px, camera.height_px};
+  depth_m_.assign(
+      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px), 0.0F);
+  put(cloud_C.hits_C, static_cast<float>(range_m), loops);
+  put(cloud_C.clear_C, static_cast<float>(range_m), loops);
   build_scales();
 }
 
 void DepthPyramid::put(const std::vector<Eigen::Vector3f>& points_C,
-                       const Intrinsics& camera,
-                       float cut_m) {
-  const auto focal = static_cast<float>(camera.focal_px);
-  // A pixel's ray passes through its middle, which is a whole number.
-  const auto centre_u = static_cast<float>(camera.centre_x_px + 0.5);
-  const auto centre_v = static_cast<float>(camera.centre_y_px + 0.5);
-  for (const Eigen::Vector3f& p : points_C) {
-    const float scale = focal / p.z();
-    const float u = p.x() * scale + centre_u;
-    const float v = p.y() * scale + centre_v;
-    if (!(p.z() > 0.0F && u >= 0.0F && v >= 0.0F && u < static_cast<float>(width_) &&
-          v < static_cast<float>(height_))) {
-      continue;
+                       float cut_m,
+                       const InnerLoops& loops) {
+  for (std::size_t first = 0; first < points_C.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, points_C.size() - first);
+    PointBlock points;
+    points.take(&points_C[first], count);
+    Lanes<std::int32_t> pixels;
+    loops.project_points(points, grid_, pixels);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const float x = points.p[0][lane];
+      const float y = points.p[1][lane];
+      const float z = points.p[2][lane];
+      if (pixels[lane] >= 0) {
+        depth_m_[static_cast<std::size_t>(pixels[lane])] =
+            x * x + y * y + z * z > cut_m * cut_m ? std::numeric_limits<float>::infinity() : z;
+      }
     }
-    const auto pixel = static_cast<std::size_t>(static_cast<int>(v) * width_ + static_cast<int>(u));
-    depth_m_[pixel] =
-        p.squaredNorm() > cut_m * cut_m ? std::numeric_limits<float>::infinity() : p.z();
   }
 }
 
 void DepthPyramid::build_scales() {
   scales_.clear();
   spans_.clear();
-  scales_.push_back({0, width_, height_});
+  scales_.push_back({0, grid_.width_px, grid_.height_px});
   for (const float depth : depth_m_) {
     spans_.push_back({depth, depth});
   }

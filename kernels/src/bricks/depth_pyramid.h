@@ -7,6 +7,7 @@
 
 #include "flyball/runtime/messages.h"
 
+#include "inner_loops.h"
 #include <cstddef>
 #include <vector>
 
@@ -32,10 +33,10 @@ class DepthPyramid {
   /// depth 0: nothing was seen there. One that is clear up to `range_m` has depth infinity.
   ///
   /// @pre The cloud has a camera.
-  void build(const PointCloud& cloud_C, double range_m);
+  void build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops);
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] const PixelGrid& grid() const { return grid_; }
+  /// The finest scale, row by row.
   [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }
   /// @pre The block lies in the image. May look at pixels beside it.
   [[nodiscard]] DepthSpan span(const PixelBlock& block) const;
@@ -46,11 +47,10 @@ class DepthPyramid {
     int width;
     int height;
   };
-  void put(const std::vector<Eigen::Vector3f>& points_C, const Intrinsics& camera, float cut_m);
+  void put(const std::vector<Eigen::Vector3f>& points_C, float cut_m, const InnerLoops& loops);
   void build_scales();
 
-  int width_{};
-  int height_{};
+  PixelGrid grid_{};
   std::vector<float> depth_m_{};
   std::vector<Scale> scales_{};
   std::vector<DepthSpan> spans_{};

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "inner_loops.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace flyball {
 namespace {
+
+constexpr int half_keys = 32768;
+constexpr double latest_unit = (1 << 30) - 1.0;  // twice this still fits into an integer
+constexpr double least_direction = 1e-12;        // so slow that no border is ever reached
 
 /// One bit of a mask becomes one byte, not zero where the bit is set.
 struct alignas(64) ByteMask {
@@ -88,11 +92,16 @@ Simd widest_simd() {
 }
 
 const InnerLoops& inner_loops(Simd simd) {
-  static constexpr InnerLoops of_portable{portable::update_brick, portable::walk_rays,
-                                          portable::seen_cells};
-  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::walk_rays, avx2::seen_cells};
-  static constexpr InnerLoops of_avx512{avx512::update_brick, avx512::walk_rays,
-                                        avx512::seen_cells};
+  static constexpr InnerLoops of_portable{
+      portable::update_brick, portable::move_points,    portable::cut_rays,  portable::aim_rays,
+      portable::walk_rays,    portable::project_points, portable::seen_cells};
+  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::move_points, avx2::cut_rays,
+                                      avx2::aim_rays,     avx2::walk_rays,   avx2::project_points,
+                                      avx2::seen_cells};
+  // Wider vectors of bytes only add to the sum across lanes.
+  static constexpr InnerLoops of_avx512{
+      avx2::update_brick, avx512::move_points,    avx512::cut_rays,  avx512::aim_rays,
+      avx512::walk_rays,  avx512::project_points, avx512::seen_cells};
   return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
 }
 

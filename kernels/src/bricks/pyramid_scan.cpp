@@ -7,7 +7,7 @@
 namespace flyball {
 
 PyramidScan::PyramidScan(double finest_m, Simd simd)
-    : lattice_{finest_m}, loops_{inner_loops(simd)}, view_{finest_m} {}
+    : lattice_{finest_m}, loops_{inner_loops(simd)}, view_{finest_m, loops_} {}
 
 const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
                                       const Pose& X_WC,
@@ -35,14 +35,14 @@ const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
 
 /// The box around the camera and the far corners of its view.
 void PyramidScan::span_window(const Pose& X_WC, double range_m) {
-  const CellProbe& probe = view_.probe();
+  const PixelGrid& grid = view_.probe().grid;
   const Vec3 p_WC = X_WC.translation();
   Vec3 low = p_WC;
   Vec3 high = p_WC;
-  for (const float u : {0.0F, static_cast<float>(probe.width_px)}) {
-    for (const float v : {0.0F, static_cast<float>(probe.height_px)}) {
-      const Vec3 corner_C{(u - probe.centre_u_px) / probe.focal_px,
-                          (v - probe.centre_v_px) / probe.focal_px, 1.0};
+  for (const float u : {0.0F, static_cast<float>(grid.width_px)}) {
+    for (const float v : {0.0F, static_cast<float>(grid.height_px)}) {
+      const Vec3 corner_C{(u - grid.centre_u_px) / grid.focal_px,
+                          (v - grid.centre_v_px) / grid.focal_px, 1.0};
       const Vec3 corner_W = X_WC * (range_m * corner_C);
       low = low.cwiseMin(corner_W);
       high = high.cwiseMax(corner_W);
@@ -56,24 +56,40 @@ void PyramidScan::span_window(const Pose& X_WC, double range_m) {
   window_.span(first_chunk_, last_chunk_);
 }
 
-// Poses and points are rounded as the ray front-ends round them, so that hits fall into the same
-// cells.
+// Points are moved, rounded and held against the range as for the ray front-ends, so that hits fall
+// into the same cells.
 void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  PoseRows rows;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      rows[row][column] = X_WC.matrix()(static_cast<int>(row), static_cast<int>(column));
+    }
+  }
+  RayFrame frame{};
   const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
-  for (const Eigen::Vector3f& p_C : cloud_C.hits_C) {
-    const Eigen::Vector3f p_W = (X_WC * p_C.cast<double>()).cast<float>();
-    const Eigen::Vector3f ray = p_W - origin_W;
-    const float squared = ray.x() * ray.x() + ray.y() * ray.y() + ray.z() * ray.z();
-    if (std::sqrt(static_cast<double>(squared)) > range_m) {
-      continue;
+  frame.origin_W = {origin_W.x(), origin_W.y(), origin_W.z()};
+  frame.range_m = range_m;
+  frame.cells_per_m = 1.0 / lattice_.cell_m(0);
+  for (std::size_t first = 0; first < cloud_C.hits_C.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, cloud_C.hits_C.size() - first);
+    PointBlock points;
+    points.take(&cloud_C.hits_C[first], count);
+    loops_.move_points(points, rows);
+    loops_.cut_rays(points, frame);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (points.reaches[lane] != 0) {
+        mark_hit({points.key[0][lane], points.key[1][lane], points.key[2][lane]});
+      }
     }
-    const CellKey cell = lattice_.cell(p_W.cast<double>());
-    const CellKey chunk = cell.above(chunk_level);
-    // Outside only by rounding, at the very edge of the view.
-    if (window_.contains(chunk)) {
-      window_.at(chunk).add_hit(brick_number(cell.above(brick_level)),
-                                std::uint64_t{1} << bit_in_brick(cell));
-    }
+  }
+}
+
+void PyramidScan::mark_hit(const CellKey& cell) {
+  const CellKey chunk = cell.above(chunk_level);
+  // Outside only by rounding, at the very edge of the view.
+  if (window_.contains(chunk)) {
+    window_.at(chunk).add_hit(brick_number(cell.above(brick_level)),
+                              std::uint64_t{1} << bit_in_brick(cell));
   }
 }
 

@@ -37,6 +37,7 @@ class PyramidScan {
   };
   void span_window(const Pose& X_WC, double range_m);
   void mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  void mark_hit(const CellKey& cell);
   void mark_origin(const Vec3& p_WC);
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   void free_block(const Block& block);
