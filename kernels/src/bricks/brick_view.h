@@ -18,6 +18,8 @@
 
 namespace flyball {
 
+class BoxWords;
+
 class BrickView final : public OccupancyView {
  public:
   /// The map outlives the view.
@@ -49,6 +51,9 @@ class BrickView final : public OccupancyView {
   void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
 
  private:
+  [[nodiscard]] CellState seen_at(const CellKey& cell) const;
+  [[nodiscard]] CellState seen_by(const BodyShape& shape, const BoxWords& words) const;
+
   const BrickMap& map_;
   ClearSpaces clear_{};
   int level_{};

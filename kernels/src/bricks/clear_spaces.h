@@ -18,6 +18,7 @@ class ClearSpaces {
 
   /// Ignored when an earlier cylinder contains it.
   void declare(const Vec3& centre_W, const Cylinder& space);
+  [[nodiscard]] bool is_empty() const { return spaces_.empty(); }
   [[nodiscard]] bool contains(const Vec3& p_W) const;
   /// Whether the cylinders cover the body's share of a box. The box is taken apart, down to 2 cm,
   /// and each piece must lie in one cylinder: its own box, or the body's disc and the piece's

@@ -100,8 +100,8 @@ struct alignas(64) CellProbe {
 };
 
 struct InnerLoops {
-  /// Frees and hits the cells of two masks that have no bit in common.
-  BlockSummary (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
+  /// Frees and hits the cells of two masks that have no bit in common. Returns all its cells.
+  CellMasks (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
   /// Takes points of C to W, through doubles and back to floats.
   void (*move_points)(PointBlock& points, const PoseRows& X_WC);
   /// Cuts rays to the range in OctoMap's arithmetic, and finds the cells of their ends.
