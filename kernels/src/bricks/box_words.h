@@ -5,6 +5,7 @@
 /// A small box of cells, read brick by brick: one word of occupied and one of unknown cells each.
 /// For bodies, which are a few bricks wide, this is faster than walking down the levels.
 
+#include "bits.h"
 #include "brick_map.h"
 #include <array>
 
@@ -68,7 +69,7 @@ class BoxWords {
       const int x = 4 * (at % size_.x);
       const int y = 4 * (at / size_.x % size_.y);
       for (std::uint64_t left = words[static_cast<std::size_t>(at)]; left != 0; left &= left - 1) {
-        const int bit = __builtin_ctzll(left);
+        const auto bit = static_cast<int>(lowest_bit(left));
         if (is(x + (bit & 3), y + (bit >> 2 & 3))) {
           return true;
         }

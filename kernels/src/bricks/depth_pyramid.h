@@ -43,17 +43,20 @@ class DepthPyramid {
 
  private:
   struct Scale {
-    std::size_t first;  ///< In `spans_`.
+    std::size_t first;  ///< In `least_m_` and `most_m_`; nothing there for the finest scale.
     int width;
     int height;
   };
-  void put(const std::vector<Eigen::Vector3f>& points_C, float cut_m, const InnerLoops& loops);
-  void build_scales();
+  void lay_out(const Intrinsics& camera);
+  void put(const std::vector<Eigen::Vector3f>& points_C, float range_m, const InnerLoops& loops);
+  void build_scale(std::size_t scale, const InnerLoops& loops);
+  [[nodiscard]] DepthRows rows(std::size_t scale, int upper, int lower) const;
 
   PixelGrid grid_{};
-  std::vector<float> depth_m_{};
   std::vector<Scale> scales_{};
-  std::vector<DepthSpan> spans_{};
+  std::vector<float> depth_m_{};  ///< The finest scale, and one spare pixel.
+  std::vector<float> least_m_{};  ///< The others, one after the other.
+  std::vector<float> most_m_{};
 };
 
 }  // namespace flyball

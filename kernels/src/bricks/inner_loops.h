@@ -89,6 +89,28 @@ struct PixelGrid {
   std::int32_t height_px;
 };
 
+/// The cells of a window of chunks (see mask_window.h).
+struct WindowChunks {
+  std::array<std::int32_t, 3> first;   ///< Key of its first cell.
+  std::array<std::int32_t, 3> size;    ///< In cells.
+  std::array<std::int32_t, 3> stride;  ///< From chunk to chunk along each axis.
+};
+
+/// How points of C become cells of W.
+struct HitFrame {
+  PoseRows X_WC;
+  std::array<float, 3> origin_W;
+  float squared_range_m2;  ///< The greatest squared length that is within the range.
+  double cells_per_m;
+  WindowChunks window;
+};
+
+/// Two rows of a scale of a depth pyramid, each as its least and its greatest depths.
+struct DepthRows {
+  std::array<const float*, 2> least;
+  std::array<const float*, 2> most;
+};
+
 /// A depth image, set up for the cells of one brick at a time.
 struct alignas(64) CellProbe {
   std::array<std::array<float, 64>, 3> offset_C;  ///< From the brick's centre to its cells' [m].
@@ -102,8 +124,9 @@ struct alignas(64) CellProbe {
 struct InnerLoops {
   /// Frees and hits the cells of two masks that have no bit in common. Returns all its cells.
   CellMasks (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
-  /// Takes points of C to W, through doubles and back to floats.
-  void (*move_points)(PointBlock& points, const PoseRows& X_WC);
+  /// Finds the cells of points of C, taken to W through doubles and back to floats: 64 times the
+  /// brick's place in the window plus the cell's bit. -1 beyond the range and outside the window.
+  void (*locate_hits)(const PointBlock& points, const HitFrame& frame, Lanes<std::int32_t>& cells);
   /// Cuts rays to the range in OctoMap's arithmetic, and finds the cells of their ends.
   void (*cut_rays)(PointBlock& ends, const RayFrame& frame);
   /// Sets rays up to walk.
@@ -113,10 +136,15 @@ struct InnerLoops {
                    RayBlock& rays);
   /// Writes the first `steps` places of each lane: lane l of step k to `places[16 k + l]`.
   void (*walk_rays)(RayBlock& rays, const WindowAxes& axes, int steps, std::uint32_t* places);
-  /// The pixels in which points of C are seen; -1 outside the image and behind it.
+  /// The pixels in which points of C are seen, and their depths, infinite where they are farther
+  /// than the range. Outside the image and behind it: the pixel after the last.
   void (*project_points)(const PointBlock& points,
                          const PixelGrid& grid,
-                         Lanes<std::int32_t>& pixels);
+                         float squared_range_m2,
+                         Lanes<std::int32_t>& pixels,
+                         Lanes<float>& depths_m);
+  /// Least and greatest depths of 2 x 2 blocks: `blocks` of them, each from two texels of a row.
+  void (*halve_rows)(const DepthRows& rows, std::size_t blocks, float* least, float* most);
   /// Which cells of the brick around `centre_C` are in view, in range, and nearer by half a cell
   /// than the depth of the pixel in which their centre is.
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
