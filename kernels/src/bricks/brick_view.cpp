@@ -3,6 +3,7 @@
 
 #include "box_words.h"
 #include "brick_walk.h"
+#include "inflation.h"
 #include "obstacle_columns.h"
 
 namespace flyball {
@@ -116,6 +117,13 @@ double BrickView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double hal
     return false;
   });
   return shape.nearest_m();
+}
+
+void BrickView::inflate(const Aabb& box_W,
+                        const Cylinder& body,
+                        Obstruction by,
+                        InflatedWindow& window) const {
+  Inflation{{map_, clear_, level_, by}}.grow(box_W, body, window);
 }
 
 void BrickView::for_each_occupied(const std::function<void(const Aabb& cube)>& show) const {

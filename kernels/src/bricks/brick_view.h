@@ -10,6 +10,7 @@
 /// whole only when no part of it is unknown, and a switch to a coarser level forgets nothing.) A
 /// place that is not finite is unknown, a way there is blocked.
 
+#include "flyball/kernels/inflated_window.h"
 #include "flyball/runtime/occupancy.h"
 
 #include "brick_map.h"
@@ -20,7 +21,7 @@ namespace flyball {
 
 class BoxWords;
 
-class BrickView final : public OccupancyView {
+class BrickView final : public OccupancyView, public Inflatable {
  public:
   /// The map outlives the view.
   explicit BrickView(const BrickMap& map) : map_{map} {}
@@ -46,6 +47,11 @@ class BrickView final : public OccupancyView {
   [[nodiscard]] double nearest_obstacle_m(const Vec3& p_W,
                                           double limit_m,
                                           double half_band_m) const override;
+
+  void inflate(const Aabb& box_W,
+               const Cylinder& body,
+               Obstruction by,
+               InflatedWindow& window) const override;
 
   /// Shows the cubes of all occupied cells of the active level, in an order that the scans decide.
   void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
