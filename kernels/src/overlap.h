@@ -69,6 +69,8 @@ class BodyShape {
   [[nodiscard]] const Aabb& bounds() const { return bounds_; }
   [[nodiscard]] const Vec3& focus() const { return p_WB_; }
   [[nodiscard]] const Cylinder& body() const { return body_; }
+  /// A rectangle overlaps the disc when its squared distance from the centre is less.
+  [[nodiscard]] double squared_reach_m2() const { return squared_reach_m2_; }
   [[nodiscard]] bool overlaps(const Aabb& box) const {
     return bounds_.max.z() - box.min.z() > touch_m && box.max.z() - bounds_.min.z() > touch_m &&
            squared_distance_xy(box, p_WB_.x(), p_WB_.y()) < squared_reach_m2_;

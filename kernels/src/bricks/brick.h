@@ -29,14 +29,17 @@ struct alignas(64) Brick {
   std::array<std::int8_t, 64> cells;
 };
 
-/// What a block of cells looks like from above.
-struct BlockSummary {
-  std::int8_t most{log_odds::unknown};
-  bool has_unknown{true};
+/// The cells of a brick in a state, as bits: cell (x, y, z) is bit 16 z + 4 y + x.
+struct CellMasks {
+  std::uint64_t occupied{};
+  std::uint64_t unknown{~std::uint64_t{0}};
 };
 
-/// The cells in a state, as bits: cell (x, y, z) is bit 16 z + 4 y + x.
-[[nodiscard]] std::uint64_t occupied_cells(const Brick& brick);
-[[nodiscard]] std::uint64_t unknown_cells(const Brick& brick);
+/// What a block of cells holds.
+struct BlockSummary {
+  bool has_occupied{};
+  bool has_unknown{true};
+  bool has_known{};
+};
 
 }  // namespace flyball

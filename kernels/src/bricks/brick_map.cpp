@@ -7,52 +7,47 @@ namespace flyball {
 namespace {
 
 constexpr std::size_t first_slots = 256;
+constexpr std::size_t near_slots = 32 * 32 * 8;
 
-/// Where in `Chunk::blocks` a level begins.
-constexpr std::array<std::size_t, 4> level_begin{0, 512, 512 + 64, 512 + 64 + 8};
+/// The cells of level 0 or 1 that a cell of the finest level is in.
+std::uint64_t cells_around(unsigned bit, int level) {
+  constexpr std::uint64_t eight = 0x330033;  // two along each axis
+  constexpr unsigned first_of_eight = 0b101010;
+  return level == 0 ? std::uint64_t{1} << bit : eight << (bit & first_of_eight);
+}
 
-std::size_t block_index(int level, std::size_t brick) {
-  const auto above = static_cast<std::size_t>(level - brick_level);
-  return level_begin[above] + (brick >> 3 * above);
+const Chunk& unknown_chunk() {
+  static const Chunk nothing{CellKey{-1, -1, -1}};
+  return nothing;
 }
 
 }  // namespace
 
 Chunk::Chunk(const CellKey& at) : key{at} {
+  has_unknown.fill(~std::uint64_t{0});
   for (Brick& brick : bricks) {
     brick.cells.fill(log_odds::unknown);
   }
 }
 
-BlockSummary& Chunk::block(int level, std::size_t brick) {
-  return blocks[block_index(level, brick)];
-}
-
-const BlockSummary& Chunk::block(int level, std::size_t brick) const {
-  return blocks[block_index(level, brick)];
-}
-
-void Chunk::set_summary(std::size_t brick, const BlockSummary& summary) {
-  block(brick_level, brick) = summary;
-  for (int above = brick_level + 1; above <= chunk_level; ++above) {
-    const std::size_t first = brick >> 3 * static_cast<unsigned>(above - brick_level)
-                                           << 3 * static_cast<unsigned>(above - brick_level);
-    const BlockSummary* parts = &block(above - 1, first);
-    BlockSummary whole = parts[0];
-    for (std::size_t part = 1; part < 8; ++part) {
-      whole.most = std::max(whole.most, parts[part].most);
-      whole.has_unknown = whole.has_unknown || parts[part].has_unknown;
-    }
-    BlockSummary& known = block(above, brick);
-    if (known.most == whole.most && known.has_unknown == whole.has_unknown) {
-      return;
-    }
-    known = whole;
-  }
+void Chunk::set_masks(std::size_t brick, const CellMasks& cells) {
+  masks[brick] = cells;
+  const std::uint64_t bit = std::uint64_t{1} << (brick & 63U);
+  const auto set = [&](BrickBits& bits, bool is) {
+    std::uint64_t& word = bits[brick >> 6U];
+    word = is ? word | bit : word & ~bit;
+  };
+  set(has_occupied, cells.occupied != 0);
+  set(has_unknown, cells.unknown != 0);
+  set(has_known, ~cells.unknown != 0);
 }
 
 BrickMap::BrickMap(double finest_m, Simd simd)
-    : lattice_{finest_m}, loops_{&inner_loops(simd)}, slots_(first_slots, nullptr) {}
+    : lattice_{finest_m},
+      loops_{&inner_loops(simd)},
+      nothing_{&unknown_chunk()},
+      near_(near_slots, NearSlot{0, 0, nothing_}),
+      slots_(first_slots, Slot{}) {}
 
 void BrickMap::reserve(std::size_t chunks) {
   while (spare_.size() < chunks) {
@@ -77,70 +72,41 @@ void BrickMap::apply(const std::vector<BrickMasks>& changes) {
       chunk = &at(key);
     }
     const std::size_t brick = brick_number(change.brick);
-    const BlockSummary summary =
-        loops_->update_brick(chunk->bricks[brick], change.free, change.hit);
-    const BlockSummary& known = chunk->block(brick_level, brick);
-    if (summary.most != known.most || summary.has_unknown != known.has_unknown) {
-      chunk->set_summary(brick, summary);
-    }
+    chunk->set_masks(brick, loops_->update_brick(chunk->bricks[brick], change.free, change.hit));
   }
 }
 
 BlockSummary BrickMap::summary(const CellKey& cell, int level) const {
-  const Chunk* chunk = find(cell.above(chunk_level - level));
-  if (chunk == nullptr) {
-    return {};
-  }
+  const Chunk& chunk = chunk_at(cell.above(chunk_level - level));
   if (level >= brick_level) {
     const int down = level - brick_level;
-    return chunk->block(level, brick_number({cell.x << down, cell.y << down, cell.z << down}));
+    return chunk.block(level, brick_number({cell.x << down, cell.y << down, cell.z << down}));
   }
-  const Brick& brick = chunk->bricks[brick_number(cell.above(brick_level - level))];
+  const CellMasks& masks = chunk.masks[brick_number(cell.above(brick_level - level))];
   const CellKey low{cell.x << level, cell.y << level, cell.z << level};
-  const unsigned first = bit_in_brick(low);
-  BlockSummary whole{brick.cells[first], brick.cells[first] == log_odds::unknown};
-  for (unsigned offset = 1; level == 1 && offset < 8; ++offset) {
-    const unsigned bit = first + (offset & 1U) + (offset >> 1U & 1U) * 4 + (offset >> 2U) * 16;
-    whole.most = std::max(whole.most, brick.cells[bit]);
-    whole.has_unknown = whole.has_unknown || brick.cells[bit] == log_odds::unknown;
-  }
-  return whole;
+  const std::uint64_t cells = cells_around(bit_in_brick(low), level);
+  return {(masks.occupied & cells) != 0, (masks.unknown & cells) != 0,
+          (~masks.unknown & cells) != 0};
 }
 
 CellState BrickMap::state(const CellKey& cell, int level) const {
   const BlockSummary whole = summary(cell, level);
-  if (log_odds::is_occupied(whole.most)) {
+  if (whole.has_occupied) {
     return CellState::occupied;
   }
   return whole.has_unknown ? CellState::unknown : CellState::free;
 }
 
-const Chunk* BrickMap::find(const CellKey& chunk) const {
-  return slots_[slot_of(chunk)];
-}
-
 std::size_t BrickMap::bytes() const {
-  return (chunks_.size() + spare_.size()) * sizeof(Chunk) + slots_.size() * sizeof(Chunk*);
-}
-
-/// The slot with this chunk, or the empty one where it belongs.
-std::size_t BrickMap::slot_of(const CellKey& chunk) const {
-  const auto packed = static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.x)) << 42U ^
-                      static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.y)) << 21U ^
-                      static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.z));
-  constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio: Knuth, TAOCP 6.4
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (packed * golden >> 32U) & mask;
-  while (slots_[slot] != nullptr && !(slots_[slot]->key == chunk)) {
-    slot = (slot + 1) & mask;
-  }
-  return slot;
+  return (chunks_.size() + spare_.size()) * sizeof(Chunk) + near_.size() * sizeof(NearSlot) +
+         slots_.size() * sizeof(Slot);
 }
 
 Chunk& BrickMap::at(const CellKey& chunk) {
-  const std::size_t slot = slot_of(chunk);
-  if (slots_[slot] != nullptr) {
-    return *slots_[slot];
+  const std::uint64_t key = packed(chunk);
+  const std::size_t slot = slot_of(key);
+  if (slots_[slot].chunk != nullptr) {
+    return *slots_[slot].chunk;
   }
   if (spare_.empty()) {
     chunks_.push_back(std::make_unique<Chunk>(chunk));
@@ -150,7 +116,11 @@ Chunk& BrickMap::at(const CellKey& chunk) {
     chunks_.back()->key = chunk;
   }
   Chunk& made = *chunks_.back();
-  slots_[slot] = &made;
+  slots_[slot] = {key, &made};
+  NearSlot& near = near_[near_slot(chunk)];
+  if (near.relevant == 0) {
+    near = {key, ~std::uint64_t{0}, &made};
+  }
   if (2 * chunks_.size() > slots_.size()) {
     rehash(2 * slots_.size());
   }
@@ -158,9 +128,10 @@ Chunk& BrickMap::at(const CellKey& chunk) {
 }
 
 void BrickMap::rehash(std::size_t slots) {
-  slots_.assign(slots, nullptr);
+  slots_.assign(slots, Slot{});
   for (const auto& chunk : chunks_) {
-    slots_[slot_of(chunk->key)] = chunk.get();
+    const std::uint64_t key = packed(chunk->key);
+    slots_[slot_of(key)] = {key, chunk.get()};
   }
 }
 

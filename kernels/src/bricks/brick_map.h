@@ -5,34 +5,51 @@
 /// The working store: what is known of every cell, at every level.
 ///
 /// Space is cut into chunks of 32 x 32 x 32 finest cells, found by hashing. A chunk holds 512
-/// bricks in Morton order, so that the eight bricks of a coarser cell are neighbours, and for each
-/// cell of level 2 (a brick) to 5 (the chunk) the greatest log-odds in it and whether any of it is
-/// unknown. They are kept up with every change, so a question about a cell of any level costs the
-/// same.
+/// bricks in Morton order, so that the eight bricks of a coarser cell are neighbours. Beside the
+/// log-odds it keeps, with every change, which cells are occupied and which are unknown (a bit
+/// each), and which bricks hold such cells. Questions look at bits only: at a level above 0 the
+/// bits of a cell are neighbours in one word (or, for the whole chunk, in eight).
 
 #include "flyball/runtime/occupancy.h"
 
 #include "inner_loops.h"
 #include "lattice.h"
 #include "scan_masks.h"
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace flyball {
+
+/// A bit for each brick of a chunk.
+using BrickBits = std::array<std::uint64_t, 8>;
 
 /// 32^3 finest cells.
 struct Chunk {
   static constexpr int bricks_per_edge = 8;
 
   CellKey key{};
+  BrickBits has_occupied{};
+  BrickBits has_unknown;
+  BrickBits has_known{};
+  std::array<CellMasks, 512> masks{};
   std::array<Brick, 512> bricks;
-  std::array<BlockSummary, 512 + 64 + 8 + 1> blocks;  ///< Levels 2, 3, 4, 5, one after the other.
 
   explicit Chunk(const CellKey& at);
+  void set_masks(std::size_t brick, const CellMasks& cells);
   /// Of the block of `level` (2..5) that contains the brick with this number.
-  [[nodiscard]] BlockSummary& block(int level, std::size_t brick);
-  [[nodiscard]] const BlockSummary& block(int level, std::size_t brick) const;
-  void set_summary(std::size_t brick, const BlockSummary& summary);
+  [[nodiscard]] BlockSummary block(int level, std::size_t brick) const {
+    return {any(has_occupied, level, brick), any(has_unknown, level, brick),
+            any(has_known, level, brick)};
+  }
+  [[nodiscard]] static bool any(const BrickBits& bits, int level, std::size_t brick) {
+    if (level == chunk_level) {
+      return (bits[0] | bits[1] | bits[2] | bits[3] | bits[4] | bits[5] | bits[6] | bits[7]) != 0;
+    }
+    const unsigned width = 1U << 3 * static_cast<unsigned>(level - brick_level);
+    const std::uint64_t block = ~std::uint64_t{0} >> (64 - width);
+    return (bits[brick >> 6U] >> (brick & 63U & ~(width - 1)) & block) != 0;
+  }
 };
 
 class BrickMap {
@@ -50,14 +67,56 @@ class BrickMap {
   [[nodiscard]] BlockSummary summary(const CellKey& cell, int level) const;
   /// A coarse cell is occupied when any part of it is, free when no part of it is unknown.
   [[nodiscard]] CellState state(const CellKey& cell, int level) const;
+  /// A chunk of unknown cells where nothing is known. What is found there decides no branch, so
+  /// that questions about random places do not wait for wrong guesses.
+  [[nodiscard]] const Chunk& chunk_at(const CellKey& chunk) const {
+    const std::uint64_t key = packed(chunk);
+    const NearSlot& near = near_[near_slot(chunk)];
+    if (((near.key ^ key) & near.relevant) == 0) {
+      return *near.chunk;
+    }
+    const Chunk* found = slots_[slot_of(key)].chunk;
+    return found == nullptr ? *nothing_ : *found;
+  }
   /// Null where nothing is known.
-  [[nodiscard]] const Chunk* find(const CellKey& chunk) const;
+  [[nodiscard]] const Chunk* find(const CellKey& chunk) const {
+    const Chunk* found = &chunk_at(chunk);
+    return found == nothing_ ? nullptr : found;
+  }
   /// In the order in which they were first seen.
   [[nodiscard]] const std::vector<std::unique_ptr<Chunk>>& chunks() const { return chunks_; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  [[nodiscard]] std::size_t slot_of(const CellKey& chunk) const;
+  struct Slot {
+    std::uint64_t key;
+    Chunk* chunk;  ///< Null where the slot is empty.
+  };
+  [[nodiscard]] static std::uint64_t packed(const CellKey& chunk) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.x)) << 42U ^
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.y)) << 21U ^
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.z));
+  }
+  /// The slot with this chunk, or the empty one where it belongs.
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
+    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio: Knuth, TAOCP 6.4
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = (key * golden >> 32U) & mask;
+    while (slots_[slot].chunk != nullptr && slots_[slot].key != key) {
+      slot = (slot + 1) & mask;
+    }
+    return slot;
+  }
+  /// The first chunk that came to this place, or none at all.
+  struct NearSlot {
+    std::uint64_t key{};
+    std::uint64_t relevant{};  ///< Bits of the key: all of them, or none where no chunk came.
+    const Chunk* chunk{};
+  };
+  /// Chunks have places of their own as long as the map is not wider than 32 x 32 x 8 of them.
+  [[nodiscard]] static std::size_t near_slot(const CellKey& chunk) {
+    return static_cast<std::size_t>((chunk.z & 7) << 10 | (chunk.y & 31) << 5 | (chunk.x & 31));
+  }
   Chunk& at(const CellKey& chunk);
   void rehash(std::size_t slots);
 
@@ -65,7 +124,9 @@ class BrickMap {
   const InnerLoops* loops_;
   std::vector<std::unique_ptr<Chunk>> chunks_{};
   std::vector<std::unique_ptr<Chunk>> spare_{};
-  std::vector<Chunk*> slots_;  ///< Open addressing; a power of two, at most half full.
+  const Chunk* nothing_;
+  std::vector<NearSlot> near_;
+  std::vector<Slot> slots_;  ///< All chunks. Open addressing; a power of two, at most half full.
 };
 
 }  // namespace flyball

@@ -10,6 +10,7 @@
 /// whole only when no part of it is unknown, and a switch to a coarser level forgets nothing.) A
 /// place that is not finite is unknown, a way there is blocked.
 
+#include "flyball/kernels/inflated_window.h"
 #include "flyball/runtime/occupancy.h"
 
 #include "brick_map.h"
@@ -18,7 +19,9 @@
 
 namespace flyball {
 
-class BrickView final : public OccupancyView {
+class BoxWords;
+
+class BrickView final : public OccupancyView, public Inflatable {
  public:
   /// The map outlives the view.
   explicit BrickView(const BrickMap& map) : map_{map} {}
@@ -45,10 +48,18 @@ class BrickView final : public OccupancyView {
                                           double limit_m,
                                           double half_band_m) const override;
 
+  void inflate(const Aabb& box_W,
+               const Cylinder& body,
+               Obstruction by,
+               InflatedWindow& window) const override;
+
   /// Shows the cubes of all occupied cells of the active level, in an order that the scans decide.
   void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
 
  private:
+  [[nodiscard]] CellState seen_at(const CellKey& cell) const;
+  [[nodiscard]] CellState seen_by(const BodyShape& shape, const BoxWords& words) const;
+
   const BrickMap& map_;
   ClearSpaces clear_{};
   int level_{};

@@ -48,7 +48,7 @@ class BrickWalk {
     std::size_t brick;
     int level;
 
-    [[nodiscard]] const BlockSummary& summary() const { return chunk.block(level, brick); }
+    [[nodiscard]] BlockSummary summary() const { return chunk.block(level, brick); }
     [[nodiscard]] Block part(unsigned octant) const {
       const auto bit = [&](unsigned axis) { return static_cast<int>(octant >> axis & 1U); };
       const std::size_t bricks = std::size_t{1}
@@ -157,7 +157,7 @@ class BrickWalk {
   [[nodiscard]] bool occupied_below(const Block& block,
                                     const Scope<Shape>& scope,
                                     Show& show) const {
-    if (!log_odds::is_occupied(block.summary().most)) {
+    if (!Chunk::any(block.chunk.has_occupied, block.level, block.brick)) {
       return false;
     }
     const Aabb cube = lattice_.cube(block.key, block.level);
@@ -168,7 +168,7 @@ class BrickWalk {
       return false;
     }
     if (block.level == brick_level) {
-      return any_cell(block, occupied_cells(block.chunk.bricks[block.brick]), level_, scope, show);
+      return any_cell(block, block.chunk.masks[block.brick].occupied, level_, scope, show);
     }
     return any_part(block, scope,
                     [&](const Block& part) { return occupied_below(part, scope, show); });
@@ -178,19 +178,19 @@ class BrickWalk {
   [[nodiscard]] bool unknown_below(const Block& block,
                                    const Scope<Shape>& scope,
                                    Show& show) const {
-    const BlockSummary& summary = block.summary();
+    const BlockSummary summary = block.summary();
     if (!summary.has_unknown) {
       return false;
     }
     const Aabb cube = lattice_.cube(block.key, block.level);
-    if (summary.most == log_odds::unknown) {
+    if (!summary.has_known) {
       return show_part(cube, scope, show);
     }
     if (!scope.shape.overlaps(cube)) {
       return false;
     }
     if (block.level == brick_level) {
-      return any_cell(block, unknown_cells(block.chunk.bricks[block.brick]), 0, scope, show);
+      return any_cell(block, block.chunk.masks[block.brick].unknown, 0, scope, show);
     }
     return any_part(block, scope,
                     [&](const Block& part) { return unknown_below(part, scope, show); });

@@ -34,6 +34,24 @@ bool ClearSpaces::contains(const Vec3& p_W) const {
   });
 }
 
+std::uint64_t ClearSpaces::cells_inside(const Lattice& lattice, const CellKey& brick) const {
+  const Aabb around = lattice.cube(brick, brick_level);
+  std::uint64_t cells = 0;
+  for (const Space& outer : spaces_) {
+    if (!BodyShape{outer.centre_W, outer.space}.overlaps(around)) {
+      continue;
+    }
+    for (int bit = 0; bit < 64; ++bit) {
+      const Aabb cube = lattice.cube(
+          {4 * brick.x + (bit & 3), 4 * brick.y + (bit >> 2 & 3), 4 * brick.z + (bit >> 4)}, 0);
+      const bool is_inside =
+          holds_heights(outer, cube.min.z(), cube.max.z()) && holds_rectangle(outer, cube);
+      cells |= (is_inside ? std::uint64_t{1} : 0) << bit;
+    }
+  }
+  return cells;
+}
+
 bool ClearSpaces::cover(const Aabb& part, const BodyShape& body) const {
   if (spaces_.empty()) {
     return false;

@@ -5,6 +5,7 @@
 /// Cylinders that were declared clear: there, and only where a map knows nothing, space is free.
 
 #include "../overlap.h"
+#include "lattice.h"
 #include <vector>
 
 namespace flyball {
@@ -18,7 +19,10 @@ class ClearSpaces {
 
   /// Ignored when an earlier cylinder contains it.
   void declare(const Vec3& centre_W, const Cylinder& space);
+  [[nodiscard]] bool is_empty() const { return spaces_.empty(); }
   [[nodiscard]] bool contains(const Vec3& p_W) const;
+  /// The cells of a brick that lie in one of the cylinders as a whole.
+  [[nodiscard]] std::uint64_t cells_inside(const Lattice& lattice, const CellKey& brick) const;
   /// Whether the cylinders cover the body's share of a box. The box is taken apart, down to 2 cm,
   /// and each piece must lie in one cylinder: its own box, or the body's disc and the piece's
   /// height.

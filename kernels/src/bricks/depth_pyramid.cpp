@@ -4,70 +4,77 @@
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace flyball {
 
-void DepthPyramid::build(const PointCloud& cloud_C, double range_m) {
+void DepthPyramid::build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops) {
   FLYBALL_ASSERT(cloud_C.camera.has_value(), "scan %llu has no camera",
                  static_cast<unsigned long long>(cloud_C.sequence));
-  const Intrinsics& camera = *cloud_C.camera;
-  width_ = camera.width_px;
-  height_ = camera.height_px;
-  depth_m_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0F);
-  put(cloud_C.hits_C, camera, static_cast<float>(range_m));
-  put(cloud_C.clear_C, camera, static_cast<float>(range_m));
-  build_scales();
+  lay_out(*cloud_C.camera);
+  std::fill(depth_m_.begin(), depth_m_.end(), 0.0F);
+  put(cloud_C.hits_C, static_cast<float>(range_m), loops);
+  put(cloud_C.clear_C, static_cast<float>(range_m), loops);
+  for (std::size_t scale = 1; scale < scales_.size(); ++scale) {
+    build_scale(scale, loops);
+  }
+}
+
+void DepthPyramid::lay_out(const Intrinsics& camera) {
+  grid_ = {static_cast<float>(camera.focal_px), static_cast<float>(camera.centre_x_px + 0.5),
+           static_cast<float>(camera.centre_y_px + 0.5), camera.width_px, camera.height_px};
+  scales_.clear();
+  scales_.push_back({0, camera.width_px, camera.height_px});
+  std::size_t texels = 0;
+  while (scales_.back().width > 1 || scales_.back().height > 1) {
+    const Scale fine = scales_.back();
+    scales_.push_back({texels, (fine.width + 1) / 2, (fine.height + 1) / 2});
+    texels += static_cast<std::size_t>(scales_.back().width) *
+              static_cast<std::size_t>(scales_.back().height);
+  }
+  depth_m_.resize(
+      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px) + 1);
+  least_m_.resize(texels);
+  most_m_.resize(texels);
 }
 
 void DepthPyramid::put(const std::vector<Eigen::Vector3f>& points_C,
-                       const Intrinsics& camera,
-                       float cut_m) {
-  const auto focal = static_cast<float>(camera.focal_px);
-  // A pixel's ray passes through its middle, which is a whole number.
-  const auto centre_u = static_cast<float>(camera.centre_x_px + 0.5);
-  const auto centre_v = static_cast<float>(camera.centre_y_px + 0.5);
-  for (const Eigen::Vector3f& p : points_C) {
-    const float scale = focal / p.z();
-    const float u = p.x() * scale + centre_u;
-    const float v = p.y() * scale + centre_v;
-    if (!(p.z() > 0.0F && u >= 0.0F && v >= 0.0F && u < static_cast<float>(width_) &&
-          v < static_cast<float>(height_))) {
-      continue;
+                       float range_m,
+                       const InnerLoops& loops) {
+  for (std::size_t first = 0; first < points_C.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, points_C.size() - first);
+    PointBlock points;
+    points.take(&points_C[first], count);
+    Lanes<std::int32_t> pixels;
+    Lanes<float> depths_m;
+    loops.project_points(points, grid_, range_m * range_m, pixels, depths_m);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {  // beyond the last point it repeats that
+      depth_m_[static_cast<std::size_t>(pixels[lane])] = depths_m[lane];
     }
-    const auto pixel = static_cast<std::size_t>(static_cast<int>(v) * width_ + static_cast<int>(u));
-    depth_m_[pixel] =
-        p.squaredNorm() > cut_m * cut_m ? std::numeric_limits<float>::infinity() : p.z();
   }
 }
 
-void DepthPyramid::build_scales() {
-  scales_.clear();
-  spans_.clear();
-  scales_.push_back({0, width_, height_});
-  for (const float depth : depth_m_) {
-    spans_.push_back({depth, depth});
-  }
-  while (scales_.back().width > 1 || scales_.back().height > 1) {
-    const Scale fine = scales_.back();
-    const Scale coarse{spans_.size(), (fine.width + 1) / 2, (fine.height + 1) / 2};
-    spans_.resize(coarse.first + static_cast<std::size_t>(coarse.width * coarse.height));
-    DepthSpan* out = &spans_[coarse.first];
-    for (int v = 0; v < coarse.height; ++v) {
-      const DepthSpan* upper = &spans_[fine.first + static_cast<std::size_t>(2 * v * fine.width)];
-      const DepthSpan* lower = 2 * v + 1 < fine.height ? upper + fine.width : upper;
-      for (int u = 0; u < coarse.width; ++u) {
-        const int left = 2 * u;
-        const int right = std::min(left + 1, fine.width - 1);
-        const DepthSpan parts[4] = {upper[left], upper[right], lower[left], lower[right]};
-        *out++ = {std::min(std::min(parts[0].least, parts[1].least),
-                           std::min(parts[2].least, parts[3].least)),
-                  std::max(std::max(parts[0].most, parts[1].most),
-                           std::max(parts[2].most, parts[3].most))};
-      }
+DepthRows DepthPyramid::rows(std::size_t scale, int upper, int lower) const {
+  const Scale& at = scales_[scale];
+  const float* least = scale == 0 ? depth_m_.data() : least_m_.data() + at.first;
+  const float* most = scale == 0 ? depth_m_.data() : most_m_.data() + at.first;
+  const auto up = static_cast<std::ptrdiff_t>(upper) * at.width;
+  const auto low = static_cast<std::ptrdiff_t>(lower) * at.width;
+  return {{least + up, least + low}, {most + up, most + low}};
+}
+
+void DepthPyramid::build_scale(std::size_t scale, const InnerLoops& loops) {
+  const Scale& fine = scales_[scale - 1];
+  const Scale& coarse = scales_[scale];
+  const auto pairs = static_cast<std::size_t>(fine.width / 2);
+  for (int v = 0; v < coarse.height; ++v) {
+    const DepthRows from = rows(scale - 1, 2 * v, std::min(2 * v + 1, fine.height - 1));
+    const std::size_t first = coarse.first + static_cast<std::size_t>(v * coarse.width);
+    loops.halve_rows(from, pairs, &least_m_[first], &most_m_[first]);
+    if (fine.width % 2 != 0) {  // the last texel has no neighbour
+      least_m_[first + pairs] = std::min(from.least[0][2 * pairs], from.least[1][2 * pairs]);
+      most_m_[first + pairs] = std::max(from.most[0][2 * pairs], from.most[1][2 * pairs]);
     }
-    scales_.push_back(coarse);
   }
 }
 
@@ -78,13 +85,12 @@ DepthSpan DepthPyramid::span(const PixelBlock& block) const {
   while (edge >> scale > 1 && scale + 1 < scales_.size()) {
     ++scale;
   }
-  const Scale& at = scales_[scale];
   DepthSpan whole{std::numeric_limits<float>::infinity(), 0.0F};
   for (int v = block.v0 >> scale; v <= block.v1 >> scale; ++v) {
-    const DepthSpan* row = &spans_[at.first + static_cast<std::size_t>(v * at.width)];
+    const DepthRows row = rows(scale, v, v);
     for (int u = block.u0 >> scale; u <= block.u1 >> scale; ++u) {
-      whole.least = std::min(whole.least, row[u].least);
-      whole.most = std::max(whole.most, row[u].most);
+      whole.least = std::min(whole.least, row.least[0][u]);
+      whole.most = std::max(whole.most, row.most[0][u]);
     }
   }
   return whole;

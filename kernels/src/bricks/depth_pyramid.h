@@ -7,6 +7,7 @@
 
 #include "flyball/runtime/messages.h"
 
+#include "inner_loops.h"
 #include <cstddef>
 #include <vector>
 
@@ -32,28 +33,30 @@ class DepthPyramid {
   /// depth 0: nothing was seen there. One that is clear up to `range_m` has depth infinity.
   ///
   /// @pre The cloud has a camera.
-  void build(const PointCloud& cloud_C, double range_m);
+  void build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops);
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] const PixelGrid& grid() const { return grid_; }
+  /// The finest scale, row by row.
   [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }
   /// @pre The block lies in the image. May look at pixels beside it.
   [[nodiscard]] DepthSpan span(const PixelBlock& block) const;
 
  private:
   struct Scale {
-    std::size_t first;  ///< In `spans_`.
+    std::size_t first;  ///< In `least_m_` and `most_m_`; nothing there for the finest scale.
     int width;
     int height;
   };
-  void put(const std::vector<Eigen::Vector3f>& points_C, const Intrinsics& camera, float cut_m);
-  void build_scales();
+  void lay_out(const Intrinsics& camera);
+  void put(const std::vector<Eigen::Vector3f>& points_C, float range_m, const InnerLoops& loops);
+  void build_scale(std::size_t scale, const InnerLoops& loops);
+  [[nodiscard]] DepthRows rows(std::size_t scale, int upper, int lower) const;
 
-  int width_{};
-  int height_{};
-  std::vector<float> depth_m_{};
+  PixelGrid grid_{};
   std::vector<Scale> scales_{};
-  std::vector<DepthSpan> spans_{};
+  std::vector<float> depth_m_{};  ///< The finest scale, and one spare pixel.
+  std::vector<float> least_m_{};  ///< The others, one after the other.
+  std::vector<float> most_m_{};
 };
 
 }  // namespace flyball

@@ -12,10 +12,10 @@ constexpr float nearest_depth_m = 0.05F;  // nearer, a block's image has no boun
 }  // namespace
 
 void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
-  depth_.build(cloud_C, range_m);
+  depth_.build(cloud_C, range_m, loops_);
   const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
   measure_cubes(R_CW, range_m);
-  aim_probe(R_CW, *cloud_C.camera, range_m);
+  aim_probe(R_CW, range_m);
 }
 
 void DepthView::measure_cubes(const Eigen::Matrix3d& R_CW, double range_m) {
@@ -34,7 +34,7 @@ void DepthView::measure_cubes(const Eigen::Matrix3d& R_CW, double range_m) {
   }
 }
 
-void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera, double range_m) {
+void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, double range_m) {
   for (int cell = 0; cell < 64; ++cell) {
     const Vec3 from_centre{cell % 4 - 1.5, cell / 4 % 4 - 1.5, cell / 16 - 1.5};
     const Eigen::Vector3f offset_C = (R_CW * (finest_m_ * from_centre)).cast<float>();
@@ -43,12 +43,7 @@ void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera,
           offset_C[axis];
     }
   }
-  probe_.focal_px = static_cast<float>(camera.focal_px);
-  // A pixel's ray passes through its middle, which is a whole number.
-  probe_.centre_u_px = static_cast<float>(camera.centre_x_px + 0.5);
-  probe_.centre_v_px = static_cast<float>(camera.centre_y_px + 0.5);
-  probe_.width_px = camera.width_px;
-  probe_.height_px = camera.height_px;
+  probe_.grid = depth_.grid();
   probe_.nearest_m = nearest_depth_m;
   probe_.squared_range_m2 = static_cast<float>(range_m * range_m);
   probe_.half_cell_m = static_cast<float>(0.5 * finest_m_);
@@ -56,6 +51,7 @@ void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera,
 }
 
 Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
+  const PixelGrid& grid = probe_.grid;
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();
   const float last_z = centre_C.z() + extent.half.z();
@@ -67,16 +63,16 @@ Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
     return Sight::part;
   }
   // The image of the box of C around the cube: at its near end where it spreads, else at its far.
-  const float near_scale = probe_.focal_px / first_z;
-  const float far_scale = probe_.focal_px / last_z;
+  const float near_scale = grid.focal_px / first_z;
+  const float far_scale = grid.focal_px / last_z;
   const auto low_px = [&](float x) { return x * (x < 0.0F ? near_scale : far_scale); };
   const auto high_px = [&](float x) { return x * (x < 0.0F ? far_scale : near_scale); };
-  const float u0 = low_px(centre_C.x() - extent.half.x()) + probe_.centre_u_px;
-  const float u1 = high_px(centre_C.x() + extent.half.x()) + probe_.centre_u_px;
-  const float v0 = low_px(centre_C.y() - extent.half.y()) + probe_.centre_v_px;
-  const float v1 = high_px(centre_C.y() + extent.half.y()) + probe_.centre_v_px;
-  const auto width = static_cast<float>(probe_.width_px);
-  const auto height = static_cast<float>(probe_.height_px);
+  const float u0 = low_px(centre_C.x() - extent.half.x()) + grid.centre_u_px;
+  const float u1 = high_px(centre_C.x() + extent.half.x()) + grid.centre_u_px;
+  const float v0 = low_px(centre_C.y() - extent.half.y()) + grid.centre_v_px;
+  const float v1 = high_px(centre_C.y() + extent.half.y()) + grid.centre_v_px;
+  const auto width = static_cast<float>(grid.width_px);
+  const auto height = static_cast<float>(grid.height_px);
   if (u1 < 0.0F || v1 < 0.0F || u0 >= width || v0 >= height) {
     return Sight::none;
   }

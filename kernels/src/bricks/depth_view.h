@@ -20,7 +20,7 @@ enum class Sight : std::uint8_t {
 
 class DepthView {
  public:
-  explicit DepthView(double finest_m) : finest_m_{finest_m} {}
+  DepthView(double finest_m, const InnerLoops& loops) : finest_m_{finest_m}, loops_{loops} {}
 
   /// @pre The cloud has a camera.
   void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
@@ -41,9 +41,10 @@ class DepthView {
     float squared_far{};   ///< Centres farther than this: it is out of range.
   };
   void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
-  void aim_probe(const Eigen::Matrix3d& R_CW, const Intrinsics& camera, double range_m);
+  void aim_probe(const Eigen::Matrix3d& R_CW, double range_m);
 
   double finest_m_;
+  const InnerLoops& loops_;
   DepthPyramid depth_{};
   std::array<Extent, chunk_level + 1> extents_{};
   std::array<std::array<Eigen::Vector3f, 8>, chunk_level + 1> to_octant_C_{};

@@ -2,36 +2,53 @@
 #include "inner_loops.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 namespace flyball {
 namespace {
 
-/// One bit of a mask becomes one byte, not zero where the bit is set.
-struct alignas(64) ByteMask {
-  std::uint64_t rows[8];
-};
-inline ByteMask byte_mask(std::uint64_t mask) {
-  constexpr std::uint64_t copies = 0x0101010101010101;
-  constexpr std::uint64_t one_bit_each = 0x8040201008040201;
-  ByteMask bytes;
-  for (unsigned row = 0; row < 8; ++row) {
-    bytes.rows[row] = (mask >> 8 * row & 0xff) * copies & one_bit_each;
-  }
-  return bytes;
-}
+constexpr int half_keys = 32768;
+constexpr double latest_unit = (1 << 30) - 1.0;  // twice this still fits into an integer
+constexpr double least_direction = 1e-12;        // so slow that no border is ever reached
 
-/// The lowest bits of eight bytes as one byte.
-inline std::uint64_t gathered(std::uint64_t bytes) {
+/// The top bits of eight bytes as one byte.
+[[maybe_unused]] inline std::uint64_t gathered(std::uint64_t bytes) {
   constexpr std::uint64_t lowest = 0x0101010101010101;
   constexpr std::uint64_t to_top_byte = 0x0102040810204080;
-  return (bytes & lowest) * to_top_byte >> 56U;
+  return (bytes >> 7U & lowest) * to_top_byte >> 56U;
 }
 
 // The pragmas, and not flags for a file, set the instruction set: they do not reach the inline
 // functions of other headers, of which the linker keeps one copy for the whole program.
 namespace portable {
 constexpr std::size_t vector_bytes = 16;
+using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
+/// All bits of a byte, or none, for each of the lowest bits of a mask.
+inline Bytes bytes_of(std::uint64_t mask) {
+  constexpr std::uint64_t copies = 0x0101010101010101;
+  constexpr std::uint64_t one_bit_each = 0x8040201008040201;
+  const std::uint64_t rows[2] = {(mask & 0xff) * copies & one_bit_each,
+                                 (mask >> 8U & 0xff) * copies & one_bit_each};
+  Bytes bytes;
+  std::memcpy(&bytes, rows, sizeof bytes);
+  return bytes != 0;
+}
+/// The top bits of the bytes.
+inline std::uint64_t sign_bits(const Bytes& bytes) {
+#if defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(reinterpret_cast<__m128i>(bytes)));
+#else
+  std::uint64_t rows[2];
+  std::memcpy(rows, &bytes, sizeof rows);
+  return gathered(rows[0]) | gathered(rows[1]) << 8U;
+#endif
+}
 #include "inner_loops.inc"
 }  // namespace portable
 
@@ -40,11 +57,30 @@ constexpr std::size_t vector_bytes = 16;
 #pragma GCC target("avx2")
 namespace avx2 {
 constexpr std::size_t vector_bytes = 32;
+using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
+inline Bytes bytes_of(std::uint64_t mask) {
+  // Each byte of the mask goes to eight bytes, of which each keeps one bit.
+  const __m256i copies = _mm256_shuffle_epi8(
+      _mm256_set1_epi32(static_cast<int>(mask)),
+      _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303));
+  const __m256i one_bit_each = _mm256_set1_epi64x(static_cast<long long>(0x8040201008040201));
+  return reinterpret_cast<Bytes>(_mm256_and_si256(copies, one_bit_each)) != 0;
+}
+inline std::uint64_t sign_bits(const Bytes& bytes) {
+  return static_cast<std::uint32_t>(_mm256_movemask_epi8(reinterpret_cast<__m256i>(bytes)));
+}
 #include "inner_loops.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
 namespace avx512 {
 constexpr std::size_t vector_bytes = 64;
+using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
+inline Bytes bytes_of(std::uint64_t mask) {
+  return reinterpret_cast<Bytes>(_mm512_movm_epi8(mask));
+}
+inline std::uint64_t sign_bits(const Bytes& bytes) {
+  return _mm512_movepi8_mask(reinterpret_cast<__m512i>(bytes));
+}
 #include "inner_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options
@@ -88,11 +124,15 @@ Simd widest_simd() {
 }
 
 const InnerLoops& inner_loops(Simd simd) {
-  static constexpr InnerLoops of_portable{portable::update_brick, portable::walk_rays,
-                                          portable::seen_cells};
-  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::walk_rays, avx2::seen_cells};
-  static constexpr InnerLoops of_avx512{avx512::update_brick, avx512::walk_rays,
-                                        avx512::seen_cells};
+  static constexpr InnerLoops of_portable{
+      portable::update_brick, portable::locate_hits,    portable::cut_rays,   portable::aim_rays,
+      portable::walk_rays,    portable::project_points, portable::halve_rows, portable::seen_cells};
+  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::locate_hits, avx2::cut_rays,
+                                      avx2::aim_rays,     avx2::walk_rays,   avx2::project_points,
+                                      avx2::halve_rows,   avx2::seen_cells};
+  static constexpr InnerLoops of_avx512{
+      avx512::update_brick, avx512::locate_hits,    avx512::cut_rays,   avx512::aim_rays,
+      avx512::walk_rays,    avx512::project_points, avx512::halve_rows, avx512::seen_cells};
   return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
 }
 

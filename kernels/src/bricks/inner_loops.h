@@ -24,49 +24,137 @@ enum class Simd : std::uint8_t {
 [[nodiscard]] std::vector<Simd> supported_simd();
 [[nodiscard]] Simd widest_simd();
 
+/// One value for each of sixteen rays or points.
+inline constexpr std::size_t lanes = 16;
+template <class T>
+using Lanes = std::array<T, lanes>;
+
+/// Sixteen points, and the cells in which they are. The lanes beyond the last point repeat it.
+struct alignas(64) PointBlock {
+  std::array<Lanes<float>, 3> p;  ///< [m]
+  std::array<Lanes<std::int32_t>, 3> key;
+  Lanes<std::int32_t> reaches;  ///< Not 0 where the point is within the range.
+
+  /// @param count  1 to 16.
+  template <class Point>
+  void take(const Point* points, std::size_t count) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Point& point = points[lane < count ? lane : count - 1];
+      p[0][lane] = point.x();
+      p[1][lane] = point.y();
+      p[2][lane] = point.z();
+    }
+  }
+};
+
+/// What all rays of a scan have in common.
+struct RayFrame {
+  std::array<float, 3> origin_W;
+  double range_m;
+  double cell_m;
+  double cells_per_m;
+  std::array<std::int32_t, 3> start;              ///< Key of the cell of the origin.
+  std::array<std::array<double, 2>, 3> border_m;  ///< From the origin back and on to its borders.
+  double units_per_m;                             ///< Of the integer times; see ray_scan.h.
+};
+
 /// Sixteen rays that step from cell to cell. Times at which they cross the next border are integers
 /// (see ray_scan.h); a cell's place in the window is the sum of three spread coordinates (see
 /// mark_window.h).
 struct alignas(64) RayBlock {
-  static constexpr std::size_t lanes = 16;
-  template <class T>
-  using Lanes = std::array<T, lanes>;
-
   std::array<Lanes<std::int32_t>, 3> next_t;
   std::array<Lanes<std::int32_t>, 3> delta_t;
   std::array<Lanes<std::uint32_t>, 3> step;   ///< One cell forward or, modulo 2^32, back.
   std::array<Lanes<std::uint32_t>, 3> carry;  ///< Bits that a step forward must carry across.
+  Lanes<std::int32_t> steps;                  ///< To the end's cell.
+  Lanes<std::int32_t> is_sure;                ///< Not 0 where no rounding can hide the end.
   Lanes<std::int32_t> closest;  ///< Out: least time between two borders that were crossed in turn.
 };
 
 struct WindowAxes {
+  std::array<std::uint32_t, 3> unit;   ///< The step along the axis.
   std::array<std::uint32_t, 3> bits;   ///< Which bits of a place belong to the axis.
   std::array<std::uint32_t, 3> start;  ///< Where the rays begin.
+};
+
+/// From C to W, row by row.
+using PoseRows = std::array<std::array<double, 4>, 3>;
+
+/// Where a point of C is seen.
+struct PixelGrid {
+  float focal_px;
+  float centre_u_px;  ///< A pixel's ray passes through its middle: half a pixel is added to both.
+  float centre_v_px;
+  std::int32_t width_px;
+  std::int32_t height_px;
+};
+
+/// The cells of a window of chunks (see mask_window.h).
+struct WindowChunks {
+  std::array<std::int32_t, 3> first;   ///< Key of its first cell.
+  std::array<std::int32_t, 3> size;    ///< In cells.
+  std::array<std::int32_t, 3> stride;  ///< From chunk to chunk along each axis.
+};
+
+/// How points of C become cells of W.
+struct HitFrame {
+  PoseRows X_WC;
+  std::array<float, 3> origin_W;
+  float squared_range_m2;  ///< The greatest squared length that is within the range.
+  double cells_per_m;
+  WindowChunks window;
+};
+
+/// Two rows of a scale of a depth pyramid, each as its least and its greatest depths.
+struct DepthRows {
+  std::array<const float*, 2> least;
+  std::array<const float*, 2> most;
 };
 
 /// A depth image, set up for the cells of one brick at a time.
 struct alignas(64) CellProbe {
   std::array<std::array<float, 64>, 3> offset_C;  ///< From the brick's centre to its cells' [m].
-  float focal_px;
-  float centre_u_px;
-  float centre_v_px;
+  PixelGrid grid;
   float nearest_m;
   float squared_range_m2;
   float half_cell_m;
-  int width_px;
-  int height_px;
   const float* depth_m;
 };
 
 struct InnerLoops {
-  /// Frees and hits the cells of two masks that have no bit in common.
-  BlockSummary (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
+  /// Frees and hits the cells of two masks that have no bit in common. Returns all its cells.
+  CellMasks (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
+  /// Finds the cells of points of C, taken to W through doubles and back to floats: 64 times the
+  /// brick's place in the window plus the cell's bit. -1 beyond the range and outside the window.
+  void (*locate_hits)(const PointBlock& points, const HitFrame& frame, Lanes<std::int32_t>& cells);
+  /// Cuts rays to the range in OctoMap's arithmetic, and finds the cells of their ends.
+  void (*cut_rays)(PointBlock& ends, const RayFrame& frame);
+  /// Sets rays up to walk.
+  void (*aim_rays)(const PointBlock& ends,
+                   const RayFrame& frame,
+                   const WindowAxes& axes,
+                   RayBlock& rays);
   /// Writes the first `steps` places of each lane: lane l of step k to `places[16 k + l]`.
   void (*walk_rays)(RayBlock& rays, const WindowAxes& axes, int steps, std::uint32_t* places);
+  /// The pixels in which points of C are seen, and their depths, infinite where they are farther
+  /// than the range. Outside the image and behind it: the pixel after the last.
+  void (*project_points)(const PointBlock& points,
+                         const PixelGrid& grid,
+                         float squared_range_m2,
+                         Lanes<std::int32_t>& pixels,
+                         Lanes<float>& depths_m);
+  /// Least and greatest depths of 2 x 2 blocks: `blocks` of them, each from two texels of a row.
+  void (*halve_rows)(const DepthRows& rows, std::size_t blocks, float* least, float* most);
   /// Which cells of the brick around `centre_C` are in view, in range, and nearer by half a cell
   /// than the depth of the pixel in which their centre is.
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
 };
+
+/// By how many units the gap of two rounded crossings may be wrong: each began half a unit off, and
+/// went half a unit further off with every step.
+[[nodiscard]] constexpr int doubt_units(int steps) {
+  return steps / 2 + 3;
+}
 
 /// @pre `simd` is supported.
 [[nodiscard]] const InnerLoops& inner_loops(Simd simd);

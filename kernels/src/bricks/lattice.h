@@ -9,7 +9,6 @@
 #include "flyball/runtime/geometry.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -32,9 +31,9 @@ inline constexpr int chunk_level = 5;
 /// Bricks of a chunk are numbered in Morton order: bits 0, 3, 6 are x. So the eight bricks of a
 /// coarser cell, and the 64 of the next coarser one, are neighbours.
 [[nodiscard]] inline std::size_t brick_number(const CellKey& brick) {
-  constexpr std::array<std::uint8_t, 8> every_third_bit{0, 1, 8, 9, 64, 65, 72, 73};
-  const auto bits = [&](int key) {
-    return std::size_t{every_third_bit[static_cast<std::size_t>(key & 7)]};
+  const auto bits = [](int key) {
+    const auto offset = static_cast<unsigned>(key);
+    return std::size_t{(offset & 1U) | (offset & 2U) << 2U | (offset & 4U) << 4U};
   };
   return bits(brick.x) | bits(brick.y) << 1U | bits(brick.z) << 2U;
 }
@@ -54,8 +53,11 @@ class Lattice {
   [[nodiscard]] double cell_m(int level) const { return finest_m_ * (1 << level); }
   [[nodiscard]] double edge_m() const { return half_keys * finest_m_; }
   /// OctoMap's arithmetic: a product, and not a quotient, decides at the borders of cells.
+  /// @pre The result fits into an integer.
   [[nodiscard]] int key(double x_m) const {
-    return static_cast<int>(std::floor(cells_per_m_ * x_m)) + half_keys;
+    const double cells = cells_per_m_ * x_m;
+    const int towards_zero = static_cast<int>(cells);  // std::floor is a call before SSE4.1
+    return towards_zero - static_cast<int>(cells < static_cast<double>(towards_zero)) + half_keys;
   }
   /// @pre `contains(p)`.
   [[nodiscard]] CellKey cell(const Vec3& p) const { return {key(p.x()), key(p.y()), key(p.z())}; }
@@ -63,6 +65,10 @@ class Lattice {
   [[nodiscard]] bool contains(const Vec3& p) const {
     const double edge = edge_m();
     return (p.array() >= -edge).all() && (p.array() < edge).all();
+  }
+  /// Where a finest cell begins and ends along an axis.
+  [[nodiscard]] std::array<double, 2> side(int key) const {
+    return {(key - half_keys) * finest_m_, (key + 1 - half_keys) * finest_m_};
   }
   [[nodiscard]] Aabb cube(const CellKey& cell, int level) const {
     const auto low_m = [&](int key) { return ((key << level) - half_keys) * finest_m_; };

@@ -3,7 +3,7 @@
 
 #include "flyball/runtime/assert.h"
 
-#include <bitset>
+#include "bits.h"
 
 namespace flyball {
 namespace {
@@ -13,10 +13,6 @@ std::uint64_t gathered(std::uint64_t bytes) {
   constexpr std::uint64_t lowest = 0x0101010101010101;
   constexpr std::uint64_t to_top_byte = 0x0102040810204080;
   return (bytes & lowest) * to_top_byte >> 56U;
-}
-
-std::size_t count(std::uint64_t mask) {
-  return std::bitset<64>{mask}.count();
 }
 
 }  // namespace
@@ -76,7 +72,7 @@ std::size_t MarkWindow::collect_chunk(const CellKey& chunk, std::vector<BrickMas
     if ((masks.free | masks.hit) != 0) {
       line = Line{};
       masks.brick = {first_brick_[0] + x, first_brick_[1] + y, first_brick_[2] + z};
-      cells += count(masks.free | masks.hit);
+      cells += count_bits(masks.free | masks.hit);
       bricks.push_back(masks);
     }
   }

@@ -34,11 +34,9 @@ class MarkWindow {
   [[nodiscard]] std::uint32_t bits(std::size_t axis) const { return bits_[axis]; }
   static std::uint32_t unit(std::size_t axis) { return 1U << 2 * axis; }
 
-  void mark(std::uint32_t place, std::uint8_t mark) {
-    reinterpret_cast<std::uint8_t*>(lines_.data())[place] |= mark;  // NOLINT: bytes of the lines
-  }
-  void mark_free(std::uint32_t place) {
-    reinterpret_cast<std::uint8_t*>(lines_.data())[place] = free_mark;  // NOLINT
+  /// One byte for each place.
+  [[nodiscard]] std::uint8_t* marks() {
+    return reinterpret_cast<std::uint8_t*>(lines_.data());  // NOLINT: bytes of the lines
   }
   /// Appends the bricks with marks, wipes them, and returns how many cells these are.
   std::size_t collect(std::vector<BrickMasks>& bricks);

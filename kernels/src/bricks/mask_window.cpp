@@ -3,68 +3,58 @@
 
 #include "flyball/runtime/assert.h"
 
-#include <bitset>
+#include "bits.h"
+#include <algorithm>
 
 namespace flyball {
 namespace {
 
-std::size_t count(std::uint64_t mask) {
-  return std::bitset<64>{mask}.count();
-}
-
-/// Takes the lowest bit out, and says which one it was.
-std::size_t pop_lowest(std::uint64_t& bits) {
-  const std::uint64_t lowest = bits & (~bits + 1);
-  bits &= ~lowest;
-  return count(lowest - 1);
-}
-
-/// Appends the masks of one chunk and wipes them.
-std::size_t collect_chunk(ChunkMasks& masks,
-                          const CellKey& chunk,
-                          std::vector<BrickMasks>& bricks) {
-  std::size_t cells = 0;
-  for (std::size_t word = 0; word < masks.touched.size(); ++word) {
-    for (std::uint64_t left = masks.touched[word]; left != 0;) {
-      const std::size_t number = 64 * word + pop_lowest(left);
-      const std::uint64_t hit = masks.hit[number];
-      const std::uint64_t free = masks.free[number] & ~hit;
-      bricks.push_back(
-          {{8 * chunk.x + brick_offset(number, 0), 8 * chunk.y + brick_offset(number, 1),
-            8 * chunk.z + brick_offset(number, 2)},
-           free,
-           hit});
-      cells += count(free | hit);
-      masks.free[number] = 0;
-      masks.hit[number] = 0;
-    }
-    masks.touched[word] = 0;
-  }
-  return cells;
-}
+constexpr std::size_t bricks_in_chunk = 512;
+constexpr std::size_t words_in_chunk = bricks_in_chunk / 64;
 
 }  // namespace
 
 void MaskWindow::span(const CellKey& first, const CellKey& last) {
   first_ = first;
   size_ = {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1};
-  const std::size_t needed = index(last) + 1;
-  if (needed > chunks_.size()) {
-    chunks_.resize(needed);
+  const auto chunks = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+                      static_cast<std::size_t>(size_.z);
+  FLYBALL_ASSERT(chunks < 65536, "chunks=%zu", chunks);
+  if (chunks * words_in_chunk > touched_.size()) {
+    masks_.resize(chunks * bricks_in_chunk);
+    touched_.resize(chunks * words_in_chunk);
   }
 }
 
-ChunkMasks& MaskWindow::at(const CellKey& chunk) {
-  FLYBALL_ASSERT(contains(chunk), "chunk %d %d %d", chunk.x, chunk.y, chunk.z);
-  return chunks_[index(chunk)];
+WindowChunks MaskWindow::chunks() const {
+  return {{32 * first_.x, 32 * first_.y, 32 * first_.z},
+          {32 * size_.x, 32 * size_.y, 32 * size_.z},
+          {1, size_.x, size_.x * size_.y}};
 }
 
-bool MaskWindow::contains(const CellKey& chunk) const {
+std::size_t MaskWindow::place(const CellKey& chunk) const {
   const auto is_inside = [](int at, int size) {
     return static_cast<unsigned>(at) < static_cast<unsigned>(size);
   };
-  return is_inside(chunk.x - first_.x, size_.x) && is_inside(chunk.y - first_.y, size_.y) &&
-         is_inside(chunk.z - first_.z, size_.z);
+  FLYBALL_ASSERT(is_inside(chunk.x - first_.x, size_.x) && is_inside(chunk.y - first_.y, size_.y) &&
+                     is_inside(chunk.z - first_.z, size_.z),
+                 "chunk %d %d %d", chunk.x, chunk.y, chunk.z);
+  return bricks_in_chunk *
+         static_cast<std::size_t>(((chunk.z - first_.z) * size_.y + chunk.y - first_.y) * size_.x +
+                                  chunk.x - first_.x);
+}
+
+void MaskWindow::free_block(std::size_t place, std::size_t bricks) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  for (std::size_t brick = place; brick < place + bricks; ++brick) {
+    masks_[brick].free = all;
+  }
+  const std::size_t word = place >> 6U;
+  if (bricks < 64) {
+    touched_[word] |= (all >> (64 - bricks)) << (place & 63U);
+  } else {
+    std::fill_n(&touched_[word], bricks / 64, all);
+  }
 }
 
 std::size_t MaskWindow::collect(std::vector<BrickMasks>& bricks) {
@@ -72,17 +62,33 @@ std::size_t MaskWindow::collect(std::vector<BrickMasks>& bricks) {
   for (int z = 0; z < size_.z; ++z) {
     for (int y = 0; y < size_.y; ++y) {
       for (int x = 0; x < size_.x; ++x) {
-        const CellKey chunk{first_.x + x, first_.y + y, first_.z + z};
-        cells += collect_chunk(chunks_[index(chunk)], chunk, bricks);
+        cells += collect_chunk({first_.x + x, first_.y + y, first_.z + z}, bricks);
       }
     }
   }
   return cells;
 }
 
-std::size_t MaskWindow::index(const CellKey& chunk) const {
-  return static_cast<std::size_t>(((chunk.z - first_.z) * size_.y + chunk.y - first_.y) * size_.x +
-                                  chunk.x - first_.x);
+std::size_t MaskWindow::collect_chunk(const CellKey& chunk, std::vector<BrickMasks>& bricks) {
+  const std::size_t first = place(chunk);
+  std::size_t cells = 0;
+  for (std::size_t word = 0; word < words_in_chunk; ++word) {
+    std::uint64_t& touched = touched_[first / 64 + word];
+    for (std::uint64_t left = touched; left != 0; left &= left - 1) {
+      const std::size_t number = 64 * word + lowest_bit(left);
+      Masks& masks = masks_[first + number];
+      const std::uint64_t free = masks.free & ~masks.hit;
+      bricks.push_back(
+          {{8 * chunk.x + brick_offset(number, 0), 8 * chunk.y + brick_offset(number, 1),
+            8 * chunk.z + brick_offset(number, 2)},
+           free,
+           masks.hit});
+      cells += count_bits(free | masks.hit);
+      masks = Masks{};
+    }
+    touched = 0;
+  }
+  return cells;
 }
 
 }  // namespace flyball

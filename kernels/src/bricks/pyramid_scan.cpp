@@ -3,11 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
+namespace {
+
+/// The greatest float whose root, in double, is at most `length`: a length that octomath computes
+/// (the root of a square in float) is held against the range without a root.
+float greatest_square(double length) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  auto square = static_cast<float>(length * length);
+  while (std::sqrt(static_cast<double>(square)) > length) {
+    square = std::nextafter(square, 0.0F);
+  }
+  while (std::sqrt(static_cast<double>(std::nextafter(square, infinity))) <= length) {
+    square = std::nextafter(square, infinity);
+  }
+  return square;
+}
+
+}  // namespace
 
 PyramidScan::PyramidScan(double finest_m, Simd simd)
-    : lattice_{finest_m}, loops_{inner_loops(simd)}, view_{finest_m} {}
+    : lattice_{finest_m}, loops_{inner_loops(simd)}, view_{finest_m, loops_} {}
 
 const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
                                       const Pose& X_WC,
@@ -35,14 +53,14 @@ const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
 
 /// The box around the camera and the far corners of its view.
 void PyramidScan::span_window(const Pose& X_WC, double range_m) {
-  const CellProbe& probe = view_.probe();
+  const PixelGrid& grid = view_.probe().grid;
   const Vec3 p_WC = X_WC.translation();
   Vec3 low = p_WC;
   Vec3 high = p_WC;
-  for (const float u : {0.0F, static_cast<float>(probe.width_px)}) {
-    for (const float v : {0.0F, static_cast<float>(probe.height_px)}) {
-      const Vec3 corner_C{(u - probe.centre_u_px) / probe.focal_px,
-                          (v - probe.centre_v_px) / probe.focal_px, 1.0};
+  for (const float u : {0.0F, static_cast<float>(grid.width_px)}) {
+    for (const float v : {0.0F, static_cast<float>(grid.height_px)}) {
+      const Vec3 corner_C{(u - grid.centre_u_px) / grid.focal_px,
+                          (v - grid.centre_v_px) / grid.focal_px, 1.0};
       const Vec3 corner_W = X_WC * (range_m * corner_C);
       low = low.cwiseMin(corner_W);
       high = high.cwiseMax(corner_W);
@@ -56,23 +74,30 @@ void PyramidScan::span_window(const Pose& X_WC, double range_m) {
   window_.span(first_chunk_, last_chunk_);
 }
 
-// Poses and points are rounded as the ray front-ends round them, so that hits fall into the same
-// cells.
+// Points are moved, rounded and held against the range as for the ray front-ends, so that hits fall
+// into the same cells.
 void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
-  const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
-  for (const Eigen::Vector3f& p_C : cloud_C.hits_C) {
-    const Eigen::Vector3f p_W = (X_WC * p_C.cast<double>()).cast<float>();
-    const Eigen::Vector3f ray = p_W - origin_W;
-    const float squared = ray.x() * ray.x() + ray.y() * ray.y() + ray.z() * ray.z();
-    if (std::sqrt(static_cast<double>(squared)) > range_m) {
-      continue;
+  HitFrame frame{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      frame.X_WC[row][column] = X_WC.matrix()(static_cast<int>(row), static_cast<int>(column));
     }
-    const CellKey cell = lattice_.cell(p_W.cast<double>());
-    const CellKey chunk = cell.above(chunk_level);
-    // Outside only by rounding, at the very edge of the view.
-    if (window_.contains(chunk)) {
-      window_.at(chunk).add_hit(brick_number(cell.above(brick_level)),
-                                std::uint64_t{1} << bit_in_brick(cell));
+  }
+  const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
+  frame.origin_W = {origin_W.x(), origin_W.y(), origin_W.z()};
+  frame.squared_range_m2 = greatest_square(range_m);
+  frame.cells_per_m = 1.0 / lattice_.cell_m(0);
+  frame.window = window_.chunks();
+  for (std::size_t first = 0; first < cloud_C.hits_C.size(); first += lanes) {
+    PointBlock points;
+    points.take(&cloud_C.hits_C[first], std::min(lanes, cloud_C.hits_C.size() - first));
+    Lanes<std::int32_t> cells;
+    loops_.locate_hits(points, frame, cells);
+    for (const std::int32_t cell : cells) {  // beyond the last point it repeats that
+      if (cell >= 0) {
+        const auto place = static_cast<std::size_t>(cell);
+        window_.add_hit(place >> 6U, std::uint64_t{1} << (place & 63U));
+      }
     }
   }
 }
@@ -80,22 +105,22 @@ void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double 
 /// The cell that the camera is in is too near to be looked at, and free.
 void PyramidScan::mark_origin(const Vec3& p_WC) {
   const CellKey cell = lattice_.cell(p_WC.cast<float>().cast<double>());
-  window_.at(cell.above(chunk_level))
-      .add_free(brick_number(cell.above(brick_level)), std::uint64_t{1} << bit_in_brick(cell));
+  window_.add_free(window_.place(cell.above(chunk_level)) + brick_number(cell.above(brick_level)),
+                   std::uint64_t{1} << bit_in_brick(cell));
 }
 
 void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   const Aabb cube = lattice_.cube(chunk, chunk_level);
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
-  chunk_ = &window_.at(chunk);
-  free_block({(X_CW * centre_W).cast<float>(), 0, chunk_level});
+  free_block({(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level});
 }
 
 void PyramidScan::free_block(const Block& block) {
   ++masks_.blocks;
   const Sight sight = view_.sight_of(block.centre_C, block.level);
   if (sight == Sight::whole) {
-    free_whole(block);
+    window_.free_block(block.place,
+                       std::size_t{1} << 3 * static_cast<unsigned>(block.level - brick_level));
   }
   if (sight != Sight::part || block.level == std::max(floor_level_, brick_level)) {
     if (sight == Sight::part && floor_level_ < brick_level) {
@@ -106,14 +131,7 @@ void PyramidScan::free_block(const Block& block) {
   const int below = block.level - 1;
   for (unsigned octant = 0; octant < 8; ++octant) {
     const std::size_t first = std::size_t{octant} << 3 * static_cast<unsigned>(below - brick_level);
-    free_block({block.centre_C + view_.to_octant(block.level, octant), block.brick + first, below});
-  }
-}
-
-void PyramidScan::free_whole(const Block& block) {
-  const std::size_t bricks = std::size_t{1} << 3 * static_cast<unsigned>(block.level - brick_level);
-  for (std::size_t i = 0; i < bricks; ++i) {
-    chunk_->add_free(block.brick + i, ~std::uint64_t{0});
+    free_block({block.centre_C + view_.to_octant(block.level, octant), block.place + first, below});
   }
 }
 
@@ -123,7 +141,7 @@ void PyramidScan::free_eighths(const Block& brick) {
     const Eigen::Vector3f centre_C = brick.centre_C + view_.to_octant(brick_level, octant);
     if (view_.sight_of(centre_C, 1) == Sight::whole) {
       const unsigned shift = (octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32;
-      chunk_->add_free(brick.brick, std::uint64_t{0x330033} << shift);
+      window_.add_free(brick.place, std::uint64_t{0x330033} << shift);
     }
   }
 }
@@ -132,7 +150,7 @@ void PyramidScan::free_cells(const Block& brick) {
   ++masks_.blocks;
   const std::uint64_t seen = loops_.seen_cells(view_.probe(), brick.centre_C.data());
   if (seen != 0) {
-    chunk_->add_free(brick.brick, seen);
+    window_.add_free(brick.place, seen);
   }
 }
 

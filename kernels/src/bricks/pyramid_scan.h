@@ -29,10 +29,9 @@ class PyramidScan {
                            int floor_level);
 
  private:
-  /// A cube in the chunk that is being cut: its centre, its first brick, its level.
   struct Block {
     Eigen::Vector3f centre_C;
-    std::size_t brick;
+    std::size_t place;  ///< Of its first brick in the window.
     int level;
   };
   void span_window(const Pose& X_WC, double range_m);
@@ -40,7 +39,6 @@ class PyramidScan {
   void mark_origin(const Vec3& p_WC);
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   void free_block(const Block& block);
-  void free_whole(const Block& block);
   void free_eighths(const Block& brick);
   void free_cells(const Block& brick);
 
@@ -52,7 +50,6 @@ class PyramidScan {
   CellKey first_chunk_{};
   CellKey last_chunk_{};
   int floor_level_{};
-  ChunkMasks* chunk_{};  ///< That is being cut.
 };
 
 }  // namespace flyball

@@ -36,41 +36,27 @@ class RayScan {
   static constexpr double most_cells_per_ray = 250.0;
 
  private:
-  struct Ray {
-    octomap::point3d end_W;
-    CellKey end;
-    bool is_hit;
-  };
   void cut_rays(const Scan& scan);
   void span_window();
-  void prepare_lanes(const Scan& scan);
-  void add_to_block(const Ray& ray);
-  [[nodiscard]] bool aim(const Ray& ray, std::size_t lane);
-  void walk_block();
-  void walk_as_stock(const octomap::point3d& end_W);
+  void walk_block(std::size_t block);
+  void mark_free(const RayBlock& rays, std::size_t lane);
+  void walk_as_stock(const PointBlock& ends, std::size_t lane);
+  void mark_hits(std::size_t measured_hits);
+  [[nodiscard]] std::size_t rays_in(std::size_t block) const;
 
   octomap::OcTree lattice_;  ///< Empty: it only lends its arithmetic.
-  double cell_m_;
   Match match_;
   const InnerLoops& loops_;
 
-  octomap::point3d origin_W_{};
-  CellKey origin_{};
-  std::vector<Ray> rays_{};
+  RayFrame frame_{};
+  std::size_t rays_{};
+  std::vector<PointBlock> ends_{};  ///< First those that were measured as hits.
   MarkWindow window_{};
+  WindowAxes axes_{};
+  std::vector<std::uint32_t> places_{};  ///< Of sixteen rays on their way.
   ScanMasks masks_{};
   std::size_t traversals_{};
   std::size_t ambiguous_{};
-
-  // One block of rays on its way.
-  RayBlock block_{};
-  WindowAxes axes_{};
-  std::array<std::array<double, 2>, 3> border_m_{};  ///< From the origin to its cell's borders.
-  double units_per_m_{};
-  std::size_t lanes_{};
-  std::array<int, RayBlock::lanes> steps_{};
-  std::array<const Ray*, RayBlock::lanes> ray_of_{};
-  std::vector<std::uint32_t> places_{};
 };
 
 }  // namespace flyball

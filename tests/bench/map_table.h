@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Tables out of what map_bench measured.
+
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+namespace flyball::bench {
+
+struct Insertion {
+  std::string scene;
+  int width_px;
+  int height_px;
+  int level;
+  std::string front_end;
+  bool writes_record;
+  std::string simd;
+};
+struct Question {
+  std::string scene;
+  int level;
+  std::string kind;
+  bool stock;
+};
+[[nodiscard]] std::string insertion_name(const Insertion& insertion);
+[[nodiscard]] std::string question_name(const Question& question);
+
+/// Takes `--table=FILE` out of the arguments; empty when it is not there.
+[[nodiscard]] std::string take_table_option(int& argc, char** argv);
+
+/// Prints every run, and keeps the least time of each benchmark's repetitions.
+class TableReporter final : public benchmark::ConsoleReporter {
+ public:
+  TableReporter() : benchmark::ConsoleReporter{OO_Tabular} {}
+  void ReportRuns(const std::vector<Run>& runs) override;
+  /// False when the file cannot be written.
+  [[nodiscard]] bool write(const std::string& file) const;
+
+ private:
+  struct Least {
+    double time;  ///< In the benchmark's unit.
+    std::map<std::string, double> counters;
+  };
+  [[nodiscard]] const Least* find(const std::string& name) const;
+  void write_insertions(std::ostream& out, const std::string& simd) const;
+  void write_row(std::ostream& out, Insertion row) const;
+  void write_questions(std::ostream& out) const;
+
+  std::map<std::string, Least> least_{};
+};
+
+}  // namespace flyball::bench
