@@ -93,6 +93,14 @@ class FlyballMapper final : public flyball::Mapper {
     begin(chosen.number("finest_m"));
   }
 
+  [[nodiscard]] std::vector<double> resolutions_m() const override {
+    std::vector<double> cells_m;
+    for (int level = 0; level <= coarsest_level; ++level) {
+      cells_m.push_back(map_.lattice().cell_m(level));
+    }
+    return cells_m;
+  }
+
   flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
                                          const flyball::Pose& X_WC,
                                          const flyball::MapperSettings& settings) override {
