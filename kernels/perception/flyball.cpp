@@ -182,6 +182,7 @@ class FlyballMapper final : public flyball::Mapper {
     }
     close_ = std::make_unique<RayScan>(finest_m, RayScan::Match::close);
     pyramid_ = std::make_unique<flyball::PyramidScan>(finest_m);
+    pyramid_->refine_near_camera();
   }
 
   /// A map that is still empty takes a resolution off its lattice as its finest.
