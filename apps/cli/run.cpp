@@ -18,6 +18,8 @@ struct RunOptions {
   FlightOptions flight{};
   std::string policy{};
   std::string seed{};
+  std::string start_map{};
+  std::string final_map{};
 };
 
 std::string with_unit(double value, int digits, const std::string& unit) {
@@ -98,7 +100,10 @@ int run(const RunOptions& options) {
   if (!prepared) {
     return refuse({prepared.error()});
   }
-  const Result<MissionRecord> record = fly(scenario, hooks_of(scenario));
+  MissionHooks hooks = hooks_of(scenario);
+  hooks.start_map = options.start_map;
+  hooks.final_map = options.final_map;
+  const Result<MissionRecord> record = fly(scenario, hooks);
   if (!record) {
     remove_empty(*prepared);
     return refuse({record.error()});
@@ -121,6 +126,14 @@ void add_run(CLI::App& program, int& exit_code) {
                     ->type_name("NAME"));
   refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")
                     ->type_name("N"));
+  refuse_empty(*command
+                    ->add_option("--start-map", options->start_map,
+                                 "an OctoMap file, .bt or .ot, that is known at take-off")
+                    ->type_name("FILE"));
+  refuse_empty(*command
+                    ->add_option("--map", options->final_map,
+                                 "writes the map that the flight made, .bt or .ot")
+                    ->type_name("FILE"));
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

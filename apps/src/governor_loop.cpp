@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "governor_loop.h"
 
+#include <cstdio>
+
 namespace flyball {
 namespace {
 
@@ -89,7 +91,23 @@ void GovernorLoop::observe_computer(MissionTime now, Observation& seen) {
   seen.battery_percent = loop_.battery().percent();
 }
 
+/// Once for each knob whose wished value this mission does not have: a mapper may know no cells of
+/// .8 m.
+void GovernorLoop::note_moved_wishes(MissionTime now) {
+  for (const auto& wish : governor_.wished()) {
+    const KnobSpec* spec = context_.knobs.spec(wish.knob);
+    if (spec == nullptr || spec->is_legal(wish.value) || !moved_.insert(spec->name).second) {
+      continue;
+    }
+    char text[96];
+    std::snprintf(text, sizeof text, "%s %g is not legal here, %g instead", spec->name.c_str(),
+                  wish.value, spec->nearest(wish.value));
+    context_.event(now, text);
+  }
+}
+
 void GovernorLoop::apply(MissionTime now, const Decision& decision) {
+  note_moved_wishes(now);
   for (const auto& wish : decision) {
     const double before = context_.knobs.value(wish.knob);
     if (before == wish.value || !context_.knobs.set(wish.knob, wish.value)) {

@@ -8,6 +8,8 @@
 
 #include "closed_loop.h"
 #include "navigator.h"
+#include <set>
+#include <string>
 
 namespace flyball {
 
@@ -37,6 +39,7 @@ class GovernorLoop {
   void record(const Observation& seen);
   void observe_computer(MissionTime now, Observation& seen);
   void apply(MissionTime now, const Decision& decision);
+  void note_moved_wishes(MissionTime now);
 
   MissionContext& context_;
   PolicyGovernor& governor_;
@@ -51,6 +54,7 @@ class GovernorLoop {
   std::uint64_t decisions_{};
   std::uint64_t knob_changes_{};
   std::uint64_t faults_{};
+  std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };
 
 }  // namespace flyball

@@ -39,12 +39,23 @@ KnobSpec cores_knob(const Platform& platform, double fallback) {
   return described(std::move(spec), fallback, "cores that may run jobs");
 }
 
+KnobSpec resolution_knob(const std::vector<double>& resolutions_m, double fallback) {
+  KnobSpec spec = range("map.resolution_m", "m", "map", 0.05, 2.0);
+  if (!resolutions_m.empty()) {
+    spec.legal = resolutions_m;
+    spec.min = resolutions_m.front();
+    spec.max = resolutions_m.back();
+  }
+  return described(std::move(spec), fallback, "cell size at which depth is integrated");
+}
+
 }  // namespace
 
-std::vector<KnobSpec> standard_knobs(const Scenario& scenario, const Platform& platform) {
+std::vector<KnobSpec> standard_knobs(const Scenario& scenario,
+                                     const Platform& platform,
+                                     const std::vector<double>& resolutions_m) {
   return {
-      described(range("map.resolution_m", "m", "map", 0.05, 2.0), scenario.map.resolution_m,
-                "cell size at which depth is integrated"),
+      resolution_knob(resolutions_m, scenario.map.resolution_m),
       described(range("map.range_m", "m", "points", 2.0, 25.0), scenario.map.range_m,
                 "how far depth is integrated"),
       described(range("map.rate_hz", "Hz", "points", 0.5, 60.0), scenario.map.rate_hz,

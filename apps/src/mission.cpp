@@ -10,6 +10,7 @@
 #include "governor_loop.h"
 #include "mission_setup.h"
 #include <cstdio>
+#include <filesystem>
 
 namespace flyball {
 namespace {
@@ -125,6 +126,16 @@ Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {
   return workload;
 }
 
+/// Before the flight: after it a wrong name would cost the map.
+Status check_map_name(const std::string& path) {
+  const std::string ending = std::filesystem::path{path}.extension().string();
+  if (path.empty() || ending == ".bt" || ending == ".ot") {
+    return Done{};
+  }
+  return Error{ErrorCode::invalid_input,
+               "map file \"" + path + "\" must end in .bt (free or occupied) or .ot (log-odds)"};
+}
+
 }  // namespace
 
 Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
@@ -151,12 +162,24 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!workload) {
     return workload.error();
   }
+  if (const Status named = check_map_name(hooks.final_map); !named) {
+    return named.error();
+  }
+  Mapper& mapper = *setup->equipment.kernels.mapper;  // Stays where it is when it is handed on.
+  if (const Status read = hooks.start_map.empty() ? Done{} : mapper.read(hooks.start_map); !read) {
+    return read.error();
+  }
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->world;
   Flight flight{scenario, *setup, *record.trace, std::move(*workload)};
   connect(flight, scenario, hooks);
   flight.queue.run([&] { return flight.context.is_over() || (hooks.stop && hooks.stop()); });
+  if (const Status written =
+          hooks.final_map.empty() ? Done{} : mapper.write(hooks.final_map, std::nullopt);
+      !written) {
+    return written.error();
+  }
   fill_outcome(record.summary, flight, scenario);
   fill_computing(record.summary, flight);
   record.summary.trace_hash = record.trace->hash().hex();

@@ -10,6 +10,9 @@
 #include "flyball/sim/platform_file.h"
 #include "flyball/sim/worlds.h"
 
+#include "scenario_check.h"
+#include "scenario_parameters.h"
+
 namespace flyball {
 namespace {
 
@@ -66,7 +69,11 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   MissionKernels kernels;
   std::vector<Error> missing;
   make(kernels.point_cloud, "point cloud kernel", names.point_cloud, missing);
-  make(kernels.mapper, "mapper", names.mapper, missing);
+  if (auto mapper = make_mapper(names)) {
+    kernels.mapper = std::move(*mapper);
+  } else {
+    missing.push_back(mapper.error());
+  }
   make(kernels.collision_check, "collision check", names.collision_check, missing);
   make(kernels.planner, "planner", names.planner, missing);
   make(kernels.smoother, "smoother", names.smoother, missing);
@@ -136,7 +143,6 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
     return platform.error();
   }
   setup.platform = std::move(*platform);
-  setup.equipment.knobs = KnobSettings{standard_knobs(scenario, *setup.platform)};
   const auto file = find_shipped("airframes", scenario.vehicle.airframe);
   auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
   if (!airframe) {
@@ -159,6 +165,11 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
     return kernels.error();
   }
   setup.equipment.kernels = std::move(*kernels);
+  if (const auto errors = check_map(scenario, {}); !errors.empty()) {
+    return join(errors);
+  }
+  setup.equipment.knobs = KnobSettings{
+      standard_knobs(scenario, *setup.platform, setup.equipment.kernels.mapper->resolutions_m())};
   auto governor = make_governor(scenario, setup.equipment.knobs);
   if (!governor) {
     return governor.error();

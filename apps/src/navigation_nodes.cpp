@@ -4,6 +4,8 @@
 
 #include "plan_with_tubes.h"
 
+#include "scenario_parameters.h"
+
 namespace flyball {
 namespace {
 
@@ -46,8 +48,9 @@ void add_check(Graph& graph,
       return work;
     }
     const Hertz clock{context.knobs.value("cpu.frequency_hz")};
-    const Duration expected = context.platform.job_time(
-        context.scenario.kernels.mapper, expected_map_work(context, revision->resolution_m), clock);
+    const Duration expected =
+        context.platform.job_time(mapper_cost(context.scenario.kernels),
+                                  expected_map_work(context, revision->resolution_m), clock);
     navigator.map_published(job.now(), *revision, expected);
     const PathFollower& follower = navigator.follower();
     if (!follower.has_path()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception_nodes.h"
 
+#include "scenario_parameters.h"
 #include <algorithm>
 #include <memory>
 
@@ -77,7 +78,7 @@ void add_points(Graph& graph,
 void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& context) {
   NodeSpec spec;
   spec.name = "map";
-  spec.cost = context.scenario.kernels.mapper;
+  spec.cost = mapper_cost(context.scenario.kernels);
   spec.trigger = OnMessage{topics.cloud.index};
   spec.priority = 10;
   spec.deadline = 5s;

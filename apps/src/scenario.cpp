@@ -2,12 +2,12 @@
 
 #include "flyball/apps/scenario.h"
 
-#include "flyball/apps/catalogue.h"
 #include "flyball/apps/files.h"
 
 #include "scenario_check.h"
 #include "scenario_fields.h"
 #include "scenario_keys.h"
+#include "scenario_parameters.h"
 #include "scenario_reader.h"
 #include <algorithm>
 
@@ -15,19 +15,22 @@ namespace flyball {
 namespace {
 
 using Fields = std::vector<ScenarioField>;
+using Groups = std::vector<ParameterGroup>;
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Every key that this scenario may have, with those of its world.
-std::vector<std::string> known_keys(const Scenario& scenario, const Fields& fields) {
+/// Every key that this scenario may have, with those of its plug-ins.
+std::vector<std::string> known_keys(const Fields& fields, const Groups& groups) {
   std::vector<std::string> keys;
   for (const ScenarioField& field : fields) {
     keys.push_back(field.key);
   }
-  for (const ParameterSpec& spec : world_parameters(scenario)) {
-    keys.push_back("world." + spec.name);
+  for (const ParameterGroup& group : groups) {
+    for (const ParameterSpec& spec : group.specs) {
+      keys.push_back(group.prefix + spec.name);
+    }
   }
   return keys;
 }
@@ -44,12 +47,17 @@ void assign_all(Scenario& scenario, const Fields& fields, ScenarioText& read) {
   }
 }
 
-void report_unknown_keys(const Scenario& scenario, const Fields& fields, ScenarioText& read) {
-  const std::vector<std::string> known = known_keys(scenario, fields);
-  // Of a world that does not exist nobody knows the parameters: its name is the one error.
-  const bool has_world = contains(world_names(), scenario.world.generator);
+/// Of a plug-in that does not exist nobody knows the parameters: its name is the one error.
+bool is_of_unknown_plugin(const Groups& groups, const std::string& key) {
+  return std::any_of(groups.begin(), groups.end(), [&](const ParameterGroup& group) {
+    return !group.exists && key.rfind(group.prefix, 0) == 0;
+  });
+}
+
+void report_unknown_keys(const Fields& fields, const Groups& groups, ScenarioText& read) {
+  const std::vector<std::string> known = known_keys(fields, groups);
   for (const auto& [key, given] : read.values) {
-    if (contains(known, key) || (!has_world && key.rfind("world.", 0) == 0)) {
+    if (contains(known, key) || is_of_unknown_plugin(groups, key)) {
       continue;
     }
     std::string sentence = "no setting \"" + key + "\" (" + given.origin + "); ";
@@ -70,10 +78,19 @@ std::string toml_line(const std::string& name, const std::string& value) {
   return name + " = " + value + "\n";
 }
 
-std::string parameter_lines(const WorldSettings& world) {
+/// Those of the plug-in that `selector` names, below it: in a section of the same first name they
+/// are dotted keys.
+std::string parameter_lines(const Scenario& scenario,
+                            const Groups& groups,
+                            const std::string& selector) {
   std::string lines;
-  for (const auto& [name, value] : world.parameters) {
-    lines += toml_line(name, toml_value(value));
+  for (const ParameterGroup& group : groups) {
+    if (group.selector == selector) {
+      const std::string inside = group.prefix.substr(group.prefix.find('.') + 1);
+      for (const auto& [name, value] : values_of(scenario, group)) {
+        lines += toml_line(inside + name, toml_value(value));
+      }
+    }
   }
   return lines;
 }
@@ -83,13 +100,19 @@ std::string origin_of(const std::string& key, const GivenValues& given) {
   return found == given.end() ? "default" : found->second.origin;
 }
 
-void append_world_entries(const Scenario& scenario,
-                          const GivenValues& given,
-                          std::vector<ConfigEntry>& entries) {
-  for (const ParameterSpec& spec : world_parameters(scenario)) {
-    const std::string key = "world." + spec.name;
-    entries.push_back({key, toml_value(scenario.world.parameters.at(spec.name)),
-                       toml_value(spec.fallback), origin_of(key, given), spec.description});
+void append_parameters(const Scenario& scenario,
+                       const Groups& groups,
+                       const std::string& selector,
+                       const GivenValues& given,
+                       std::vector<ConfigEntry>& entries) {
+  for (const ParameterGroup& group : groups) {
+    for (const ParameterSpec& spec : group.specs) {
+      if (group.selector == selector) {
+        const std::string key = group.prefix + spec.name;
+        entries.push_back({key, toml_value(values_of(scenario, group).at(spec.name)),
+                           toml_value(spec.fallback), origin_of(key, given), spec.description});
+      }
+    }
   }
 }
 
@@ -97,13 +120,12 @@ std::vector<ConfigEntry> entries_of(const Scenario& scenario,
                                     const Fields& fields,
                                     const GivenValues& given) {
   const Scenario defaults;
+  const Groups groups = parameter_groups(scenario);
   std::vector<ConfigEntry> entries;
   for (const ScenarioField& field : fields) {
     entries.push_back({field.key, toml_value(scenario, field), toml_value(defaults, field),
                        origin_of(field.key, given), field.description});
-    if (field.key == "world.generator") {
-      append_world_entries(scenario, given, entries);
-    }
+    append_parameters(scenario, groups, field.key, given, entries);
   }
   return entries;
 }
@@ -123,9 +145,9 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
   const Fields fields = scenario_fields();
   Scenario scenario;
   assign_all(scenario, fields, read);
-  report_unknown_keys(scenario, fields, read);
-  for (const auto& check :
-       {read_world(scenario, read.values), check_names(scenario, read.values)}) {
+  report_unknown_keys(fields, parameter_groups(scenario), read);
+  for (const auto& check : {read_parameters(scenario, read.values),
+                            check_names(scenario, read.values), check_map(scenario, read.values)}) {
     read.errors.insert(read.errors.end(), check.begin(), check.end());
   }
   if (!read.errors.empty()) {
@@ -136,6 +158,7 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
 }
 
 std::string to_toml(const Scenario& scenario) {
+  const Groups groups = parameter_groups(scenario);
   std::string text;
   std::string section;
   for (const ScenarioField& field : scenario_fields()) {
@@ -146,9 +169,7 @@ std::string to_toml(const Scenario& scenario) {
       text += "\n[" + section + "]\n";
     }
     text += toml_line(field.key.substr(dot + 1), toml_value(scenario, field));
-    if (field.key == "world.generator") {
-      text += parameter_lines(scenario.world);
-    }
+    text += parameter_lines(scenario, groups, field.key);
   }
   return text;
 }

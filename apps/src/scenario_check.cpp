@@ -7,16 +7,14 @@
 #include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
 #include "flyball/sim/platform_file.h"
-#include "flyball/sim/world.h"
 
 #include "scenario_keys.h"
+#include "scenario_parameters.h"
 #include <algorithm>
 #include <cmath>
 
 namespace flyball {
 namespace {
-
-constexpr const char* world_prefix = "world.";
 
 /// ` (mine.toml:7)`, or nothing for a default.
 std::string place_of(const std::string& key, const GivenValues& given) {
@@ -77,12 +75,20 @@ bool is_file(const NamedThing& wanted) {
   return find_shipped(kind, wanted.name).ok();
 }
 
-std::string clocks_of(const PlatformModel& platform) {
+std::string list_of(const std::vector<double>& numbers) {
   std::string text;
-  for (const Hertz clock : platform.frequencies) {
-    text += (text.empty() ? "" : ", ") + toml_number(clock.value());
+  for (const double number : numbers) {
+    text += (text.empty() ? "" : ", ") + toml_number(number);
   }
   return text;
+}
+
+std::string clocks_of(const PlatformModel& platform) {
+  std::vector<double> clocks_hz;
+  for (const Hertz clock : platform.frequencies) {
+    clocks_hz.push_back(clock.value());
+  }
+  return list_of(clocks_hz);
 }
 
 std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
@@ -122,64 +128,29 @@ bool is_folder_name(const std::string& name) {
   return std::all_of(name.begin(), name.end(), is_plain);
 }
 
-std::optional<Error> set_parameter(WorldSettings& world,
-                                   const ParameterSpec& spec,
-                                   const GivenValue& value) {
-  const std::string what =
-      world_prefix + spec.name + " = " + value.text + " (" + value.origin + ") must be ";
-  if (std::holds_alternative<double>(spec.fallback)) {
-    const std::optional<double> number = as_number(value);
-    if (!number) {
-      const std::string unit = parts_of(spec.name).unit;
-      return Error{ErrorCode::invalid_input,
-                   what + "a number" + (unit.empty() ? "" : " in " + unit)};
-    }
-    world.parameters[spec.name] = *number;
-  } else {
-    const std::optional<std::string> text = as_text(value);
-    if (!text) {
-      return Error{ErrorCode::invalid_input, what + "a text"};
-    }
-    world.parameters[spec.name] = *text;
-  }
-  return std::nullopt;
-}
-
-/// Copies what was given to the world's settings; unknown names are left to the caller.
-std::vector<Error> take_parameters(WorldSettings& world,
-                                   const std::vector<ParameterSpec>& specs,
-                                   const GivenValues& given) {
-  std::vector<Error> errors;
-  for (const ParameterSpec& spec : specs) {
-    const auto found = given.find(world_prefix + spec.name);
-    if (found == given.end()) {
-      continue;
-    }
-    if (std::optional<Error> error = set_parameter(world, spec, found->second)) {
-      errors.push_back(*std::move(error));
-    }
-  }
-  return errors;
-}
-
 }  // namespace
 
-std::vector<ParameterSpec> world_parameters(const Scenario& scenario) {
-  const auto generator = all_plugins().make<WorldGenerator>(scenario.world.generator);
-  return generator ? generator->parameters() : std::vector<ParameterSpec>{};
-}
-
-std::vector<Error> read_world(Scenario& scenario, const GivenValues& given) {
-  const std::vector<ParameterSpec> specs = world_parameters(scenario);
-  std::vector<Error> errors = take_parameters(scenario.world, specs, given);
-  auto resolved = Parameters::resolve("world \"" + scenario.world.generator + "\"", specs,
-                                      scenario.world.parameters);
-  if (const auto* wrong = std::get_if<std::vector<Error>>(&resolved)) {
-    errors.insert(errors.end(), wrong->begin(), wrong->end());
-  } else {
-    scenario.world.parameters = std::get<Parameters>(resolved).values();
+std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given) {
+  const auto mapper = make_mapper(scenario.kernels);
+  if (!mapper) {
+    return {};  // Named elsewhere.
   }
-  return errors;
+  const std::vector<double> cells_m = (*mapper)->resolutions_m();
+  const double wanted_m = scenario.map.resolution_m;
+  if (!cells_m.empty() && std::find(cells_m.begin(), cells_m.end(), wanted_m) == cells_m.end()) {
+    return {{ErrorCode::invalid_input,
+             "map.resolution_m = " + toml_number(wanted_m) + place_of("map.resolution_m", given) +
+                 " must be one of " + list_of(cells_m) + ", the cells of mapper \"" +
+                 scenario.kernels.mapper + "\""}};
+  }
+  // The mapper itself knows best how far it reaches: an empty scan is refused for its settings.
+  const auto tried =
+      (*mapper)->prepare(PointCloud{}, Pose::Identity(), {wanted_m, scenario.map.range_m});
+  if (!tried) {
+    return {{ErrorCode::invalid_input,
+             "mapper \"" + scenario.kernels.mapper + "\" refuses: " + tried.error().message}};
+  }
+  return {};
 }
 
 std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given) {

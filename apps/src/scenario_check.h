@@ -13,11 +13,7 @@ namespace flyball {
 /// with the place where the name was given and the command that lists the right ones.
 [[nodiscard]] std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given);
 
-/// The world's own parameters (`world.NAME`) as its generator declares them: unknown names, wrong
-/// kinds and bounds. On success they are in `scenario`, every one of them.
-[[nodiscard]] std::vector<Error> read_world(Scenario& scenario, const GivenValues& given);
-
-/// What the scenario's generator declares; empty when there is no such generator.
-[[nodiscard]] std::vector<ParameterSpec> world_parameters(const Scenario& scenario);
+/// Whether the scenario's mapper maps at the scenario's resolution and range.
+[[nodiscard]] std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given);
 
 }  // namespace flyball

@@ -45,6 +45,7 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
 }
 
 Decision PolicyGovernor::decide(const Observation& seen) noexcept {
+  wished_ = {};
   if (has_fallen_back()) {
     return safe_default(seen.now);
   }
@@ -55,6 +56,7 @@ Decision PolicyGovernor::decide(const Observation& seen) noexcept {
     return safe_default(seen.now);
   }
   faults_in_row_ = 0;
+  wished_ = wished;
   return made_legal(wished, seen.now);
 }
 

@@ -15,7 +15,9 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
+#include "bricks/brick_contents.h"
 #include "bricks/brick_view.h"
+#include "bricks/map_file.h"
 #include "bricks/pyramid_scan.h"
 #include "bricks/ray_scan.h"
 #include "bricks/work_limit.h"
@@ -80,6 +82,8 @@ class FlyballMapper final : public flyball::Mapper {
          {"flyball", "octomap"}},
         {"most_traversals", 0.0, 0.0, 1e12,
          "cells a scan's rays may cross, near first; 0: no limit"},
+        {"keep_radius_m", 0.0, 0.0, 1e5,
+         "what lies farther from the vehicle is forgotten; 0: nothing is"},
     };
   }
 
@@ -90,7 +94,16 @@ class FlyballMapper final : public flyball::Mapper {
                                        : FrontEnd::pyramid;
     reports_stock_work_ = chosen.text("cost_of") == "octomap";
     most_traversals_ = chosen.number("most_traversals");
+    keep_radius_m_ = chosen.number("keep_radius_m");
     begin(chosen.number("finest_m"));
+  }
+
+  [[nodiscard]] std::vector<double> resolutions_m() const override {
+    std::vector<double> cells_m;
+    for (int level = 0; level <= coarsest_level; ++level) {
+      cells_m.push_back(map_.lattice().cell_m(level));
+    }
+    return cells_m;
   }
 
   flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
@@ -114,6 +127,9 @@ class FlyballMapper final : public flyball::Mapper {
   void commit() override {
     if (pending_ != nullptr) {
       map_.apply(pending_->bricks);
+      if (keep_radius_m_ > 0.0) {
+        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m));
+      }
       view_.activate(pending_level_);
       pending_ = nullptr;
     }
@@ -133,11 +149,32 @@ class FlyballMapper final : public flyball::Mapper {
     return cells;
   }
 
+  [[nodiscard]] flyball::MapContents contents() const override {
+    return flyball::contents_of(map_, coarsest_level);
+  }
+
+  [[nodiscard]] flyball::Status write(const std::string& path,
+                                      std::optional<double> resolution_m) const override {
+    return flyball::write_map_file(map_, resolution_m, path);
+  }
+
+  [[nodiscard]] flyball::Status read(const std::string& path) override {
+    auto map = flyball::read_map_file(path);
+    if (!map) {
+      return map.error();
+    }
+    begin(map->lattice().cell_m(0));
+    map_ = std::move(*map);
+    view_.activate(0);
+    return flyball::Done{};
+  }
+
  private:
   static constexpr double default_finest_m = 0.15;
 
   void begin(double finest_m) {
     map_ = flyball::BrickMap{finest_m};
+    pending_ = nullptr;
     exact_.clear();
     for (int level = 0; level <= coarsest_level; ++level) {
       exact_.push_back(
@@ -145,6 +182,7 @@ class FlyballMapper final : public flyball::Mapper {
     }
     close_ = std::make_unique<RayScan>(finest_m, RayScan::Match::close);
     pyramid_ = std::make_unique<flyball::PyramidScan>(finest_m);
+    pyramid_->refine_near_camera();
   }
 
   /// A map that is still empty takes a resolution off its lattice as its finest.
@@ -195,6 +233,7 @@ class FlyballMapper final : public flyball::Mapper {
                           const flyball::Pose& X_WC,
                           const flyball::MapperSettings& settings,
                           int level) {
+    eye_W_ = X_WC.translation();
     const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
     if (!looks || reports_stock_work_ || most_traversals_ > 0.0) {
       to_world(cloud_C, X_WC, scan_);
@@ -236,6 +275,7 @@ class FlyballMapper final : public flyball::Mapper {
   FrontEnd front_end_{FrontEnd::pyramid};
   bool reports_stock_work_{};
   double most_traversals_{};
+  double keep_radius_m_{};
 
   flyball::BrickMap map_{default_finest_m};
   flyball::BrickView view_{map_};
@@ -245,6 +285,7 @@ class FlyballMapper final : public flyball::Mapper {
   flyball::Scan scan_{};
   const flyball::ScanMasks* pending_{};
   int pending_level_{};
+  flyball::Vec3 eye_W_{flyball::Vec3::Zero()};  ///< Of the pending scan.
 
  public:
   FlyballMapper() { begin(default_finest_m); }

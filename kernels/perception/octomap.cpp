@@ -9,7 +9,9 @@
 #include "flyball/runtime/registry.h"
 
 #include "octomap_view.h"
+#include "octree_file.h"
 #include "scan_update.h"
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -100,6 +102,16 @@ struct Layer {
   octomap::OcTree walls;
 };
 
+flyball::MapLevel counts_of(const octomap::OcTree& tree) {
+  flyball::MapLevel counts{tree.getResolution()};
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const std::uint64_t cells = std::uint64_t{1} << 3 * (tree.getTreeDepth() - leaf.getDepth());
+    counts.known_cells += cells;
+    counts.occupied_cells += tree.isNodeOccupied(*leaf) ? cells : 0;
+  }
+  return counts;
+}
+
 class OctomapMapper final : public flyball::Mapper {
  public:
   flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
@@ -151,7 +163,58 @@ class OctomapMapper final : public flyball::Mapper {
     return cells;
   }
 
+  [[nodiscard]] flyball::MapContents contents() const override {
+    flyball::MapContents contents;
+    for (const Layer* layer : by_resolution()) {
+      contents.levels.push_back(counts_of(layer->tree));
+      contents.bytes += layer->tree.memoryUsage();
+    }
+    return contents;
+  }
+
+  [[nodiscard]] flyball::Status write(const std::string& path,
+                                      std::optional<double> resolution_m) const override {
+    try {
+      for (const Layer* layer : by_resolution()) {
+        if (!resolution_m || std::abs(layer->tree.getResolution() - *resolution_m) < 1e-9) {
+          octomap::OcTree copy{layer->tree};  // Writing .bt rounds a tree.
+          return flyball::write_octree(copy, path);
+        }
+      }
+      return invalid("nothing has been mapped" +
+                     (resolution_m ? " at " + std::to_string(*resolution_m) + " m" : ""));
+    } catch (const std::exception& e) {
+      return Error{ErrorCode::failed, std::string{"octomap: "} + e.what()};
+    }
+  }
+
+  [[nodiscard]] flyball::Status read(const std::string& path) override {
+    auto tree = flyball::read_octree(path);
+    if (!tree) {
+      return tree.error();
+    }
+    view_.forget_trees();
+    layers_.clear();
+    pending_ = nullptr;
+    Layer& layer = layer_of((*tree)->getResolution());
+    layer.tree.swapContent(**tree);
+    view_.activate(layer.tree);
+    return flyball::Done{};
+  }
+
  private:
+  /// Finest first.
+  [[nodiscard]] std::vector<const Layer*> by_resolution() const {
+    std::vector<const Layer*> layers;
+    for (const auto& layer : layers_) {
+      layers.push_back(layer.get());
+    }
+    std::sort(layers.begin(), layers.end(), [](const Layer* a, const Layer* b) {
+      return a->tree.getResolution() < b->tree.getResolution();
+    });
+    return layers;
+  }
+
   Layer& layer_of(double resolution_m) {
     for (const auto& layer : layers_) {
       if (std::abs(layer->tree.getResolution() - resolution_m) < 1e-9) {

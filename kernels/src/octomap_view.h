@@ -32,6 +32,8 @@ class OctomapView final : public OccupancyView {
 
   /// Makes `tree` the one that answers first. It outlives the view.
   void activate(const octomap::OcTree& tree);
+  /// Back to knowing no tree.
+  void forget_trees() { layers_.clear(); }
   /// Ignored when an earlier cylinder contains it.
   void declare_clear(const Vec3& centre_W, const Cylinder& space);
 

@@ -19,6 +19,25 @@ TEST(GovernorLoop, decides_at_its_period_and_applies_the_wish_once) {
   EXPECT_EQ(record.summary.policy_faults, 0U);
 }
 
+TEST(GovernorLoop, a_wish_that_this_mission_does_not_have_is_moved_and_recorded_once) {
+  Scenario scenario = kit::short_delivery();  // fixed_coarse asks for .80 m
+  scenario.kernels.mapper = "flyball";
+  const MissionRecord record = kit::flown(scenario);
+  int notes = 0;
+  double resolution_m = 0.0;
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& [name, value] : row.fields) {
+      const auto* text = std::get_if<std::string>(&value);
+      notes += text != nullptr && *text == "map.resolution_m 0.8 is not legal here, 0.6 instead";
+      if (row.channel == "decision" && name == std::string{"value"}) {
+        resolution_m = std::get<double>(value);
+      }
+    }
+  }
+  EXPECT_EQ(notes, 1);
+  EXPECT_EQ(resolution_m, 0.6);
+}
+
 TEST(GovernorLoop, records_what_each_decision_knew) {
   const MissionRecord record = kit::flown(kit::short_delivery());
   std::uint64_t observations = 0;

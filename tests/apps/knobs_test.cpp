@@ -36,5 +36,17 @@ TEST(StandardKnobs, clocks_and_cores_are_the_platforms) {
   EXPECT_EQ(knobs.spec("cpu.cores")->legal, (std::vector<double>{1, 2, 3}));
 }
 
+TEST(StandardKnobs, a_mapper_may_have_levels_of_its_own) {
+  const ModeledPlatform platform = two_clocks();
+  Scenario scenario;
+  scenario.platform.cores = 2;
+  scenario.platform.frequency_hz = 1e9;
+  const KnobSettings knobs{standard_knobs(scenario, platform, {0.15, 0.3, 0.6})};
+  const KnobSpec& spec = *knobs.spec("map.resolution_m");
+  EXPECT_EQ(spec.legal, (std::vector<double>{0.15, 0.3, 0.6}));
+  EXPECT_EQ(spec.nearest(0.8), 0.6);
+  EXPECT_TRUE(standard_knobs(scenario, platform).front().legal.empty()) << "stock takes any";
+}
+
 }  // namespace
 }  // namespace flyball

@@ -5,18 +5,22 @@
 //
 //     ninja kernel_costs && bin/kernel_costs
 
+#include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/sim/depth_camera.h"
+#include "flyball/sim/platform_file.h"
 
 #include "fit_scenes.h"
 #include "mission_setup.h"
 #include "perception_nodes.h"
+#include "scenario_parameters.h"
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <map>
 
 #include <octomap/OcTree.h>
 
@@ -38,34 +42,53 @@ double seconds(Run&& run) {
 }
 
 struct Sample {
-  Eigen::Vector4d counts;  ///< frame, rays, traversals, updates
+  std::vector<double> counts;  ///< In the order of the fitted names.
   double host_s;
 };
 
+struct Fit {
+  std::vector<double> seconds_per;
+  double error;  ///< Root mean square, relative.
+};
+
 /// Least squares of relative errors over the best subset of non-negative coefficients.
-Eigen::Vector4d non_negative_fit(const std::vector<Sample>& samples) {
-  Eigen::Vector4d best = Eigen::Vector4d::Zero();
+Fit non_negative_fit(const std::vector<Sample>& samples) {
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  const auto columns = static_cast<Eigen::Index>(samples.front().counts.size());
+  Eigen::VectorXd best;
   double best_error = 1e300;
-  for (unsigned subset = 1; subset < 16; ++subset) {
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(samples.size()), 4);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      for (unsigned k = 0; k < 4; ++k) {
+  for (unsigned subset = 1; subset < 1U << columns; ++subset) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, columns);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const Sample& sample = samples[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < columns; ++k) {
         if ((subset >> k & 1U) != 0) {
-          a(static_cast<Eigen::Index>(i), k) = samples[i].counts[k] / samples[i].host_s;
+          a(i, k) = sample.counts[static_cast<std::size_t>(k)] / sample.host_s;
         }
       }
     }
-    const Eigen::VectorXd one = Eigen::VectorXd::Ones(a.rows());
-    const Eigen::Vector4d c = a.completeOrthogonalDecomposition().solve(one);
+    const Eigen::VectorXd one = Eigen::VectorXd::Ones(rows);
+    const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(one);
     const double error = (a * c - one).squaredNorm();
     if (c.minCoeff() >= 0.0 && error < best_error) {
       best = c;
       best_error = error;
     }
   }
-  std::printf("octomap: root mean square error %.1f %% of %zu samples\n",
-              100.0 * std::sqrt(best_error / static_cast<double>(samples.size())), samples.size());
-  return best;
+  return {{best.begin(), best.end()}, std::sqrt(best_error / static_cast<double>(rows))};
+}
+
+void print_fit(const std::string& kernel,
+               const std::vector<std::string>& names,
+               const std::vector<Sample>& samples,
+               double factor = 1.0) {
+  const Fit fit = non_negative_fit(samples);
+  std::printf("%s: root mean square error %.1f %% of %zu samples\n%s:", kernel.c_str(),
+              100.0 * fit.error, samples.size(), kernel.c_str());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::printf(" %s %.3g", names[k].c_str(), 1e9 * factor * fit.seconds_per[k]);
+  }
+  std::printf(" ns\n");
 }
 
 struct View {
@@ -155,9 +178,69 @@ void measure_octomap(const std::vector<View>& views, double range_m) {
     std::printf("octomap, stock insertPointCloud at %.2f m: %.2f ms a frame\n", resolution_m,
                 1e3 * total_s / static_cast<double>(views.size()));
   }
-  const Eigen::Vector4d c = 1e9 * non_negative_fit(samples);
-  std::printf("octomap: frame %.0f rays %.2f traversals %.2f updates %.1f ns\n", c[0], c[1], c[2],
-              c[3]);
+  print_fit("octomap", {"frame", "rays", "traversals", "updates"}, samples);
+}
+
+/// Stock OctoMap beside another mapper on the same frames: its time on this host, and by the
+/// platform file's prices of single operations.
+struct StockTime {
+  double host_s{};
+  double priced_s{};
+
+  void insert(const View& view, double range_m, Mapper& counter, octomap::OcTree& tree) {
+    const auto work =
+        counter.prepare(view.cloud, view.X_WC, {tree.getResolution(), range_m}).value();
+    for (const WorkItem& item : work.items()) {
+      priced_s += item.count * prices.at(std::string{item.name});
+    }
+    const octomap::Pointcloud points = to_world(view);
+    const Eigen::Vector3f eye = view.X_WC.translation().cast<float>();
+    host_s += seconds([&] { tree.insertPointCloud(points, {eye.x(), eye.y(), eye.z()}, range_m); });
+  }
+
+  std::map<std::string, double, std::less<>> prices;
+};
+
+/// The brick map, frame by frame in turns with stock OctoMap, so that both see the same host. The
+/// prices are in seconds of that host on which stock takes as long as the platform file says: then
+/// the file's scale for stock serves both.
+void measure_flyball(const std::vector<View>& views, double range_m, const PlatformModel& model) {
+  const std::vector<std::string> names{"frame", "rays", "traversals", "blocks", "updates"};
+  StockTime stock;
+  stock.prices = model.kernels.at("octomap").seconds_per;
+  std::vector<Sample> samples;
+  for (const double resolution_m : {0.15, 0.3, 0.6, 1.2}) {
+    octomap::OcTree tree{resolution_m};
+    const auto counter = all_plugins().make<Mapper>("octomap");
+    for (const char* front_end : {"pyramid", "exact", "rays"}) {
+      KernelSettings chosen;
+      chosen.mapper = "flyball";
+      chosen.mapper_parameters["front_end"] = std::string{front_end};
+      const auto mapper = std::move(make_mapper(chosen).value());
+      double total_s = 0.0;
+      for (const View& view : views) {
+        Sample sample;
+        Work work;
+        sample.host_s = seconds([&] {
+          work = mapper->prepare(view.cloud, view.X_WC, {resolution_m, range_m}).value();
+          mapper->commit();
+        });
+        for (const std::string& name : names) {
+          sample.counts.push_back(work.count(name));
+        }
+        total_s += sample.host_s;
+        samples.push_back(std::move(sample));
+        if (front_end == std::string{"pyramid"}) {
+          stock.insert(view, range_m, *counter, tree);
+        }
+      }
+      std::printf("flyball, %s at %.2f m: %.3f ms a frame\n", front_end, resolution_m,
+                  1e3 * total_s / static_cast<double>(views.size()));
+    }
+  }
+  const double factor = stock.priced_s / stock.host_s;
+  std::printf("flyball: stock by the file's prices took %.2f of its time here\n", factor);
+  print_fit("flyball, in seconds of the file's stock", names, samples, factor);
 }
 
 /// The body's box by stock iterators, as a check by poses does it.
@@ -193,6 +276,8 @@ int main() {
   }
   const std::vector<View> views = look_around(scenario, setup->world);
   measure_octomap(views, scenario.map.range_m);
+  const auto file = find_shipped("platforms", scenario.platform.name);
+  measure_flyball(views, scenario.map.range_m, load_platform(file.value()).value());
   measure_body_query(views, scenario.map.range_m);
   return 0;
 }

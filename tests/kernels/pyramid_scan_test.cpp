@@ -132,5 +132,39 @@ TEST(PyramidScan, counts_the_blocks_that_it_looked_at) {
   EXPECT_GT(fine, 2.0 * coarse);
 }
 
+/// Share of the points on the camera's axis, from 1 to 4 m, that a scan of open space frees.
+double free_share_on_axis(PyramidScan& pyramid, int floor_level) {
+  PointCloud cloud;
+  cloud.camera = Intrinsics{128, 72, 110.0, 64.0, 36.0};
+  for (int v = 0; v < 72; ++v) {
+    for (int u = 0; u < 128; ++u) {
+      const Eigen::Vector3f ray{(static_cast<float>(u) + 0.5F - 64.0F) / 110.0F,
+                                (static_cast<float>(v) + 0.5F - 36.0F) / 110.0F, 1.0F};
+      cloud.clear_C.push_back(8.0F * ray.normalized());
+    }
+  }
+  Pose X_WC = Pose::Identity();
+  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  X_WC.translation() = Vec3{0.02, 0.04, 1.53};
+  const Cells cells = cells_of(pyramid.compute(cloud, X_WC, range_m, floor_level));
+  const Lattice lattice{finest_m};
+  int free = 0;
+  for (int i = 0; i < 300; ++i) {
+    const CellKey cell = lattice.cell(X_WC.translation() + Vec3{1.0 + 0.01 * i, 0.0, 0.0});
+    free += cells.find({cell.x, cell.y, cell.z}) != cells.end() ? 1 : 0;
+  }
+  return free / 300.0;
+}
+
+TEST(PyramidScan, leaves_no_gap_before_a_camera_near_which_it_refines) {
+  PyramidScan plain{finest_m};
+  PyramidScan refining{finest_m};
+  refining.refine_near_camera();
+  for (const int floor_level : {1, 2, 3}) {
+    EXPECT_EQ(free_share_on_axis(refining, floor_level), 1.0) << floor_level;
+  }
+  EXPECT_LT(free_share_on_axis(plain, 2), 0.9) << "there is a gap to fill";
+}
+
 }  // namespace
 }  // namespace flyball

@@ -76,6 +76,48 @@ void BrickMap::apply(const std::vector<BrickMasks>& changes) {
   }
 }
 
+void BrickMap::fill(const CellKey& brick, const Brick& cells) {
+  Chunk& chunk = at(brick.above(chunk_level - brick_level));
+  const std::size_t number = brick_number(brick);
+  chunk.bricks[number] = cells;
+  CellMasks masks{0, 0};
+  for (unsigned cell = 0; cell < 64; ++cell) {
+    const std::int8_t value = cells.cells[cell];
+    masks.occupied |= std::uint64_t{log_odds::is_occupied(value)} << cell;
+    masks.unknown |= std::uint64_t{value == log_odds::unknown} << cell;
+  }
+  chunk.set_masks(number, masks);
+}
+
+std::size_t BrickMap::drop_beyond(const Vec3& p_W, double radius_m) {
+  const auto is_far = [&](const Chunk& chunk) {
+    const Aabb cube = lattice_.cube(chunk.key, chunk_level);
+    const Vec3 nearest = p_W.cwiseMax(cube.min).cwiseMin(cube.max);
+    return (p_W - nearest).squaredNorm() > radius_m * radius_m;
+  };
+  std::size_t kept = 0;  // In their order, which decides the order in which cells are shown.
+  for (auto& chunk : chunks_) {
+    if (is_far(*chunk)) {
+      *chunk = Chunk{CellKey{}};
+      spare_.push_back(std::move(chunk));
+    } else if (&chunks_[kept] != &chunk) {
+      chunks_[kept++] = std::move(chunk);
+    } else {
+      ++kept;
+    }
+  }
+  const std::size_t dropped = chunks_.size() - kept;
+  chunks_.resize(kept);
+  if (dropped > 0) {
+    rehash(slots_.size());
+    near_.assign(near_slots, NearSlot{0, 0, nothing_});
+    for (const auto& chunk : chunks_) {
+      take_near_slot(*chunk);
+    }
+  }
+  return dropped;
+}
+
 BlockSummary BrickMap::summary(const CellKey& cell, int level) const {
   const Chunk& chunk = chunk_at(cell.above(chunk_level - level));
   if (level >= brick_level) {
@@ -117,14 +159,18 @@ Chunk& BrickMap::at(const CellKey& chunk) {
   }
   Chunk& made = *chunks_.back();
   slots_[slot] = {key, &made};
-  NearSlot& near = near_[near_slot(chunk)];
-  if (near.relevant == 0) {
-    near = {key, ~std::uint64_t{0}, &made};
-  }
+  take_near_slot(made);
   if (2 * chunks_.size() > slots_.size()) {
     rehash(2 * slots_.size());
   }
   return made;
+}
+
+void BrickMap::take_near_slot(const Chunk& chunk) {
+  NearSlot& near = near_[near_slot(chunk.key)];
+  if (near.relevant == 0) {
+    near = {packed(chunk.key), ~std::uint64_t{0}, &chunk};
+  }
 }
 
 void BrickMap::rehash(std::size_t slots) {

@@ -62,6 +62,13 @@ class BrickMap {
   /// Makes room, so that mapping so many more chunks allocates nothing.
   void reserve(std::size_t chunks);
   void apply(const std::vector<BrickMasks>& changes);
+  /// Replaces a brick, as a file has it.
+  void fill(const CellKey& brick, const Brick& cells);
+  /// Forgets the chunks that lie farther from `p_W` than `radius_m` as a whole. Their memory is
+  /// kept for new ones.
+  ///
+  /// @return  How many.
+  std::size_t drop_beyond(const Vec3& p_W, double radius_m);
 
   /// @param cell  Key at `level`, which is 0..5.
   [[nodiscard]] BlockSummary summary(const CellKey& cell, int level) const;
@@ -118,6 +125,8 @@ class BrickMap {
     return static_cast<std::size_t>((chunk.z & 7) << 10 | (chunk.y & 31) << 5 | (chunk.x & 31));
   }
   Chunk& at(const CellKey& chunk);
+  /// Unless another one has it.
+  void take_near_slot(const Chunk& chunk);
   void rehash(std::size_t slots);
 
   Lattice lattice_;

@@ -34,6 +34,7 @@ const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
   floor_level_ = floor_level;
   masks_.blocks = 0.0;
   view_.look(cloud_C, X_WC, range_m);
+  view_share_ = cloud_C.camera->height_px / cloud_C.camera->focal_px;
   span_window(X_WC, range_m);
   const Pose X_CW = X_WC.inverse();
   for (int z = first_chunk_.z; z <= last_chunk_.z; ++z) {
@@ -115,6 +116,15 @@ void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   free_block({(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level});
 }
 
+int PyramidScan::floor_at(float depth_m) const {
+  const double widest_m = 0.25 * view_share_ * std::max(0.0F, depth_m);
+  int level = floor_level_;
+  while (refines_near_ && level > 0 && lattice_.cell_m(level) > widest_m) {
+    --level;
+  }
+  return level;
+}
+
 void PyramidScan::free_block(const Block& block) {
   ++masks_.blocks;
   const Sight sight = view_.sight_of(block.centre_C, block.level);
@@ -122,10 +132,14 @@ void PyramidScan::free_block(const Block& block) {
     window_.free_block(block.place,
                        std::size_t{1} << 3 * static_cast<unsigned>(block.level - brick_level));
   }
-  if (sight != Sight::part || block.level == std::max(floor_level_, brick_level)) {
-    if (sight == Sight::part && floor_level_ < brick_level) {
-      floor_level_ == 0 ? free_cells(block) : free_eighths(block);
-    }
+  if (sight != Sight::part) {
+    return;
+  }
+  const int floor_level = floor_at(block.centre_C.z());
+  if (block.level == brick_level && floor_level < brick_level) {
+    floor_level == 0 ? free_cells(block) : free_eighths(block);
+  }
+  if (block.level <= std::max(floor_level, brick_level)) {
     return;
   }
   const int below = block.level - 1;

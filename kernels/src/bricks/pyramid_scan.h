@@ -19,6 +19,14 @@ class PyramidScan {
  public:
   explicit PyramidScan(double finest_m, Simd simd = widest_simd());
 
+  /// From now on, where a block is wider than a fourth of the view's height at its depth, the next
+  /// finer one that is not takes its place.
+  ///
+  /// Near the camera a coarse block never lies wholly in view, and a vehicle would stand before a
+  /// gap between its own place and the first free block. With this rule the middle half of the
+  /// view, at least, is free up to the first surface.
+  void refine_near_camera() { refines_near_ = true; }
+
   /// @param floor_level  Level of the smallest block that is freed: 0..3.
   /// @pre The cloud has a camera, and what lies within `range_m` of it lies inside the lattice.
   /// @return Valid until the next call. No ray is walked: `traversals` is 0.
@@ -38,6 +46,7 @@ class PyramidScan {
   void mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
   void mark_origin(const Vec3& p_WC);
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
+  [[nodiscard]] int floor_at(float depth_m) const;
   void free_block(const Block& block);
   void free_eighths(const Block& brick);
   void free_cells(const Block& brick);
@@ -50,6 +59,8 @@ class PyramidScan {
   CellKey first_chunk_{};
   CellKey last_chunk_{};
   int floor_level_{};
+  bool refines_near_{};
+  double view_share_{};  ///< The view's height over its depth.
 };
 
 }  // namespace flyball

@@ -27,12 +27,15 @@ struct MissionHooks {
   std::function<void(double mission_s, const std::string& what)> progress{};
   /// Asked often; true ends the mission as `interrupted`.
   std::function<bool()> stop{};
+  std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
+  std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
 };
 
 /// Every kernel, policy, world and workload compiled in.
 [[nodiscard]] const Registry& all_plugins();
 
-/// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out.
+/// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out;
+///        those of `Mapper::read` and `Mapper::write` for the map files.
 [[nodiscard]] Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks);
 
 /// The workload's graph, printed: as text, or for Graphviz.

@@ -48,6 +48,7 @@ struct VehicleSettings {
 struct KernelSettings {
   std::string point_cloud{"depth_to_points"};
   std::string mapper{"octomap"};
+  std::map<std::string, ParameterValue> mapper_parameters{};  ///< As the mapper declares them.
   std::string collision_check{"swept_cylinder"};
   std::string planner{"rrt_connect"};
   std::string smoother{"minimum_snap"};

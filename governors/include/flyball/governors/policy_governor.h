@@ -45,6 +45,8 @@ class PolicyGovernor final : public Governor {
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
   /// soon after a change is answered with the value in force. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
+  /// What the policy asked for at the last decision, before it was made legal; empty after a fault.
+  [[nodiscard]] const Decision& wished() const { return wished_; }
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
 
@@ -63,6 +65,7 @@ class PolicyGovernor final : public Governor {
   HostClock clock_;
   std::vector<double> in_force_;                     ///< By index of the knob in `knobs_`.
   std::vector<std::optional<MissionTime>> changed_;  ///< Empty until a knob first changes.
+  Decision wished_{};
   PolicyFault last_fault_{PolicyFault::none};
   int faults_in_row_{};
 };

@@ -11,6 +11,9 @@
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,19 @@ struct OccupiedCell {
   double size_m{};
 };
 
+/// What a map knows at one resolution. A cell counts as known when it is occupied or wholly free.
+struct MapLevel {
+  double cell_m{};
+  std::uint64_t known_cells{};
+  std::uint64_t occupied_cells{};
+};
+
+/// What a map holds, at each resolution that it answers at, finest first.
+struct MapContents {
+  std::vector<MapLevel> levels{};
+  std::size_t bytes{};  ///< Of the store of cells, without work space.
+};
+
 /// Insertion is split in two, because on the modeled computer a map is computed when its job starts
 /// and becomes visible when the job ends.
 class Mapper : public Kernel {
@@ -37,6 +53,8 @@ class Mapper : public Kernel {
   ///
   /// @pre `chosen` was resolved from `parameters()`.
   virtual void configure([[maybe_unused]] const Parameters& chosen) {}
+  /// Resolutions that this implementation maps at, ascending, once it is configured; empty: any.
+  [[nodiscard]] virtual std::vector<double> resolutions_m() const { return {}; }
 
   /// Computes what a scan changes; the visible map stays as it is. Replaces an earlier `prepare`
   /// that was not committed.
@@ -62,6 +80,25 @@ class Mapper : public Kernel {
   /// Answers from committed changes only. Lives as long as the mapper.
   [[nodiscard]] virtual const OccupancyView& view() const = 0;
   [[nodiscard]] virtual std::vector<OccupiedCell> occupied() const = 0;
+  [[nodiscard]] virtual MapContents contents() const { return {}; }
+
+  /// Writes the map as an OctoMap file, at its finest resolution or, where it has several, at
+  /// `resolution_m`: occupied or free for a path that ends in `.bt`, log-odds for `.ot`. What was
+  /// only declared clear is not in it.
+  ///
+  /// @error `invalid_input` for another ending or resolution, `failed` when nothing can be written
+  ///        there: no file, or the old one, is left.
+  [[nodiscard]] virtual Status write([[maybe_unused]] const std::string& path,
+                                     [[maybe_unused]] std::optional<double> resolution_m) const {
+    return Error{ErrorCode::unavailable, "this mapper writes no files; try: mapper flyball"};
+  }
+  /// Replaces the map by that of an OctoMap file; the mapper's finest resolution becomes the
+  /// file's. A file that is broken in any way is refused, and the map stays as it was.
+  ///
+  /// @error `not_found`, or `invalid_input` with what is wrong in the file.
+  [[nodiscard]] virtual Status read([[maybe_unused]] const std::string& path) {
+    return Error{ErrorCode::unavailable, "this mapper reads no files; try: mapper flyball"};
+  }
 };
 
 }  // namespace flyball

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario_parameters.h"
+
+#include "flyball/apps/mission.h"
+#include "flyball/sim/world.h"
+
+#include "scenario_keys.h"
+
+namespace flyball {
+namespace {
+
+constexpr const char* world_prefix = "world.";
+constexpr const char* mapper_prefix = "kernels.mapper_parameters.";
+
+template <class Plugin>
+ParameterGroup group_of(const std::string& family, const std::string& name) {
+  ParameterGroup group;
+  group.owner = family + " \"" + name + "\"";
+  if (const auto plugin = all_plugins().make<Plugin>(name)) {
+    group.exists = true;
+    group.specs = plugin->parameters();
+  }
+  return group;
+}
+
+std::optional<Error> set_parameter(ParameterValues& values,
+                                   const std::string& prefix,
+                                   const ParameterSpec& spec,
+                                   const GivenValue& value) {
+  const std::string what =
+      prefix + spec.name + " = " + value.text + " (" + value.origin + ") must be ";
+  if (std::holds_alternative<double>(spec.fallback)) {
+    const std::optional<double> number = as_number(value);
+    if (!number) {
+      const std::string unit = parts_of(spec.name).unit;
+      return Error{ErrorCode::invalid_input,
+                   what + "a number" + (unit.empty() ? "" : " in " + unit)};
+    }
+    values[spec.name] = *number;
+  } else {
+    const std::optional<std::string> text = as_text(value);
+    if (!text) {
+      return Error{ErrorCode::invalid_input, what + "a text"};
+    }
+    values[spec.name] = *text;
+  }
+  return std::nullopt;
+}
+
+std::vector<Error> take_parameters(ParameterValues& values,
+                                   const ParameterGroup& group,
+                                   const GivenValues& given) {
+  std::vector<Error> errors;
+  for (const ParameterSpec& spec : group.specs) {
+    const auto found = given.find(group.prefix + spec.name);
+    if (found == given.end()) {
+      continue;
+    }
+    if (std::optional<Error> error = set_parameter(values, group.prefix, spec, found->second)) {
+      errors.push_back(*std::move(error));
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::vector<ParameterGroup> parameter_groups(const Scenario& scenario) {
+  ParameterGroup world = group_of<WorldGenerator>("world", scenario.world.generator);
+  world.selector = "world.generator";
+  world.prefix = world_prefix;
+  ParameterGroup mapper = group_of<Mapper>("mapper", scenario.kernels.mapper);
+  mapper.selector = "kernels.mapper";
+  mapper.prefix = mapper_prefix;
+  return {std::move(world), std::move(mapper)};
+}
+
+const ParameterValues& values_of(const Scenario& scenario, const ParameterGroup& group) {
+  return group.prefix == world_prefix ? scenario.world.parameters
+                                      : scenario.kernels.mapper_parameters;
+}
+
+ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group) {
+  return group.prefix == world_prefix ? scenario.world.parameters
+                                      : scenario.kernels.mapper_parameters;
+}
+
+std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given) {
+  std::vector<Error> errors;
+  for (const ParameterGroup& group : parameter_groups(scenario)) {
+    ParameterValues& values = values_of(scenario, group);
+    for (Error& error : take_parameters(values, group, given)) {
+      errors.push_back(std::move(error));
+    }
+    auto resolved = Parameters::resolve(group.owner, group.specs, values);
+    if (const auto* wrong = std::get_if<std::vector<Error>>(&resolved)) {
+      errors.insert(errors.end(), wrong->begin(), wrong->end());
+    } else {
+      values = std::get<Parameters>(resolved).values();
+    }
+  }
+  return errors;
+}
+
+Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels) {
+  auto mapper = all_plugins().make<Mapper>(kernels.mapper);
+  if (!mapper) {
+    return Error{ErrorCode::not_found,
+                 "no mapper \"" + kernels.mapper + "\"; try: flyball list kernels"};
+  }
+  const auto chosen = Parameters::resolve("mapper \"" + kernels.mapper + "\"", mapper->parameters(),
+                                          kernels.mapper_parameters);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&chosen)) {
+    Error all{ErrorCode::invalid_input, ""};
+    for (const Error& error : *errors) {
+      all.message += (all.message.empty() ? "" : "\n") + error.message;
+    }
+    return all;
+  }
+  mapper->configure(std::get<Parameters>(chosen));
+  return mapper;
+}
+
+std::string mapper_cost(const KernelSettings& kernels) {
+  const auto named = kernels.mapper_parameters.find("cost_of");
+  const auto* kernel =
+      named == kernels.mapper_parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
+  return kernel == nullptr ? kernels.mapper : *kernel;
+}
+
+}  // namespace flyball

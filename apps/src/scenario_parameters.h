@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Settings that a plug-in declares for itself: those of the world's generator (`world.spread_m`)
+/// and of the mapper (`kernels.mapper_parameters.front_end`).
+
+#include "flyball/kernels/mapper.h"
+
+#include "scenario_reader.h"
+#include <memory>
+#include <vector>
+
+namespace flyball {
+
+using ParameterValues = std::map<std::string, ParameterValue>;
+
+/// The parameters of one plug-in that a scenario names.
+struct ParameterGroup {
+  std::string selector;  ///< The key that names the plug-in: `world.generator`.
+  std::string prefix;    ///< `world.`
+  std::string owner;     ///< For messages: `world "forest"`.
+  bool exists{};         ///< False: of a plug-in that does not exist nobody knows the parameters.
+  std::vector<ParameterSpec> specs{};
+};
+
+[[nodiscard]] std::vector<ParameterGroup> parameter_groups(const Scenario& scenario);
+/// Where a group's values are kept.
+[[nodiscard]] ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group);
+[[nodiscard]] const ParameterValues& values_of(const Scenario& scenario,
+                                               const ParameterGroup& group);
+
+/// Takes what was given; unknown names are left to the caller. On success the groups' values are
+/// in `scenario`, every one of them.
+///
+/// @return  Wrong kinds and bounds.
+[[nodiscard]] std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given);
+
+/// The mapper that the scenario names, configured.
+///
+/// @error `not_found`, or `invalid_input` with a sentence for each wrong parameter.
+[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels);
+
+/// Whose cost the map's work is charged as on the modeled computer: the mapper's own, or that of
+/// the kernel that its parameter `cost_of` names.
+[[nodiscard]] std::string mapper_cost(const KernelSettings& kernels);
+
+}  // namespace flyball

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "octree_copy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+// A brick's miss of 12 steps is OctoMap's log(.4 / .6) = -.405, its hit of 25 is log(.7 / .3) =
+// .847.
+constexpr float steps_per_log_odds = 29.6F;
+constexpr unsigned tree_depth = 16;
+constexpr unsigned chunk_depth = tree_depth - chunk_level;
+
+float log_odds_of(std::int8_t cell) {
+  return static_cast<float>(cell) / steps_per_log_odds;
+}
+
+/// Rounding never makes a free cell occupied, nor the other way round.
+std::int8_t cell_of(float log_odds, bool is_occupied) {
+  const float steps =
+      std::nearbyint(std::clamp(log_odds * steps_per_log_odds, static_cast<float>(log_odds::least),
+                                static_cast<float>(log_odds::most)));
+  const auto cell = static_cast<int>(steps);
+  return static_cast<std::int8_t>(is_occupied ? std::max(cell, 0) : std::min(cell, -1));
+}
+
+/// The key of a coarse cell in a tree whose own cells are as coarse: both have their origin in the
+/// middle of the keys.
+octomap::OcTreeKey coarse_key(const CellKey& cell, int level) {
+  const auto key = [level](int k) {
+    return static_cast<octomap::key_type>(k + Lattice::half_keys - (Lattice::half_keys >> level));
+  };
+  return {key(cell.x), key(cell.y), key(cell.z)};
+}
+
+/// The greatest log-odds among the finest cells of a cell.
+std::int8_t most_in(const Chunk& chunk, const CellKey& cell, int level) {
+  const int edge = 1 << level;
+  std::int8_t most = log_odds::unknown;
+  for (int i = 0; i < edge * edge * edge; ++i) {
+    const CellKey finest{cell.x * edge + i % edge, cell.y * edge + i / edge % edge,
+                         cell.z * edge + i / (edge * edge)};
+    const Brick& brick = chunk.bricks[brick_number(finest.above(brick_level))];
+    most = std::max(most, brick.cells[bit_in_brick(finest)]);
+  }
+  return most;
+}
+
+void add_chunk(const BrickMap& map, const Chunk& chunk, int level, octomap::OcTree& tree) {
+  const int edge = 1 << (chunk_level - level);
+  for (int z = 0; z < edge; ++z) {
+    for (int y = 0; y < edge; ++y) {
+      for (int x = 0; x < edge; ++x) {
+        const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
+        if (map.state(cell, level) != CellState::unknown) {
+          tree.setNodeValue(coarse_key(cell, level), log_odds_of(most_in(chunk, cell, level)),
+                            true);
+        }
+      }
+    }
+  }
+}
+
+CellKey first_cell(const octomap::OcTreeKey& leaf, unsigned depth) {
+  const int below = (1 << (tree_depth - depth)) - 1;
+  return {leaf[0] & ~below, leaf[1] & ~below, leaf[2] & ~below};
+}
+
+/// Leaves come in Morton order, so those of one chunk follow each other.
+std::size_t chunks_in(const octomap::OcTree& tree) {
+  std::size_t chunks = 0;
+  CellKey last{-1, -1, -1};
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs() && chunks <= most_chunks_read;
+       ++leaf) {
+    const CellKey chunk = first_cell(leaf.getKey(), leaf.getDepth()).above(chunk_level);
+    if (leaf.getDepth() < chunk_depth) {
+      chunks += std::size_t{1} << 3 * std::min(chunk_depth - leaf.getDepth(), 7U);
+    } else if (!(chunk == last)) {
+      ++chunks;
+    }
+    last = chunk;
+  }
+  return chunks;
+}
+
+/// Calls `see(brick)` for each brick that the cube of `edge` cells at `first` overlaps.
+template <class See>
+void for_each_brick(const CellKey& first, int edge, See&& see) {
+  const CellKey low = first.above(brick_level);
+  const int bricks = std::max(edge >> brick_level, 1);
+  for (int z = 0; z < bricks; ++z) {
+    for (int y = 0; y < bricks; ++y) {
+      for (int x = 0; x < bricks; ++x) {
+        see(CellKey{low.x + x, low.y + y, low.z + z});
+      }
+    }
+  }
+}
+
+void fill_cube(Brick& brick, const CellKey& first, int edge, std::int8_t value) {
+  for (int z = 0; z < edge; ++z) {
+    for (int y = 0; y < edge; ++y) {
+      const unsigned row = bit_in_brick({first.x, first.y + y, first.z + z});
+      std::fill_n(brick.cells.begin() + row, edge, value);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level) {
+  auto tree = std::make_unique<octomap::OcTree>(map.lattice().cell_m(level));
+  tree->setClampingThresMin(0.12);  // both as in MAVBench's code
+  tree->setClampingThresMax(0.97);
+  for (const auto& chunk : map.chunks()) {
+    add_chunk(map, *chunk, level, *tree);
+  }
+  tree->updateInnerOccupancy();
+  tree->prune();
+  return tree;
+}
+
+Result<BrickMap> to_bricks(const octomap::OcTree& tree) {
+  if (chunks_in(tree) > most_chunks_read) {
+    return Error{ErrorCode::invalid_input,
+                 "the map fills more than " + std::to_string(most_chunks_read) +
+                     " blocks of 32 x 32 x 32 cells; cut it, or give it wider cells"};
+  }
+  BrickMap map{tree.getResolution()};
+  Brick brick;
+  brick.cells.fill(log_odds::unknown);
+  CellKey at{-1, -1, -1};
+  const auto put = [&] {
+    if (at.x >= 0) {
+      map.fill(at, brick);
+    }
+    brick.cells.fill(log_odds::unknown);
+  };
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const CellKey first = first_cell(leaf.getKey(), leaf.getDepth());
+    const int edge = 1 << (tree_depth - leaf.getDepth());
+    const std::int8_t value = cell_of(leaf->getLogOdds(), tree.isNodeOccupied(*leaf));
+    for_each_brick(first, edge, [&](const CellKey& key) {
+      if (!(key == at)) {
+        put();
+        at = key;
+      }
+      if (edge >= 1 << brick_level) {
+        brick.cells.fill(value);
+      } else {
+        fill_cube(brick, first, edge, value);
+      }
+    });
+  }
+  put();
+  return map;
+}
+
+}  // namespace flyball

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The brick map as an OctoMap tree, and back. A free or occupied cell stays so. Log-odds are
+/// rounded to a brick's steps of 1/29.6; OctoMap's own clamps apply in a tree.
+
+#include "flyball/runtime/result.h"
+
+#include "brick_map.h"
+#include <memory>
+
+#include <octomap/OcTree.h>
+
+namespace flyball {
+
+/// Most chunks that a tree may fill: 550 MB.
+inline constexpr std::size_t most_chunks_read = 16384;
+
+/// The cells of one level, pruned. At a coarser one than the finest, cells that are free in part
+/// only are unknown.
+[[nodiscard]] std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level);
+
+/// A map with the tree's cells as its finest.
+///
+/// @error `invalid_input` when the tree's leaves fill more than `most_chunks_read` chunks: a few
+///        bytes of a file can claim a continent.
+[[nodiscard]] Result<BrickMap> to_bricks(const octomap::OcTree& tree);
+
+}  // namespace flyball

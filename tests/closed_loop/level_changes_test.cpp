@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A mission whose map changes its resolution every 5 s.
+
+#include "flyball/kernels/mapper.h"
+
+#include "../apps/short_delivery.h"
+#include "scratch_folder.h"
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using Cells = std::set<std::tuple<long, long, long>>;
+
+Scenario among_trees() {
+  Scenario scenario = kit::short_delivery();
+  scenario.world.generator = "forest";
+  scenario.world.parameters = {{"goal_distance_m", 30.0}};
+  scenario.governor.policy = "cycle";  // .15 and .60 m in turns, 5 s each
+  scenario.kernels.mapper = "flyball";
+  scenario.mission.time_limit_s = 300.0;
+  return scenario;
+}
+
+/// The finest cells that are occupied when the mission has lasted so long.
+Cells occupied_after(const Scenario& scenario, double time_s) {
+  const ScratchFolder scratch;
+  double now_s = 0.0;
+  MissionHooks hooks;
+  hooks.progress = [&now_s](double mission_s, const std::string&) { now_s = mission_s; };
+  hooks.stop = [&] { return now_s >= time_s; };
+  hooks.final_map = scratch.path("map.bt");
+  const auto record = fly(scenario, hooks);
+  EXPECT_TRUE(record.ok());
+  const auto mapper = all_plugins().make<Mapper>("flyball");
+  EXPECT_TRUE(mapper->read(hooks.final_map).ok());
+  Cells cells;
+  for (const OccupiedCell& cell : mapper->occupied()) {
+    const Eigen::Array3d key = (cell.centre_W.array() / cell.size_m).floor();
+    cells.emplace(std::lround(key.x()), std::lround(key.y()), std::lround(key.z()));
+  }
+  return cells;
+}
+
+TEST(LevelChanges, every_5_s_cost_no_collision) {
+  const Summary summary = kit::flown(among_trees()).summary;
+  EXPECT_NE(summary.failure, MissionFailure::collision);
+  EXPECT_GT(summary.min_clearance_m, 0.0);
+  EXPECT_GT(summary.knob_changes, 3U);
+}
+
+TEST(LevelChanges, keep_what_was_seen_at_the_finest_level) {
+  const Cells before = occupied_after(among_trees(), 10.0);  // fine, coarse
+  const Cells after = occupied_after(among_trees(), 20.0);   // and both once more
+  std::size_t kept = 0;
+  for (const auto& cell : before) {
+    kept += after.count(cell);
+  }
+  ASSERT_GT(before.size(), 200U);
+  EXPECT_GE(static_cast<double>(kept), 0.98 * static_cast<double>(before.size()));
+}
+
+}  // namespace
+}  // namespace flyball
