@@ -16,7 +16,7 @@
 namespace flyball {
 
 struct PolicyGovernorSettings {
-  Duration min_dwell{std::chrono::milliseconds{500}};   ///< A knob changes at most this often.
+  Duration min_dwell{std::chrono::milliseconds{500}};   ///< Of knobs that do not say it themselves.
   Duration time_limit{std::chrono::milliseconds{100}};  ///< Watchdog for one `decide`, host time.
   int max_faults{3};                                    ///< In a row; then the fallback for good.
 };
@@ -45,6 +45,8 @@ class PolicyGovernor final : public Governor {
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
   /// soon after a change is answered with the value in force. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
+  /// How often the policy wants to be asked; empty: as often as the scenario says.
+  [[nodiscard]] std::optional<Duration> period() const { return policy_->period(); }
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
 
