@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "governor_loop.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace flyball {
@@ -27,68 +28,105 @@ GovernorLoop::GovernorLoop(MissionContext& context,
       navigator_{navigator} {}
 
 void GovernorLoop::tick(MissionTime now) {
-  const Observation seen = observe(now);
-  record(seen);
-  const Decision decision = governor_.decide(seen);
+  seen_.now = now;
+  observe_computer(now);
+  if (now >= next_look_) {
+    next_look_ = now + from_seconds(context_.scenario.governor.period_s);
+    observe_surroundings();
+    record();
+  }
+  const Decision decision = governor_.decide(seen_);
   apply(now, decision);
   ++decisions_;
 }
 
-void GovernorLoop::record(const Observation& seen) {
+void GovernorLoop::record() {
   context_.recorder.record(
-      seen.now, "observation",
-      {{"speed_m_s", seen.speed_m_s},
-       {"known_free_m", seen.known_free_m},
-       {"obstacle_density", seen.obstacle_density},
-       {"nearest_obstacle_m", seen.nearest_obstacle_m},
-       {"distance_to_goal_m", seen.distance_to_goal_m},
-       {"latency_s", to_seconds(seen.latency)},
-       {"latency_bound_s", to_seconds(seen.latency_bound)},
-       {"busy_cores", seen.busy_cores},
-       {"deadline_misses", static_cast<std::int64_t>(seen.deadline_misses)},
-       {"queue_drops", static_cast<std::int64_t>(seen.queue_drops)},
-       {"planner_failures", static_cast<std::int64_t>(seen.planner_failures)}});
+      seen_.now, "observation",
+      {{"speed_m_s", seen_.speed_m_s},
+       {"known_free_m", seen_.known_free_m},
+       {"obstacle_density", seen_.obstacle_density},
+       {"density_ahead", seen_.density_ahead},
+       {"nearest_obstacle_m", seen_.nearest_obstacle_m},
+       {"distance_to_goal_m", seen_.distance_to_goal_m},
+       {"latency_s", to_seconds(seen_.latency)},
+       {"latency_bound_s", to_seconds(seen_.latency_bound)},
+       {"busy_cores", seen_.busy_cores},
+       {"busiest_core_load", seen_.busiest_core_load},
+       {"deadline_misses", static_cast<std::int64_t>(seen_.deadline_misses)},
+       {"queue_drops", static_cast<std::int64_t>(seen_.queue_drops)},
+       {"planner_failures", static_cast<std::int64_t>(seen_.planner_failures)}});
 }
 
-Observation GovernorLoop::observe(MissionTime now) {
-  Observation seen;
-  seen.now = now;
-  seen.phase = context_.phase;
-  seen.planner_failures = static_cast<std::uint32_t>(context_.counters.planner_failures_in_row);
-  seen.map_resolution_m = context_.map().resolution_m();
-  if (navigator_ != nullptr) {
-    const Vec3 p_W = navigator_->follower().position_W();
-    seen.speed_m_s = navigator_->follower().speed_m_s();
-    seen.known_free_m = navigator_->follower().known_free_m();
-    seen.tracking_error_m = navigator_->tracking_error().size_m;
-    seen.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
-    seen.latency = navigator_->newest_latency();
-    seen.latency_bound = navigator_->follower().latency_bound();
-    seen.obstacle_density =
-        context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m);
-    seen.nearest_obstacle_m =
-        context_.map().nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
+void GovernorLoop::observe_surroundings() {
+  seen_.phase = context_.phase;
+  seen_.planner_failures = static_cast<std::uint32_t>(context_.counters.planner_failures_in_row);
+  seen_.map_resolution_m = context_.map().resolution_m();
+  if (navigator_ == nullptr) {
+    return;
   }
-  observe_computer(now, seen);
-  return seen;
+  const PathFollower& follower = navigator_->follower();
+  const Vec3 p_W = follower.position_W();
+  seen_.speed_m_s = follower.speed_m_s();
+  seen_.speed_limit_m_s = speed_limit_ahead();
+  seen_.known_free_m = follower.known_free_m();
+  seen_.tracking_error_m = navigator_->tracking_error().size_m;
+  seen_.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
+  seen_.latency = navigator_->newest_latency();
+  seen_.latency_bound = follower.latency_bound();
+  seen_.map_revision = navigator_->map_revision();
+  seen_.obstacle_density =
+      context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m);
+  seen_.density_ahead = density_ahead();
+  seen_.nearest_obstacle_m =
+      context_.map().nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
 }
 
-void GovernorLoop::observe_computer(MissionTime now, Observation& seen) {
+double GovernorLoop::speed_limit_ahead() const {
+  const PathFollower& follower = navigator_->follower();
+  double least = context_.speed_limit_m_s(follower.position_W());
+  if (follower.has_path()) {
+    for (const double ahead_m : {4.0, 8.0, 12.0, 16.0, 20.0}) {
+      const double s_m = std::min(follower.s_m() + ahead_m, follower.path().length_m());
+      least = std::min(least, context_.speed_limit_m_s(follower.path().at(s_m).p_W));
+    }
+  }
+  return least;
+}
+
+double GovernorLoop::density_ahead() const {
+  const PathFollower& follower = navigator_->follower();
+  double most = 0.0;
+  if (follower.has_path()) {
+    for (const double ahead_m : {4.0, 8.0, 12.0}) {
+      const double s_m = std::min(follower.s_m() + ahead_m, follower.path().length_m());
+      most = std::max(most, context_.map().obstacle_density(follower.path().at(s_m).p_W,
+                                                            density_radius_m, density_half_band_m));
+    }
+  }
+  return most;
+}
+
+void GovernorLoop::observe_computer(MissionTime now) {
   const double busy_core_s = executor_.busy_core_s();
+  const double busiest_core_s = executor_.busiest_core_s();
   const double elapsed_s = to_seconds(now - last_);
-  seen.busy_cores = elapsed_s > 0.0 ? (busy_core_s - last_busy_core_s_) / elapsed_s : 0.0;
+  seen_.busy_cores = elapsed_s > 0.0 ? (busy_core_s - last_busy_core_s_) / elapsed_s : 0.0;
+  seen_.busiest_core_load =
+      elapsed_s > 0.0 ? std::min(1.0, (busiest_core_s - last_busiest_core_s_) / elapsed_s) : 0.0;
   last_busy_core_s_ = busy_core_s;
+  last_busiest_core_s_ = busiest_core_s;
   last_ = now;
-  seen.deadline_misses = misses_;
+  seen_.deadline_misses = misses_;
   misses_ = 0;
   const std::uint64_t drops = executor_.drops();
-  seen.queue_drops = static_cast<std::uint32_t>(drops - last_drops_);
+  seen_.queue_drops = static_cast<std::uint32_t>(drops - last_drops_);
   last_drops_ = drops;
-  seen.cores = executor_.operating_point().cores;
-  seen.frequency = executor_.operating_point().frequency;
-  seen.computer_power = Watts{loop_.log().computer_w};
-  seen.rotor_power = Watts{loop_.log().rotor_w};
-  seen.battery_percent = loop_.battery().percent();
+  seen_.cores = executor_.operating_point().cores;
+  seen_.frequency = executor_.operating_point().frequency;
+  seen_.computer_power = Watts{loop_.log().computer_w};
+  seen_.rotor_power = Watts{loop_.log().rotor_w};
+  seen_.battery_percent = loop_.battery().percent();
 }
 
 /// Once for each knob whose wished value this mission does not have: a mapper may know no cells of

@@ -22,7 +22,8 @@ class GovernorLoop {
                const ClosedLoop& loop,
                const Navigator* navigator);
 
-  /// One decision at `now`.
+  /// One decision at `now`. The surroundings are looked at once per the scenario's period, the
+  /// computer each time.
   void tick(MissionTime now);
   /// A deadline was missed; told with the next observation.
   void count_miss() {
@@ -35,9 +36,11 @@ class GovernorLoop {
   [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
 
  private:
-  [[nodiscard]] Observation observe(MissionTime now);
-  void record(const Observation& seen);
-  void observe_computer(MissionTime now, Observation& seen);
+  void observe_surroundings();
+  [[nodiscard]] double speed_limit_ahead() const;
+  [[nodiscard]] double density_ahead() const;
+  void observe_computer(MissionTime now);
+  void record();
   void apply(MissionTime now, const Decision& decision);
   void note_moved_wishes(MissionTime now);
 
@@ -46,8 +49,11 @@ class GovernorLoop {
   VirtualExecutor& executor_;
   const ClosedLoop& loop_;
   const Navigator* navigator_;
+  Observation seen_{};
+  MissionTime next_look_{};
   MissionTime last_{};
   double last_busy_core_s_{};
+  double last_busiest_core_s_{};
   std::uint64_t last_drops_{};
   std::uint32_t misses_{};
   std::uint64_t all_misses_{};

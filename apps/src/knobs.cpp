@@ -28,6 +28,7 @@ KnobSpec frequency_knob(const Platform& platform, double fallback) {
   spec.min = spec.legal.front();
   spec.max = spec.legal.back();
   spec.switching_cost = platform.switching_time();
+  spec.min_dwell = Duration::zero();  // a switch costs its time and nothing else
   return described(std::move(spec), fallback, "clock of all cores");
 }
 

@@ -34,6 +34,7 @@ struct Flight {
                 std::move(setup.equipment)},
         workload{std::move(made)},
         graph{scenario.mission.workload},
+        period{setup.governor->period()},
         topics{add_vehicle_topics(graph)} {
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
@@ -49,6 +50,7 @@ struct Flight {
   MissionContext context;
   std::unique_ptr<Workload> workload;
   Graph graph;
+  std::optional<Duration> period;  ///< Between decisions, if the policy says.
   VehicleTopics topics;
   std::unique_ptr<VirtualExecutor> executor;
   std::unique_ptr<ClosedLoop> loop;
@@ -65,7 +67,7 @@ void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks
       flight.loop->emergency_hold();
     }
   });
-  const Duration period = from_seconds(scenario.governor.period_s);
+  const Duration period = flight.period.value_or(from_seconds(scenario.governor.period_s));
   queue.every(MissionTime{}, period, EventOrder::governor,
               [&flight] { flight.governor->tick(flight.queue.now()); });
   queue.every(MissionTime{}, state_period, EventOrder::observer,

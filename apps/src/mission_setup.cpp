@@ -168,6 +168,14 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   if (const auto errors = check_map(scenario, {}); !errors.empty()) {
     return join(errors);
   }
+  const std::string priced_as = mapper_cost(scenario.kernels);
+  if (!setup.platform->knows(priced_as)) {
+    return Error{ErrorCode::invalid_input,
+                 "platform \"" + scenario.platform.name + "\" has no price for mapper \"" +
+                     priced_as + "\", so its map would cost no time; set " +
+                     "kernels.mapper_parameters.cost_of to \"octomap\", or add [kernels." +
+                     priced_as + "] to the platform file"};
+  }
   setup.equipment.knobs = KnobSettings{
       standard_knobs(scenario, *setup.platform, setup.equipment.kernels.mapper->resolutions_m())};
   auto governor = make_governor(scenario, setup.equipment.knobs);

@@ -63,6 +63,7 @@ void Navigator::map_published(MissionTime now,
   auto& latency = window(latency_, revision.resolution_m, expected_latency);
   auto& interval = window(interval_, revision.resolution_m, expected_latency);
   newest_latency_ = now - revision.captured;
+  map_revision_ = revision.number;
   if (newest_latency_ > latency.bound()) {
     ++context_.counters.bound_overruns;
   }

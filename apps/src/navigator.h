@@ -64,6 +64,7 @@ class Navigator {
   [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
   [[nodiscard]] const PathFollower& follower() const { return follower_; }
   [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
+  [[nodiscard]] std::uint64_t map_revision() const { return map_revision_; }
   [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
 
  private:
@@ -95,6 +96,7 @@ class Navigator {
   std::map<double, LatencyWindow> interval_{};
   MissionTime last_published_{};
   Duration newest_latency_{};
+  std::uint64_t map_revision_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
   TrackingError tracking_error_{};
 };

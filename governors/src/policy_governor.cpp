@@ -118,7 +118,8 @@ Decision PolicyGovernor::safe_default(MissionTime now) noexcept {
 }
 
 bool PolicyGovernor::may_change(std::size_t knob, MissionTime now) const noexcept {
-  return !changed_[knob] || now - *changed_[knob] >= settings_.min_dwell;
+  const Duration dwell = knobs_.specs()[knob].min_dwell.value_or(settings_.min_dwell);
+  return !changed_[knob] || now - *changed_[knob] >= dwell;
 }
 
 void PolicyGovernor::put_in_force(std::size_t knob, double value, MissionTime now) noexcept {

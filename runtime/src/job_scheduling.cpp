@@ -169,6 +169,7 @@ void VirtualComputer::advance() {
     return;
   }
   busy_core_s += busy_cores() * elapsed_s;
+  busiest_core_s += std::min(1.0, busy_cores()) * elapsed_s;
   for (NodeState& node : nodes) {
     if (node.job && node.job->has_started) {
       node.job->advance(elapsed_s);

@@ -65,6 +65,12 @@ std::variant<Parameters, std::vector<Error>> Parameters::resolve(
     FLYBALL_ASSERT(is_new, "%s declares \"%s\" twice", owner.c_str(), spec.name.c_str());
   }
   std::vector<Error> errors;
+  for (const ParameterSpec& spec : specs) {
+    if (spec.required && given.count(spec.name) == 0) {
+      errors.push_back({ErrorCode::invalid_input,
+                        owner + ", " + spec.name + ": must be given; there is no default"});
+    }
+  }
   for (const auto& entry : given) {
     const std::string& name = entry.first;
     const auto spec = std::find_if(specs.begin(), specs.end(),

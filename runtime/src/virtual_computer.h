@@ -78,6 +78,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   std::uint64_t jobs_released{};
   std::uint64_t drops{};
   double busy_core_s{};
+  double busiest_core_s{};
   MissionTime advanced_to{};
   MissionTime stalled_until{};
   bool is_dispatch_pending{};

@@ -210,6 +210,11 @@ double VirtualExecutor::busy_core_s() const {
   return computer_->busy_core_s + computer_->busy_cores() * since_s;
 }
 
+double VirtualExecutor::busiest_core_s() const {
+  const double since_s = to_seconds(computer_->queue.now() - computer_->advanced_to);
+  return computer_->busiest_core_s + std::min(1.0, computer_->busy_cores()) * since_s;
+}
+
 double VirtualExecutor::busy_cores() const {
   return computer_->busy_cores();
 }

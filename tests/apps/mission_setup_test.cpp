@@ -35,6 +35,17 @@ TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
   EXPECT_NE(refusal(scenario).find("flyball list policies"), std::string::npos);
 }
 
+TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
+  Scenario scenario;
+  scenario.kernels.mapper = "flyball";
+  const auto unpriced = set_up(scenario);
+  ASSERT_FALSE(unpriced.ok());
+  EXPECT_NE(unpriced.error().message.find("no price for mapper \"flyball\""), std::string::npos)
+      << unpriced.error().message;
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
+  EXPECT_TRUE(set_up(scenario).ok());
+}
+
 TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
   Scenario scenario;
   scenario.vehicle.airframe = "f450";

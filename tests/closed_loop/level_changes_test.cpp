@@ -23,6 +23,7 @@ Scenario among_trees() {
   scenario.world.parameters = {{"goal_distance_m", 30.0}};
   scenario.governor.policy = "cycle";  // .15 and .60 m in turns, 5 s each
   scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
   scenario.mission.time_limit_s = 300.0;
   return scenario;
 }

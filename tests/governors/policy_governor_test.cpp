@@ -125,6 +125,24 @@ TEST(PolicyGovernor, lets_each_knob_dwell_by_itself) {
   EXPECT_EQ(4.0, values(governor.decide(at(100ms))).at("map.range_m"));
 }
 
+TEST(PolicyGovernor, lets_a_knob_say_how_long_it_dwells) {
+  flyball::KnobSpec clock;
+  clock.name = "cpu.frequency_hz";
+  clock.legal = {1e9, 2e9};
+  clock.fallback = 2e9;
+  clock.min_dwell = 2ms;
+  flyball::PolicyGovernor governor{std::make_unique<RulePolicy>([](const Observation& seen) {
+                                     return wish("cpu.frequency_hz",
+                                                 seen.now < MissionTime{1ms} ? 1e9 : 2e9);
+                                   }),
+                                   flyball::KnobSettings{{clock}},
+                                   {500ms, 100ms, 3},
+                                   {}};
+  EXPECT_EQ(1e9, values(governor.decide(at(0ms))).at("cpu.frequency_hz"));
+  EXPECT_EQ(1e9, values(governor.decide(at(1ms))).at("cpu.frequency_hz"));
+  EXPECT_EQ(2e9, values(governor.decide(at(2ms))).at("cpu.frequency_hz"));
+}
+
 struct Fault {
   Rule rule;
   PolicyFault name;

@@ -58,10 +58,13 @@ struct PolicyCandidate {
     seen.speed_m_s = draw.uniform(0.0, 10.0);
     seen.known_free_m = draw.uniform(0.0, 25.0);
     seen.obstacle_density = std::pow(draw.uniform(), 3.0);
+    seen.density_ahead = std::pow(draw.uniform(), 3.0);
+    seen.speed_limit_m_s = draw.uniform() < 0.3 ? 1.0 : 10.0;
     seen.nearest_obstacle_m = draw.uniform(0.3, 20.0);
     seen.distance_to_goal_m = draw.uniform(0.0, 400.0);
     seen.tracking_error_m = draw.uniform(0.0, 0.3);
-    seen.map_resolution_m = 0.15;
+    seen.map_resolution_m = draw.uniform() < 0.5 ? 0.15 : 0.80;
+    seen.map_revision = i;
     seen.latency = from_seconds(draw.uniform(0.01, 3.0));
     seen.latency_bound = from_seconds(1.1 * to_seconds(seen.latency));
     seen.deadline_misses = static_cast<std::uint32_t>(draw.next() % 3);
@@ -69,6 +72,7 @@ struct PolicyCandidate {
     seen.cores = 1 + static_cast<int>(draw.next() % 4);
     seen.frequency = Hertz{draw.uniform() < 0.5 ? 806.4e6 : 2035.2e6};
     seen.busy_cores = draw.uniform(0.0, seen.cores);
+    seen.busiest_core_load = std::min(1.0, seen.busy_cores);
     seen.computer_power = Watts{draw.uniform(2.0, 15.0)};
     seen.rotor_power = Watts{draw.uniform(150.0, 600.0)};
     seen.battery_percent = draw.uniform(0.0, 100.0);
@@ -87,7 +91,9 @@ struct PolicyCandidate {
     seen.now = MissionTime{std::chrono::hours{all.size()}};
     seen.speed_m_s = seen.known_free_m = seen.obstacle_density = seen.nearest_obstacle_m = x;
     seen.distance_to_goal_m = seen.tracking_error_m = seen.map_resolution_m = x;
-    seen.busy_cores = seen.battery_percent = x;
+    seen.busy_cores = seen.busiest_core_load = seen.battery_percent = x;
+    seen.density_ahead = seen.speed_limit_m_s = x;
+    seen.map_revision = all.size();
     seen.frequency = Hertz{x};
     seen.computer_power = seen.rotor_power = Watts{x};
     seen.latency = seen.latency_bound = std::chrono::hours{x < 0.0 ? -24 : 24};
@@ -131,7 +137,13 @@ class PolicyConformance {
       require(false, "the factory makes nothing");
       return nullptr;
     }
-    const auto given = Parameters::resolve("policy", policy->parameters(), candidate_.parameters);
+    auto parameters = candidate_.parameters;
+    for (const ParameterSpec& spec : policy->parameters()) {
+      if (spec.required) {
+        parameters.emplace(spec.name, spec.fallback);  // an example, by its contract
+      }
+    }
+    const auto given = Parameters::resolve("policy", policy->parameters(), parameters);
     if (const auto* errors = std::get_if<std::vector<Error>>(&given)) {
       require(false, "does not take the given parameters: " + errors->front().message);
       return nullptr;

@@ -108,6 +108,23 @@ TEST(JobScheduling, a_threaded_job_and_another_never_use_a_core_twice) {
   EXPECT_NEAR(rig.end_ms(wide), 30.0 + (100.0 - 30.0 * s3) / s4, end_tolerance_ms);
 }
 
+TEST(JobScheduling, the_busiest_core_works_whenever_anything_runs) {
+  ComputerRig rig;
+  const int a = rig.add({60.0});
+  const int b = rig.add({20.0});
+  rig.start(2);
+  rig.trigger(a, 0.0);
+  rig.trigger(b, 10.0);
+  rig.trigger(b, 100.0);
+  double half_way_s = 0.0;
+  rig.queue.schedule(at_ms(30.0), EventOrder::observer,
+                     [&] { half_way_s = rig.computer->busiest_core_s(); });
+  rig.run();
+  EXPECT_NEAR(half_way_s, 0.030, 1e-9);
+  EXPECT_NEAR(rig.computer->busiest_core_s(), 0.080, 1e-9);
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.100, 1e-9);
+}
+
 TEST(JobScheduling, threads_of_a_serial_kernel_leave_the_other_cores_free) {
   ComputerRig rig;
   const int serial = rig.add({50.0, 1, "serial", 4});

@@ -62,4 +62,16 @@ TEST(ParametersDeathTest, asking_for_what_was_not_declared_is_a_mistake) {
 }
 
 }  // namespace
+TEST(Parameters, ask_for_a_required_one_that_is_missing) {
+  ParameterSpec period{"period_s", 0.3, 0.0, 1.0, "How often."};
+  period.required = true;
+  const auto missing = Parameters::resolve("policy \"ondemand\"", {period}, {});
+  const auto* errors = std::get_if<std::vector<Error>>(&missing);
+  ASSERT_NE(errors, nullptr);
+  EXPECT_NE(errors->front().message.find("period_s"), std::string::npos);
+  const auto given = Parameters::resolve("x", {period}, {{"period_s", 0.01}});
+  ASSERT_TRUE(std::holds_alternative<Parameters>(given));
+  EXPECT_EQ(std::get<Parameters>(given).number("period_s"), 0.01);
+}
+
 }  // namespace flyball

@@ -23,8 +23,8 @@ class PyramidScan {
   /// finer one that is not takes its place.
   ///
   /// Near the camera a coarse block never lies wholly in view, and a vehicle would stand before a
-  /// gap between its own place and the first free block. With this rule the middle half of the
-  /// view, at least, is free up to the first surface.
+  /// gap between its own place and the first free block. This narrows the gap; it does not close it
+  /// at every height of the camera over the lattice.
   void refine_near_camera() { refines_near_ = true; }
 
   /// @param floor_level  Level of the smallest block that is freed: 0..3.

@@ -8,6 +8,7 @@
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
 
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -24,6 +25,9 @@ class Policy {
   /// Called once, before the first decision.
   /// @error `invalid_input` when parameters contradict each other or the knobs.
   virtual Status start(const Parameters& given, const KnobSettings& knobs) = 0;
+  /// How often it wants to be asked; empty: as often as the scenario says. Asked once, when
+  /// started.
+  [[nodiscard]] virtual std::optional<Duration> period() const { return std::nullopt; }
   /// The wish for the time until the next decision. Must not block or allocate.
   [[nodiscard]] virtual Decision decide(const Observation& seen) noexcept = 0;
 };

@@ -16,7 +16,7 @@
 namespace flyball {
 
 struct PolicyGovernorSettings {
-  Duration min_dwell{std::chrono::milliseconds{500}};   ///< A knob changes at most this often.
+  Duration min_dwell{std::chrono::milliseconds{500}};   ///< Of knobs that do not say it themselves.
   Duration time_limit{std::chrono::milliseconds{100}};  ///< Watchdog for one `decide`, host time.
   int max_faults{3};                                    ///< In a row; then the fallback for good.
 };
@@ -47,6 +47,8 @@ class PolicyGovernor final : public Governor {
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   /// What the policy asked for at the last decision, before it was made legal; empty after a fault.
   [[nodiscard]] const Decision& wished() const { return wished_; }
+  /// How often the policy wants to be asked; empty: as often as the scenario says.
+  [[nodiscard]] std::optional<Duration> period() const { return policy_->period(); }
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
 

@@ -54,6 +54,9 @@ class Executor {
   [[nodiscard]] virtual const OperatingPoint& operating_point() const = 0;
   /// Core-seconds of work done since the start.
   [[nodiscard]] virtual double busy_core_s() const = 0;
+  /// The same of the core that worked most. Without a map of jobs to cores, the first core is one
+  /// that works whenever anything runs.
+  [[nodiscard]] virtual double busiest_core_s() const = 0;
   /// Cores in use right now.
   [[nodiscard]] virtual double busy_cores() const = 0;
   /// Dropped since the start: messages from full queues, triggers of a latest-value topic that were

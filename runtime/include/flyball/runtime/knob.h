@@ -8,6 +8,7 @@
 #include "flyball/runtime/time.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ struct KnobSpec {
   double fallback{};
   Duration switching_cost{};
   std::string description{};
+  /// Keeps its value at least this long; empty: as long as the governor says.
+  std::optional<Duration> min_dwell{};
 
   /// The legal value nearest to `wish`, the smaller of two equally near. @pre `wish` is finite.
   [[nodiscard]] double nearest(double wish) const;

@@ -20,10 +20,14 @@ struct Observation {
   double known_free_m{};        ///< Along the committed path; 0 when there is none.
   double obstacle_density{};    ///< Share of .8 m columns around the vehicle that hold an obstacle,
                                 ///< 0..1.
+  double density_ahead{};       ///< The largest such density around the committed path, 4 to 12 m
+                                ///< on from here.
   double nearest_obstacle_m{};  ///< In the map, from the body's centre; 20 when none is nearer.
   double distance_to_goal_m{};
   double tracking_error_m{};
+  double speed_limit_m_s{};          ///< The mission's least, here and 20 m on.
   double map_resolution_m{};         ///< In force now.
+  std::uint64_t map_revision{};      ///< Counts published maps; `latency` is the newest one's.
   Duration latency{};                ///< Newest sensor-to-command time.
   Duration latency_bound{};          ///< In force for the speed limit.
   std::uint32_t deadline_misses{};   ///< Since the last decision.
@@ -31,7 +35,9 @@ struct Observation {
   std::uint32_t planner_failures{};  ///< In a row.
   int cores{};
   Hertz frequency{};
-  double busy_cores{};  ///< Mean since the last decision.
+  double busy_cores{};         ///< Mean since the last decision.
+  double busiest_core_load{};  ///< Share of the time since the last decision in which the busiest
+                               ///< core was busy, 0..1.
   Watts computer_power{};
   Watts rotor_power{};
   double battery_percent{};

@@ -24,6 +24,7 @@ struct ParameterSpec {
   double max{};
   std::string description;
   std::vector<std::string> choices{};
+  bool required{};  ///< There is no default: `fallback` is an example.
 };
 
 class Parameters {
@@ -31,7 +32,8 @@ class Parameters {
   /// Every declared parameter with its given value or its default.
   ///
   /// @param owner  For messages: `world "forest"`.
-  /// @error One per unknown name, wrong type and value out of bounds: all of them are returned.
+  /// @error One per unknown or missing name, wrong type and value out of bounds: all of them are
+  /// returned.
   static std::variant<Parameters, std::vector<Error>> resolve(
       const std::string& owner,
       const std::vector<ParameterSpec>& specs,

@@ -34,6 +34,7 @@ class VirtualExecutor final : public Executor {
   void set_operating_point(const OperatingPoint& point) override;
   [[nodiscard]] const OperatingPoint& operating_point() const override;
   [[nodiscard]] double busy_core_s() const override;
+  [[nodiscard]] double busiest_core_s() const override;
   [[nodiscard]] double busy_cores() const override;
   [[nodiscard]] std::uint64_t drops() const override;
 

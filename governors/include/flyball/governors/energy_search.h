@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Which setting of map and clock takes the least energy for the next metre.
+
+#include "flyball/governors/latency_bound.h"
+#include "flyball/governors/latency_model.h"
+#include "flyball/governors/operating_points.h"
+#include "flyball/governors/power_model.h"
+#include "flyball/governors/speed_limit.h"
+#include "flyball/runtime/observation.h"
+
+#include <vector>
+
+namespace flyball {
+
+/// One setting of the three knobs that the search turns.
+struct MapSetting {
+  double resolution_m{};
+  double range_m{};
+  double clock_hz{};
+  friend bool operator==(const MapSetting& a, const MapSetting& b) {
+    return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock_hz == b.clock_hz;
+  }
+  friend bool operator!=(const MapSetting& a, const MapSetting& b) { return !(a == b); }
+};
+
+struct EnergySearchSettings {
+  double deceleration_m_s2{6.0};
+  double reaction_s{0.14};   ///< t_b: the guard's tick, a command's age and the brake's lag.
+  double margin_m{0.5};      ///< Body and tracking tube, off the distance.
+  double frame_s{0.05};      ///< Between two frames of the camera.
+  double switching_j{60.0};  ///< Of a change of resolution: another map starts with one frame.
+  double horizon_m{10.0};    ///< Over which a switch must pay.
+  QuantileTracker::Settings bound{0.05, 0.05, 0.1};
+  ClockScaling clock{0.9, 0.05};
+};
+
+/// A resolution that the map may have, and what is known of its cost before the first flight.
+struct MapLevel {
+  double resolution_m{};
+  double latency_s{};    ///< From capture to the published map at `range_m` and `clock_hz`.
+  double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
+  double most_range_m{25.0};  ///< Depth noise there is still below half a cell.
+  double range_m{7.0};
+  double clock_hz{2.0352e9};
+};
+
+/// What limits speed besides latency.
+struct Surroundings {
+  double speed_limit_m_s{};
+  double most_range_m{1e9};  ///< Of the map; the shortest range is always allowed.
+  double sight_m{};        ///< Beyond this the world, not the range, ends what is known to be free.
+  double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
+  bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
+};
+
+/// A setting with what is expected of it.
+struct EnergyEstimate {
+  MapSetting setting{};
+  double response_s{};  ///< delta of eq. 2: bounds on latency and interval, and t_b.
+  double speed_m_s{};
+  double joules_per_m{};      ///< With the share of switching.
+  double watts_per_second{};  ///< Worth of one second of latency; 0 where it limits nothing.
+};
+
+/// Exact search of a small lattice for the least
+///
+///     J = (P_rotor(v) + P_computer) / v + switching / horizon
+///
+/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that differ by
+/// less than a thousandth, the one that responds sooner. Latency and rotor power are learned from
+/// observations. Nothing allocates after `make`.
+class EnergySearch {
+ public:
+  /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
+  /// @error `invalid_input` when a knob does not exist or cannot be one of the values.
+  static Result<EnergySearch> make(const EnergySearchSettings& settings,
+                                   const std::vector<MapLevel>& levels,
+                                   const std::vector<double>& ranges_m,
+                                   const KnobSettings& knobs);
+
+  /// What the newest map, the rotors and the cores show of the setting that is in force.
+  void learn(const Observation& seen);
+  /// The best setting there is; it is taken to be in force from now on.
+  [[nodiscard]] EnergyEstimate choose(const Surroundings& around, MissionTime now);
+  [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
+                                        const Surroundings& around) const;
+  [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
+  [[nodiscard]] const LatencyBound& bound() const { return bound_; }
+  [[nodiscard]] const OperatingPoints& points() const { return points_; }
+
+ private:
+  EnergySearch(const EnergySearchSettings& settings,
+               const std::vector<MapLevel>& levels,
+               OperatingPoints points);
+  [[nodiscard]] MapSetting setting(std::size_t point) const;
+  [[nodiscard]] std::size_t level(double resolution_m) const;
+  [[nodiscard]] double predicted_s(const MapSetting& setting) const;
+  [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
+  void learn_latency(const Observation& seen);
+
+  EnergySearchSettings settings_;
+  OperatingPoints points_;
+  LatencyModels models_{};  ///< One for each level.
+  LatencyBound bound_;
+  RotorPower rotors_{};
+  ComputerPower computer_{};
+  MapSetting in_force_{};
+  MissionTime in_force_since_{};
+  std::uint64_t revision_{};
+  LatencyBound::Ticket ticket_{};  ///< Of the next map; it was issued when the last one came.
+  MissionTime issued_{};
+  double other_core_ghz_{2.5};  ///< Busy cores of everything but the map, times the clock.
+};
+
+}  // namespace flyball

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How long a kernel will take, learned in flight.
+
+#include "flyball/governors/recursive_least_squares.h"
+#include "flyball/runtime/time.h"
+#include "flyball/runtime/units.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flyball {
+
+/// Time of one unit of work at a clock: a / f_GHz + b, b the share that waits for memory.
+struct ClockScaling {
+  double a{0.9};
+  double b{0.05};
+  /// @pre `clock > 0`.
+  [[nodiscard]] double factor(Hertz clock) const { return a / (clock.value() * 1e-9) + b; }
+};
+
+/// What a job's duration depends on.
+struct LatencyFeatures {
+  double resolution_m{1.0};  ///< Of the map; 1 for a kernel without one.
+  double points{1.0};        ///< Size of the input: points, or a volume in its own unit.
+  Hertz clock{1e9};
+};
+
+/// What is known before the first sample: t = seconds * r^slope_r * points^slope_points
+/// * (a / f + b). Wrong by `sigma` (in log) in each of them.
+struct LatencyPrior {
+  double seconds{0.1};  ///< At r = 1 m, one point and a factor of the clock of 1.
+  double slope_resolution{-2.0};
+  double slope_points{1.0};
+  ClockScaling clock{};
+  double sigma{1.0};
+};
+
+/// One kernel: recursive least squares on the logarithm,
+///
+///     log t = w0 + w1 log r + w2 (log r)^2 + w3 log points + w4 log(a / f_GHz + b) + g
+///
+/// The square is there because a ray walk costs r^-1, an update r^-3 and a frame r^0: in log-log
+/// that is a curve, not a line. g is the slowdown that all kernels share (see `LatencyModels`).
+/// Nothing allocates after construction.
+class LatencyModel {
+ public:
+  explicit LatencyModel(const LatencyPrior& prior);
+
+  /// Natural logarithm of the duration in seconds. @pre Every feature is above zero.
+  [[nodiscard]] double predict_log_s(const LatencyFeatures& features) const;
+  [[nodiscard]] Duration predict(const LatencyFeatures& features) const;
+  /// @pre `measured > 0`, every feature is above zero.
+  void learn(const LatencyFeatures& features, Duration measured);
+  /// Learns from log seconds with something already taken off (the shared slowdown).
+  void learn_log_s(const LatencyFeatures& features, double log_s);
+
+ private:
+  using Solver = RecursiveLeastSquares<5>;
+  [[nodiscard]] Solver::Vector row(const LatencyFeatures& features) const;
+
+  ClockScaling clock_;
+  Solver solver_;
+};
+
+/// The kernels of a pipeline, and one slowdown factor for all of them: a hot computer, or a
+/// neighbour that takes the memory, slows everything, and what one kernel shows the others need not
+/// learn again. The factor follows the residual quickly, g <- g + gain (residual), the weights
+/// slowly, with what g explains taken off.
+class LatencyModels {
+ public:
+  static constexpr double slowdown_gain = 0.1;
+
+  /// @pre Names differ.
+  void add(std::string name, const LatencyPrior& prior);
+  [[nodiscard]] std::size_t size() const { return kernels_.size(); }
+  /// `size()` when no kernel has this name.
+  [[nodiscard]] std::size_t index(std::string_view name) const;
+  /// @pre `kernel < size()`.
+  [[nodiscard]] double predict_s(std::size_t kernel, const LatencyFeatures& features) const;
+  void learn(std::size_t kernel, const LatencyFeatures& features, Duration measured);
+  /// 1: as fast as the weights say.
+  [[nodiscard]] double slowdown() const;
+
+ private:
+  struct Kernel {
+    std::string name;
+    LatencyModel model;
+  };
+  std::vector<Kernel> kernels_;
+  double log_slowdown_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The settings that are worth looking at.
+
+#include "flyball/runtime/knob.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// One knob of the lattice and the values that it may take.
+struct KnobAxis {
+  std::string knob;
+  std::vector<double> values;
+};
+
+/// Every combination of some knobs' values, pruned to those that are not dominated: a point goes
+/// when another one is at least as good by every criterion and better by one; of equal ones the
+/// first stays. What a policy then searches is short, and looking through it allocates nothing.
+class OperatingPoints {
+ public:
+  /// All combinations, the last axis changing fastest.
+  /// @error `invalid_input` for an unknown knob, a value that is not legal, an axis without values,
+  /// no axis, or more than `limit` combinations.
+  static Result<OperatingPoints> lattice(std::vector<KnobAxis> axes,
+                                         const KnobSettings& knobs,
+                                         std::size_t limit = 100000);
+
+  /// Writes what a point costs (each: less is better) into `criteria`, of fixed size.
+  using Judge = std::function<void(const double* values, std::vector<double>& criteria)>;
+  /// @cost O(n^2) in the points that are kept, O(n kept) in all.
+  void prune(std::size_t criteria, const Judge& judge);
+
+  [[nodiscard]] std::size_t size() const { return values_.size() / axes_.size(); }
+  [[nodiscard]] const std::vector<KnobAxis>& axes() const { return axes_; }
+  /// The values of one point, in the order of the axes. @pre `point < size()`.
+  [[nodiscard]] const double* values(std::size_t point) const {
+    return values_.data() + point * axes_.size();
+  }
+
+ private:
+  std::vector<KnobAxis> axes_{};
+  std::vector<double> values_{};  ///< Row after row.
+};
+
+}  // namespace flyball

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/energy_search.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace flyball {
+namespace {
+
+constexpr double least_speed_m_s = 0.05;  // below it, joules per metre say nothing
+constexpr double smoothing = 0.1;         // of the load beside the map: some seconds of decisions
+enum Axis : std::size_t { resolution, range, clock_axis };
+
+// At the mission's own limit of speed settings are equal but for milliwatts: there the sooner one.
+bool is_better(const EnergyEstimate& one, const EnergyEstimate& other) {
+  constexpr double equal = 1e-3;
+  if (std::abs(one.joules_per_m - other.joules_per_m) > equal * one.joules_per_m) {
+    return one.joules_per_m < other.joules_per_m;
+  }
+  return one.response_s < other.response_s;
+}
+
+bool is_positive(double x) {
+  return std::isfinite(x) && x > 0.0;
+}
+
+}  // namespace
+
+Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
+                                        const std::vector<MapLevel>& levels,
+                                        const std::vector<double>& ranges_m,
+                                        const KnobSettings& knobs) {
+  std::vector<double> resolutions_m;
+  for (const MapLevel& level : levels) {
+    resolutions_m.push_back(level.resolution_m);
+  }
+  const KnobSpec* clock = knobs.spec("cpu.frequency_hz");
+  auto points =
+      OperatingPoints::lattice({{"map.resolution_m", resolutions_m},
+                                {"map.range_m", ranges_m},
+                                {"cpu.frequency_hz", clock ? clock->legal : std::vector<double>{}}},
+                               knobs);
+  if (!points) {
+    return points.error();
+  }
+  EnergySearch search{settings, levels, std::move(*points)};
+  search.in_force_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
+                      knobs.value("cpu.frequency_hz")};
+  search.points_.prune(4, [&](const double* at, std::vector<double>& costs) {
+    const MapSetting setting{at[resolution], at[range], at[clock_axis]};
+    if (setting.range_m > levels[search.level(setting.resolution_m)].most_range_m) {
+      costs.assign(4, std::numeric_limits<double>::infinity());
+      return;
+    }
+    const double latency_s = search.predicted_s(setting);
+    costs = {setting.resolution_m, -setting.range_m, latency_s,
+             search.computer_.power(Hertz{setting.clock_hz}, search.busy_cores(setting, latency_s))
+                 .value()};
+  });
+  return search;
+}
+
+EnergySearch::EnergySearch(const EnergySearchSettings& settings,
+                           const std::vector<MapLevel>& levels,
+                           OperatingPoints points)
+    : settings_{settings}, points_{std::move(points)}, bound_{levels.size(), 1, settings.bound} {
+  for (const MapLevel& level : levels) {
+    LatencyPrior prior;
+    prior.clock = settings.clock;
+    prior.slope_resolution = 0.0;
+    prior.slope_points = level.range_slope;  // "points" are metres of range here
+    prior.seconds = level.latency_s / std::pow(level.range_m, level.range_slope) /
+                    settings.clock.factor(Hertz{level.clock_hz});
+    prior.sigma = 0.5;
+    models_.add(std::to_string(level.resolution_m), prior);
+  }
+}
+
+MapSetting EnergySearch::setting(std::size_t point) const {
+  const double* values = points_.values(point);
+  return {values[resolution], values[range], values[clock_axis]};
+}
+
+// The nearest one, for a map that somebody else has set.
+std::size_t EnergySearch::level(double resolution_m) const {
+  const auto& levels = points_.axes()[resolution].values;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    if (std::abs(levels[i] - resolution_m) < std::abs(levels[best] - resolution_m)) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+double EnergySearch::predicted_s(const MapSetting& setting) const {
+  return models_.predict_s(level(setting.resolution_m),
+                           {1.0, setting.range_m, Hertz{setting.clock_hz}});
+}
+
+double EnergySearch::busy_cores(const MapSetting& setting, double latency_s) const {
+  const double map_cores = std::min(1.0, latency_s / std::max(latency_s, settings_.frame_s));
+  return map_cores + other_core_ghz_ / (setting.clock_hz * 1e-9);
+}
+
+void EnergySearch::learn(const Observation& seen) {
+  learn_latency(seen);
+  if (seen.phase == MissionPhase::cruise) {
+    rotors_.learn(seen.speed_m_s, seen.rotor_power);
+  }
+  const double ghz = seen.frequency.value() * 1e-9;
+  if (is_positive(ghz) && std::isfinite(seen.busy_cores)) {
+    const double others = std::clamp(seen.busy_cores - 1.0, 0.0, 64.0) * std::min(ghz, 10.0);
+    other_core_ghz_ += smoothing * (others - other_core_ghz_);
+  }
+}
+
+void EnergySearch::learn_latency(const Observation& seen) {
+  const double measured_s = to_seconds(seen.latency);
+  constexpr double absurd_s = 100.0;
+  const bool is_new = seen.map_revision != revision_ && measured_s > 0.0 && measured_s < absurd_s;
+  revision_ = seen.map_revision;
+  bound_.expire(seen.now - (is_new ? seen.latency : Duration::zero()));
+  if (!is_new) {
+    return;
+  }
+  bound_.settle(ticket_, issued_ + seen.latency);
+  // A frame that was captured before the setting came into force says nothing about it.
+  const bool is_of_this_setting = seen.now - seen.latency >= in_force_since_ &&
+                                  std::abs(seen.map_resolution_m - in_force_.resolution_m) < 1e-9;
+  if (is_of_this_setting) {
+    models_.learn(level(in_force_.resolution_m),
+                  {1.0, in_force_.range_m, Hertz{in_force_.clock_hz}}, seen.latency);
+    issued_ = seen.now;
+    ticket_ =
+        bound_.issue(level(in_force_.resolution_m), issued_, from_seconds(predicted_s(in_force_)));
+  }
+}
+
+EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
+  const SpeedLimit limit{settings_.deceleration_m_s2};
+  const double latency_s = predicted_s(setting);
+  const double bound_s = latency_s * bound_.tracker(level(setting.resolution_m)).factor();
+  EnergyEstimate best;
+  best.setting = setting;
+  // The next map comes about as late as this one did, at the soonest with the next frame.
+  best.response_s = bound_s + std::max(bound_s, settings_.frame_s) + settings_.reaction_s;
+  const double distance_m = std::min(setting.range_m, around.sight_m) - settings_.margin_m;
+  const double safe_m_s = limit.speed_m_s(best.response_s, distance_m);
+  best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
+  const Watts rotor_w = rotors_.power(best.speed_m_s);
+  const Watts computer_w = computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, latency_s));
+  const bool switches = setting.resolution_m != in_force_.resolution_m;
+  best.joules_per_m = joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
+                      (switches ? settings_.switching_j / settings_.horizon_m : 0.0);
+  if (safe_m_s < around.speed_limit_m_s) {
+    best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
+                                                   distance_m, rotors_.slope_w_s_m(best.speed_m_s));
+  }
+  return best;
+}
+
+EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
+  const double top_hz = points_.axes()[clock_axis].values.back();
+  EnergyEstimate best;
+  best.joules_per_m = std::numeric_limits<double>::infinity();
+  // Where nothing is fine enough, the finest is the best there is.
+  const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
+  const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    const MapSetting candidate = setting(point);
+    const bool may = candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
+                     (!around.needs_top_clock || candidate.clock_hz == top_hz);
+    if (may) {
+      const EnergyEstimate estimated = estimate(candidate, around);
+      best = is_better(estimated, best) ? estimated : best;
+    }
+  }
+  FLYBALL_ASSERT(std::isfinite(best.joules_per_m), "no setting of %zu is finite", points_.size());
+  if (best.setting != in_force_) {
+    in_force_ = best.setting;
+    in_force_since_ = now;
+  }
+  return best;
+}
+
+}  // namespace flyball

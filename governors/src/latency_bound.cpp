@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/latency_bound.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+QuantileTracker::QuantileTracker(const Settings& settings)
+    : settings_{settings}, q_{settings.first} {
+  FLYBALL_ASSERT(settings.alpha > 0.0 && settings.alpha < 1.0 && settings.eta > 0.0,
+                 "alpha=%g, eta=%g", settings.alpha, settings.eta);
+}
+
+double QuantileTracker::factor() const {
+  return std::exp(q_);
+}
+
+void QuantileTracker::count(bool missed) {
+  q_ += settings_.eta * ((missed ? 1.0 : 0.0) - settings_.alpha);  // eq. (1)
+  ++decisions_;
+  misses_ += missed ? 1 : 0;
+}
+
+void QuantileTracker::restore(double q) {
+  FLYBALL_ASSERT(std::isfinite(q), "q=%g", q);
+  q_ = q;
+}
+
+MissionTime LatencyBound::Open::expires() const {
+  return issued + from_seconds(bound_s * factor);
+}
+
+LatencyBound::LatencyBound(std::size_t levels,
+                           std::size_t open_max,
+                           const QuantileTracker::Settings& settings)
+    : trackers_(levels, QuantileTracker{settings}), open_max_{open_max} {
+  FLYBALL_ASSERT(levels >= 1 && open_max >= 1, "levels=%zu, open_max=%zu", levels, open_max);
+  open_.reserve(open_max);
+}
+
+Duration LatencyBound::bound(std::size_t level, Duration predicted) const {
+  FLYBALL_ASSERT(level < levels() && predicted > Duration::zero(), "level=%zu, predicted=%g s",
+                 level, to_seconds(predicted));
+  return from_seconds(to_seconds(predicted) * trackers_[level].factor());
+}
+
+LatencyBound::Ticket LatencyBound::issue(std::size_t level, MissionTime now, Duration predicted) {
+  const Duration bounded = bound(level, predicted);
+  expire(now);
+  if (open_.size() == open_max_) {
+    close(0, true);
+  }
+  open_.push_back({next_, level, now, to_seconds(bounded), 1.0});
+  return next_++;
+}
+
+LatencyBound::Open* LatencyBound::find(Ticket ticket) {
+  const auto found = std::find_if(open_.begin(), open_.end(),
+                                  [ticket](const Open& open) { return open.ticket == ticket; });
+  return found == open_.end() ? nullptr : &*found;
+}
+
+void LatencyBound::close(std::size_t position, bool missed) {
+  trackers_[open_[position].level].count(missed);
+  open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(position));
+}
+
+void LatencyBound::regrant(Ticket ticket, double factor) {
+  FLYBALL_ASSERT(factor > 0.0, "factor=%g", factor);
+  if (Open* open = find(ticket)) {
+    open->factor = factor;
+  }
+}
+
+void LatencyBound::settle(Ticket ticket, MissionTime ended) {
+  if (const Open* open = find(ticket)) {
+    close(static_cast<std::size_t>(open - open_.data()), ended > open->expires());
+  }
+}
+
+void LatencyBound::expire(MissionTime now) {
+  std::size_t i = 0;
+  while (i < open_.size()) {
+    if (open_[i].expires() < now) {
+      close(i, true);
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace flyball

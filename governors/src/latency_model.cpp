@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/latency_model.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <cmath>
+#include <utility>
+
+namespace flyball {
+namespace {
+
+// Of each sample the next 200 or so still know something: 10 s of frames at 20 Hz.
+constexpr double forgetting = 0.995;
+// How much less than the level the slopes are expected to be wrong: a level is off by a factor, a
+// slope by some tenths.
+constexpr double slope_share = 0.3;
+// The clock's is physics, and seldom varied enough to be told from the level.
+constexpr double clock_share = 0.03;
+
+}  // namespace
+
+LatencyModel::LatencyModel(const LatencyPrior& prior)
+    : clock_{prior.clock},
+      solver_{(Solver::Vector() << std::log(prior.seconds),
+               prior.slope_resolution,
+               0.0,
+               prior.slope_points,
+               1.0)
+                  .finished(),
+              prior.sigma *
+                  (Solver::Vector() << 1.0, slope_share, slope_share, slope_share, clock_share)
+                      .finished(),
+              forgetting} {}
+
+LatencyModel::Solver::Vector LatencyModel::row(const LatencyFeatures& features) const {
+  FLYBALL_ASSERT(features.resolution_m > 0.0 && features.points > 0.0 && features.clock.value() > 0,
+                 "resolution_m=%g, points=%g, clock=%g Hz", features.resolution_m, features.points,
+                 features.clock.value());
+  const double log_r = std::log(features.resolution_m);
+  return {1.0, log_r, log_r * log_r, std::log(features.points),
+          std::log(clock_.factor(features.clock))};
+}
+
+double LatencyModel::predict_log_s(const LatencyFeatures& features) const {
+  return solver_.predict(row(features));
+}
+
+Duration LatencyModel::predict(const LatencyFeatures& features) const {
+  return from_seconds(std::exp(predict_log_s(features)));
+}
+
+void LatencyModel::learn(const LatencyFeatures& features, Duration measured) {
+  FLYBALL_ASSERT(measured > Duration::zero(), "measured=%g s", to_seconds(measured));
+  learn_log_s(features, std::log(to_seconds(measured)));
+}
+
+void LatencyModel::learn_log_s(const LatencyFeatures& features, double log_s) {
+  solver_.learn(row(features), log_s);
+}
+
+void LatencyModels::add(std::string name, const LatencyPrior& prior) {
+  FLYBALL_ASSERT(index(name) == size(), "kernel %s is there already", name.c_str());
+  kernels_.push_back({std::move(name), LatencyModel{prior}});
+}
+
+std::size_t LatencyModels::index(std::string_view name) const {
+  std::size_t i = 0;
+  while (i < kernels_.size() && kernels_[i].name != name) {
+    ++i;
+  }
+  return i;
+}
+
+double LatencyModels::predict_s(std::size_t kernel, const LatencyFeatures& features) const {
+  FLYBALL_ASSERT(kernel < size(), "kernel=%zu of %zu", kernel, size());
+  return std::exp(kernels_[kernel].model.predict_log_s(features) + log_slowdown_);
+}
+
+void LatencyModels::learn(std::size_t kernel, const LatencyFeatures& features, Duration measured) {
+  FLYBALL_ASSERT(kernel < size() && measured > Duration::zero(), "kernel=%zu of %zu, measured=%g s",
+                 kernel, size(), to_seconds(measured));
+  LatencyModel& model = kernels_[kernel].model;
+  const double log_s = std::log(to_seconds(measured));
+  log_slowdown_ += slowdown_gain * (log_s - model.predict_log_s(features) - log_slowdown_);
+  model.learn_log_s(features, log_s - log_slowdown_);
+}
+
+double LatencyModels::slowdown() const {
+  return std::exp(log_slowdown_);
+}
+
+}  // namespace flyball

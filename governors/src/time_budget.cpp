@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/time_budget.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+double StoppingDistance::distance_m(double speed_m_s) const {
+  return (quadratic_s2_m * speed_m_s + linear_s) * speed_m_s + constant_m;
+}
+
+StoppingDistance StoppingDistance::braking(double deceleration_m_s2) {
+  FLYBALL_ASSERT(deceleration_m_s2 > 0.0, "deceleration_m_s2=%g", deceleration_m_s2);
+  return {1.0 / (2.0 * deceleration_m_s2), 0.0, 0.0};
+}
+
+StoppingDistance StoppingDistance::roborun() {
+  return {0.05494, 0.3549, -0.2038};
+}
+
+double TimeBudget::budget_s(double speed_m_s, double known_free_m) const {
+  FLYBALL_ASSERT(speed_m_s >= 0.0, "speed_m_s=%g", speed_m_s);
+  const double room_m = known_free_m - stop.distance_m(speed_m_s);
+  if (room_m <= 0.0) {
+    return 0.0;
+  }
+  // Compared before the division, which at rest would be by zero.
+  return share * room_m >= cap_s * speed_m_s ? cap_s : share * room_m / speed_m_s;
+}
+
+double TimeBudget::speed_m_s(double latency_s, double known_free_m) const {
+  if (latency_s > cap_s) {
+    return 0.0;
+  }
+  // share (d - q v^2 - l v - c) = t v, that is q v^2 + (l + t / share) v - (d - c) = 0
+  const double linear = stop.linear_s + latency_s / share;
+  const double room_m = known_free_m - stop.constant_m;
+  if (room_m <= 0.0) {
+    return 0.0;
+  }
+  // The root that does not subtract nearly equal numbers, and holds for a quadratic term of zero.
+  const double root = std::sqrt(linear * linear + 4.0 * stop.quadratic_s2_m * room_m);
+  return 2.0 * room_m / (linear + root);
+}
+
+double rolled_budget_s(const double* local_s, std::size_t count, double step_s) {
+  if (count == 0) {
+    return 0.0;
+  }
+  double flown_s = 0.0;
+  double left_s = local_s[0];
+  for (std::size_t i = 1; i < count; ++i) {
+    if (left_s <= step_s) {
+      return flown_s + left_s;
+    }
+    flown_s += step_s;
+    left_s = std::min(left_s - step_s, std::max(0.0, local_s[i]));
+  }
+  return flown_s + left_s;
+}
+
+}  // namespace flyball

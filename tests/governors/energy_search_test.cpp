@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/energy_search.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double top_hz = 2e9;
+
+KnobSettings knobs() {
+  KnobSpec resolution;
+  resolution.name = "map.resolution_m";
+  resolution.min = 0.05;
+  resolution.max = 2.0;
+  resolution.fallback = 0.15;
+  KnobSpec range;
+  range.name = "map.range_m";
+  range.min = 2.0;
+  range.max = 25.0;
+  range.fallback = 7.0;
+  KnobSpec clock;
+  clock.name = "cpu.frequency_hz";
+  clock.legal = {0.5e9, 1e9, top_hz};
+  clock.fallback = top_hz;
+  return KnobSettings{{resolution, range, clock}};
+}
+
+EnergySearch search(double fine_most_range_m = 25.0) {
+  const std::vector<MapLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
+                                     {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  return *EnergySearch::make({}, levels, {7.0, 12.0}, knobs());
+}
+
+Surroundings open_space() {
+  Surroundings around;
+  around.speed_limit_m_s = 10.0;
+  around.sight_m = 1e9;
+  around.coarsest_m = 0.80;
+  return around;
+}
+
+/// What the map shows at a time of its newest frame.
+Observation seen_map(double t_s, std::uint64_t revision, double resolution_m, double latency_s) {
+  Observation seen;
+  seen.now = MissionTime{from_seconds(t_s)};
+  seen.map_revision = revision;
+  seen.map_resolution_m = resolution_m;
+  seen.latency = from_seconds(latency_s);
+  seen.frequency = Hertz{top_hz};
+  seen.busy_cores = 2.0;
+  return seen;
+}
+
+TEST(EnergySearch, in_the_open_flies_coarse_far_and_fast) {
+  EnergySearch one = search();
+  const EnergyEstimate best = one.choose(open_space(), {});
+  EXPECT_EQ(best.setting.resolution_m, 0.80);
+  EXPECT_EQ(best.setting.range_m, 12.0);
+  EXPECT_EQ(best.setting.clock_hz, top_hz);
+  EXPECT_EQ(one.in_force(), best.setting);
+}
+
+TEST(EnergySearch, its_choice_is_the_best_of_all_that_are_allowed) {
+  EnergySearch one = search();
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  const EnergyEstimate best = one.choose(around, {});
+  EXPECT_EQ(best.setting.resolution_m, 0.15);
+  for (std::size_t i = 0; i < one.points().size(); ++i) {
+    const double* at = one.points().values(i);
+    if (at[0] <= around.coarsest_m) {
+      EXPECT_LE(best.joules_per_m,
+                1.001 * one.estimate({at[0], at[1], at[2]}, around).joules_per_m);
+    }
+  }
+}
+
+TEST(EnergySearch, its_speed_is_that_of_equation_2_for_its_response) {
+  EnergySearch one = search();
+  const EnergyEstimate best = one.choose(open_space(), {});
+  const double d_m = best.setting.range_m - EnergySearchSettings{}.margin_m;
+  EXPECT_DOUBLE_EQ(best.speed_m_s, SpeedLimit{6.0}.speed_m_s(best.response_s, d_m));
+  EXPECT_GT(best.watts_per_second, 0.0);
+}
+
+TEST(EnergySearch, at_the_missions_own_limit_latency_is_worth_nothing_and_the_clock_drops) {
+  EnergySearch one = search();
+  Surroundings slow = open_space();
+  slow.speed_limit_m_s = 1.0;
+  const EnergyEstimate best = one.choose(slow, {});
+  EXPECT_EQ(best.watts_per_second, 0.0);
+  EXPECT_LT(best.setting.clock_hz, top_hz);
+  EXPECT_EQ(best.speed_m_s, 1.0);
+  slow.needs_top_clock = true;
+  EXPECT_EQ(one.choose(slow, {}).setting.clock_hz, top_hz);
+}
+
+TEST(EnergySearch, of_settings_that_are_equally_cheap_takes_the_one_that_responds_sooner) {
+  EnergySearch one = search();
+  Surroundings slow = open_space();
+  slow.speed_limit_m_s = 1.0;
+  slow.coarsest_m = 0.15;
+  slow.needs_top_clock = true;
+  EXPECT_EQ(one.choose(slow, {}).setting.range_m, 7.0);
+}
+
+TEST(EnergySearch, a_range_buys_nothing_beyond_what_the_world_lets_see) {
+  EnergySearch one = search();
+  Surroundings walled = open_space();
+  walled.sight_m = 6.0;
+  EXPECT_EQ(one.choose(walled, {}).setting.range_m, 7.0);
+}
+
+TEST(EnergySearch, leaves_out_ranges_that_a_level_is_too_noisy_for) {
+  const EnergySearch one = search(7.5);
+  for (std::size_t i = 0; i < one.points().size(); ++i) {
+    const double* at = one.points().values(i);
+    EXPECT_TRUE(at[0] > 0.15 || at[1] <= 7.5) << at[0] << " m, " << at[1] << " m";
+  }
+}
+
+TEST(EnergySearch, keeps_to_the_range_that_it_may_use) {
+  EnergySearch one = search();
+  Surroundings near = open_space();
+  near.most_range_m = 1.0;  // less than there is: the shortest
+  EXPECT_EQ(one.choose(near, {}).setting.range_m, 7.0);
+}
+
+TEST(EnergySearch, learns_that_the_computer_is_slower_than_was_said) {
+  EnergySearch one = search();
+  double t_s = 0.0;
+  const double before_m_s = one.choose(open_space(), {}).speed_m_s;
+  for (std::uint64_t i = 1; i <= 60; ++i) {
+    t_s += 1.0;
+    one.learn(seen_map(t_s, i, 0.80, 0.6));
+    static_cast<void>(one.choose(open_space(), MissionTime{from_seconds(t_s)}));
+  }
+  const EnergyEstimate after = one.estimate(one.in_force(), open_space());
+  EXPECT_LT(after.speed_m_s, before_m_s);
+  // Twice a latency of .6 s within its margin, and .14 s.
+  EXPECT_GT(after.response_s, 1.2);
+  EXPECT_LT(after.response_s, 2.2);
+}
+
+TEST(EnergySearch, does_not_learn_from_a_frame_of_the_setting_before) {
+  EnergySearch one = search();
+  static_cast<void>(one.choose(open_space(), MissionTime{from_seconds(10.0)}));
+  const double before_s = one.estimate(one.in_force(), open_space()).response_s;
+  one.learn(seen_map(10.2, 1, 0.80, 5.0));  // captured at 5.2 s
+  one.learn(seen_map(10.4, 2, 0.15, 0.1));  // of another level
+  EXPECT_EQ(one.estimate(one.in_force(), open_space()).response_s, before_s);
+}
+
+TEST(EnergySearch, counts_a_map_that_never_comes_as_a_miss) {
+  EnergySearch one = search();
+  static_cast<void>(one.choose(open_space(), MissionTime{from_seconds(1.0)}));
+  one.learn(seen_map(2.0, 1, 0.80, 0.1));
+  one.learn(seen_map(3.0, 1, 0.80, 0.1));
+  EXPECT_EQ(one.bound().tracker(1).misses(), 1U);
+  EXPECT_EQ(one.bound().tracker(0).decisions(), 0U);
+}
+
+TEST(EnergySearch, refuses_what_no_knob_can_be) {
+  const std::vector<MapLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
+  EXPECT_FALSE(EnergySearch::make({}, levels, {7.0}, knobs()).ok());
+  EXPECT_FALSE(EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}).ok());
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/latency_bound.h"
+#include "flyball/governors/latency_model.h"
+#include "flyball/governors/power_model.h"
+#include "flyball/governors/speed_limit.h"
+#include "flyball/governors/time_budget.h"
+
+#include "counting_new.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(Instruments, allocate_nothing_after_construction) {
+  LatencyModels models;
+  models.add("map", {});
+  LatencyBound bound{3, 4, {}};
+  RotorPower rotors;
+  const SpeedLimit limit;
+  const TimeBudget budget{StoppingDistance::roborun()};
+  double sum = 0.0;
+  const std::size_t before = allocation_count();
+  for (int i = 0; i < 100; ++i) {
+    const MissionTime now{std::chrono::milliseconds{100 * i}};
+    const LatencyFeatures at{0.15 + 0.01 * i, 100.0, Hertz{1e9}};
+    const Duration predicted = from_seconds(models.predict_s(0, at));
+    const auto ticket = bound.issue(static_cast<std::size_t>(i % 3), now, predicted);
+    if (i % 2 == 0) {
+      bound.settle(ticket, now + predicted);
+    }
+    models.learn(0, at, 2 * predicted);
+    rotors.learn(0.1 * i, Watts{300.0});
+    sum += limit.watts_per_second(rotors.power(3.0).value(), to_seconds(predicted), 7.0) +
+           budget.budget_s(3.0, 7.0);
+  }
+  const std::size_t after = allocation_count();
+  EXPECT_EQ(after, before);
+  EXPECT_GT(sum, 0.0);
+}
+
+}  // namespace
+}  // namespace flyball

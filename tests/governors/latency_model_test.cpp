@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/latency_model.h"
+
+#include "flyball/runtime/random.h"
+
+#include <cmath>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr ClockScaling scaling{0.9, 0.05};
+
+LatencyFeatures drawn(RandomStream& draw) {
+  LatencyFeatures at;
+  at.resolution_m = 0.15 * std::exp2(draw.uniform(0.0, 3.0));
+  at.points = draw.uniform(5e3, 4e4);
+  at.clock = Hertz{draw.uniform(0.35e9, 2.04e9)};
+  return at;
+}
+
+// Stock OctoMap's regimes: a ray walk, an update, a frame.
+double frame_s(const LatencyFeatures& at) {
+  const double r = at.resolution_m;
+  return at.points * (1e-7 / r + 3e-8 / (r * r * r) + 5e-8) * scaling.factor(at.clock);
+}
+
+LatencyPrior prior() {
+  LatencyPrior known;
+  known.seconds = 1e-5;  // wrong by a factor of about 50
+  known.clock = scaling;
+  known.sigma = 3.0;
+  return known;
+}
+
+TEST(RecursiveLeastSquares, equals_the_batch_solution) {
+  RandomStream draw{3, "rls"};
+  const Eigen::Vector2d prior_w{0.5, -1.0};
+  const Eigen::Vector2d sigma{2.0, 0.7};
+  RecursiveLeastSquares<2> solver{prior_w, sigma, 1.0};
+  Eigen::Matrix2d information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  Eigen::Vector2d right = information * prior_w;
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector2d x{1.0, draw.uniform(-2.0, 2.0)};
+    const double y = draw.uniform(-1.0, 1.0);
+    solver.learn(x, y);
+    information += x * x.transpose();
+    right += x * y;
+  }
+  const double determinant = information.determinant();
+  const Eigen::Vector2d batch{
+      (information(1, 1) * right(0) - information(0, 1) * right(1)) / determinant,
+      (information(0, 0) * right(1) - information(1, 0) * right(0)) / determinant};
+  EXPECT_LT((solver.weights() - batch).norm(), 1e-12);
+}
+
+TEST(RecursiveLeastSquares, stays_bounded_when_one_direction_is_never_excited) {
+  RecursiveLeastSquares<2> solver{Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), 0.9};
+  for (int i = 0; i < 2000; ++i) {
+    solver.learn({1.0, 0.0}, 4.0);
+  }
+  solver.learn({1.0, 1.0}, 5.0);
+  EXPECT_NEAR(solver.weights()(0), 4.0, 0.6);
+  EXPECT_LT(std::abs(solver.weights()(1)), 2.0);
+}
+
+TEST(LatencyModel, is_its_prior_before_the_first_sample) {
+  LatencyPrior known;
+  known.seconds = 0.2;
+  known.slope_resolution = -3.0;
+  known.slope_points = 1.0;
+  known.clock = {1.0, 0.0};
+  const LatencyModel model{known};
+  EXPECT_NEAR(to_seconds(model.predict({0.5, 2.0, Hertz{2e9}})), 0.2 * 8.0 * 2.0 / 2.0, 1e-9);
+}
+
+TEST(LatencyModel, learns_a_law_of_powers_exactly) {
+  RandomStream draw{1, "latency_model"};
+  LatencyModel model{prior()};
+  const auto law_s = [](const LatencyFeatures& at) {
+    return 2e-6 * std::pow(at.resolution_m, -1.7) * std::pow(at.points, 0.8) *
+           scaling.factor(at.clock);
+  };
+  for (int i = 0; i < 400; ++i) {
+    const LatencyFeatures at = drawn(draw);
+    model.learn(at, from_seconds(law_s(at)));
+  }
+  for (int i = 0; i < 50; ++i) {
+    const LatencyFeatures at = drawn(draw);
+    // What is left of the prior after 400 samples.
+    EXPECT_NEAR(to_seconds(model.predict(at)) / law_s(at), 1.0, 0.01);
+  }
+}
+
+TEST(LatencyModel, follows_the_curve_between_ray_walk_and_update) {
+  RandomStream draw{2, "latency_model"};
+  LatencyModel model{prior()};
+  for (int i = 0; i < 400; ++i) {
+    const LatencyFeatures at = drawn(draw);
+    model.learn(at, from_seconds(frame_s(at)));
+  }
+  for (int i = 0; i < 50; ++i) {
+    const LatencyFeatures at = drawn(draw);
+    // A parabola through the log-log curve of 1/r + 1/r^3 over a factor of 8.
+    EXPECT_NEAR(to_seconds(model.predict(at)) / frame_s(at), 1.0, 0.08);
+  }
+}
+
+TEST(LatencyModel, predicts_a_clock_that_it_has_never_run_at) {
+  RandomStream draw{4, "latency_model"};
+  LatencyModel model{prior()};
+  for (int i = 0; i < 300; ++i) {
+    LatencyFeatures at = drawn(draw);
+    at.clock = Hertz{2.0352e9};
+    model.learn(at, from_seconds(frame_s(at)));
+  }
+  LatencyFeatures slow = drawn(draw);
+  slow.clock = Hertz{0.8064e9};
+  EXPECT_NEAR(to_seconds(model.predict(slow)) / frame_s(slow), 1.0, 0.15);
+}
+
+TEST(LatencyModels, one_kernel_shows_the_others_that_the_computer_is_slow) {
+  LatencyModels models;
+  LatencyPrior known;
+  known.sigma = 0.3;
+  models.add("map", known);
+  models.add("plan", known);
+  const std::size_t map = models.index("map");
+  const std::size_t plan = models.index("plan");
+  const LatencyFeatures at{0.3, 1.0, Hertz{2e9}};
+  const double before_s = models.predict_s(plan, at);
+  for (int i = 0; i < 50; ++i) {
+    models.learn(map, at, from_seconds(models.predict_s(map, at)));
+    models.learn(plan, at, from_seconds(before_s));
+  }
+  const double usual_s = models.predict_s(map, at);
+  for (int i = 0; i < 30; ++i) {
+    models.learn(map, at, from_seconds(3.0 * usual_s));
+  }
+  EXPECT_NEAR(models.predict_s(map, at) / usual_s, 3.0, 0.1);
+  // Most of it is known of a kernel that has not run since.
+  EXPECT_GT(models.predict_s(plan, at) / before_s, 2.0);
+  EXPECT_LE(models.predict_s(plan, at) / before_s, 3.1);
+}
+
+TEST(LatencyModels, know_their_kernels_by_name) {
+  LatencyModels models;
+  models.add("map", {});
+  EXPECT_EQ(models.index("map"), 0U);
+  EXPECT_EQ(models.index("plan"), models.size());
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/time_budget.h"
+
+#include "flyball/governors/speed_limit.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(TimeBudget, with_braking_is_the_latency_of_the_speed_limit) {
+  const TimeBudget budget{StoppingDistance::braking(6.0), 1.0, 100.0};
+  const SpeedLimit limit{6.0};
+  for (const double v : {0.5, 2.0, 6.0}) {
+    EXPECT_DOUBLE_EQ(budget.budget_s(v, 7.0), limit.latency_s(v, 7.0));
+  }
+}
+
+TEST(TimeBudget, of_RoboRun_follows_its_polynomial) {
+  const TimeBudget budget{StoppingDistance::roborun(), 1.0, 15.0};
+  // (10 - .05494 * 4 - .3549 * 2 + .2038) / 2
+  EXPECT_NEAR(budget.budget_s(2.0, 10.0), 4.63712, 1e-12);
+  const TimeBudget halved{StoppingDistance::roborun(), 0.5, 15.0};
+  EXPECT_NEAR(halved.budget_s(2.0, 10.0), 2.31856, 1e-12);
+}
+
+TEST(TimeBudget, is_the_cap_at_rest_and_nothing_without_room) {
+  const TimeBudget budget{StoppingDistance::roborun(), 0.5, 15.0};
+  EXPECT_EQ(budget.budget_s(0.0, 5.0), 15.0);
+  EXPECT_EQ(budget.budget_s(1e-300, 5.0), 15.0);
+  EXPECT_EQ(budget.budget_s(6.0, 0.0), 0.0);
+  EXPECT_EQ(budget.budget_s(0.0, -1.0), 0.0);
+}
+
+TEST(TimeBudget, inverts_to_the_speed_that_uses_it_up) {
+  for (const StoppingDistance& stop :
+       {StoppingDistance::roborun(), StoppingDistance::braking(3.0), StoppingDistance{0, 0.4, 0}}) {
+    const TimeBudget budget{stop, 0.5, 15.0};
+    for (const double latency_s : {0.2, 1.0, 6.0}) {
+      const double v = budget.speed_m_s(latency_s, 20.0);
+      EXPECT_NEAR(budget.budget_s(v, 20.0), latency_s, 1e-9);
+    }
+    EXPECT_EQ(budget.speed_m_s(15.1, 20.0), 0.0);
+  }
+}
+
+TEST(RolledBudget, of_one_way_point_is_its_own) {
+  EXPECT_EQ(rolled_budget_s(nullptr, 0, 0.2), 0.0);
+  const double here = 1.3;
+  EXPECT_EQ(rolled_budget_s(&here, 1, 0.2), 1.3);
+}
+
+TEST(RolledBudget, in_space_that_stays_as_open_is_the_first_budget) {
+  const std::array<double, 4> local{1.0, 1.0, 1.0, 1.0};
+  EXPECT_NEAR(rolled_budget_s(local.data(), local.size(), 0.2), 1.0, 1e-12);
+}
+
+TEST(RolledBudget, is_cut_by_a_narrower_place_ahead) {
+  // .4 s to the third way-point, which leaves .1 s.
+  const std::array<double, 4> local{5.0, 5.0, 0.1, 0.0};
+  EXPECT_NEAR(rolled_budget_s(local.data(), local.size(), 0.2), 0.5, 1e-12);
+}
+
+TEST(RolledBudget, ends_where_there_is_nothing_left) {
+  const std::array<double, 3> local{5.0, 0.0, 5.0};
+  EXPECT_NEAR(rolled_budget_s(local.data(), local.size(), 0.2), 0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace flyball
