@@ -3,7 +3,6 @@
 #include "navigation_nodes.h"
 
 #include "plan_with_tubes.h"
-
 #include "scenario_parameters.h"
 
 namespace flyball {
