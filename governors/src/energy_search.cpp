@@ -35,15 +35,16 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
                                         const std::vector<double>& ranges_m,
                                         const KnobSettings& knobs) {
   std::vector<double> resolutions_m;
+  resolutions_m.reserve(levels.size());
   for (const MapLevel& level : levels) {
     resolutions_m.push_back(level.resolution_m);
   }
   const KnobSpec* clock = knobs.spec("cpu.frequency_hz");
-  auto points =
-      OperatingPoints::lattice({{"map.resolution_m", resolutions_m},
-                                {"map.range_m", ranges_m},
-                                {"cpu.frequency_hz", clock ? clock->legal : std::vector<double>{}}},
-                               knobs);
+  auto points = OperatingPoints::lattice(
+      {{"map.resolution_m", resolutions_m},
+       {"map.range_m", ranges_m},
+       {"cpu.frequency_hz", clock != nullptr ? clock->legal : std::vector<double>{}}},
+      knobs);
   if (!points) {
     return points.error();
   }

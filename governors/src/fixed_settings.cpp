@@ -63,9 +63,10 @@ Result<Decision> fixed_settings(const std::string& owner,
       continue;
     }
     const auto refused = [&](const std::string& why) {
-      return Error{ErrorCode::invalid_input, owner + ": " + setting.parameter + " = " +
-                                                 std::to_string(value) + ": " + why +
-                                                 "; try: flyball list knobs"};
+      std::string text = owner;
+      text.append(": ").append(setting.parameter).append(" = ").append(std::to_string(value));
+      text.append(": ").append(why).append("; try: flyball list knobs");
+      return Error{ErrorCode::invalid_input, text};
     };
     if (value < setting.least) {
       return refused("must be at least " + std::to_string(setting.least));

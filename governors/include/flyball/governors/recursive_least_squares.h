@@ -27,10 +27,10 @@ class RecursiveLeastSquares {
   }
 
   void learn(const Vector& x, double y) {
-    const Vector Px = P_ * x;
-    const Vector gain = Px / (forgetting_ + x.dot(Px));
+    const Vector p_x = P_ * x;
+    const Vector gain = p_x / (forgetting_ + x.dot(p_x));
     w_ += gain * (y - w_.dot(x));
-    P_ -= gain * Px.transpose();
+    P_ -= gain * p_x.transpose();
     P_ = 0.5 * (P_ + P_.transpose().eval());  // rounding must not make it lopsided
     // Directions that no sample excites would grow without end ("wind-up"): forget only while the
     // whole stays below the prior.
