@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
 
 #include "flyball/apps/platform_fit.h"
 
