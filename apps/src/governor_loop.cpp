@@ -14,6 +14,12 @@ constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
 constexpr double nearest_limit_m = 20.0;
 
+/// On the path, or its end.
+Vec3 place_ahead_W(const PathFollower& follower, double ahead_m) {
+  const Path& path = follower.path();
+  return path.at(std::min(follower.s_m() + ahead_m, path.length_m())).p_W;
+}
+
 }  // namespace
 
 GovernorLoop::GovernorLoop(MissionContext& context,
@@ -87,8 +93,7 @@ double GovernorLoop::speed_limit_ahead() const {
   double least = context_.speed_limit_m_s(follower.position_W());
   if (follower.has_path()) {
     for (const double ahead_m : {4.0, 8.0, 12.0, 16.0, 20.0}) {
-      const double s_m = std::min(follower.s_m() + ahead_m, follower.path().length_m());
-      least = std::min(least, context_.speed_limit_m_s(follower.path().at(s_m).p_W));
+      least = std::min(least, context_.speed_limit_m_s(place_ahead_W(follower, ahead_m)));
     }
   }
   return least;
@@ -99,9 +104,9 @@ double GovernorLoop::density_ahead() const {
   double most = 0.0;
   if (follower.has_path()) {
     for (const double ahead_m : {4.0, 8.0, 12.0}) {
-      const double s_m = std::min(follower.s_m() + ahead_m, follower.path().length_m());
-      most = std::max(most, context_.map().obstacle_density(follower.path().at(s_m).p_W,
-                                                            density_radius_m, density_half_band_m));
+      const Vec3 p_W = place_ahead_W(follower, ahead_m);
+      most = std::max(most,
+                      context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m));
     }
   }
   return most;

@@ -16,18 +16,6 @@
 namespace flyball {
 namespace {
 
-Error join(const std::vector<Error>& errors) {
-  Error all{ErrorCode::invalid_input, ""};
-  for (const auto& error : errors) {
-    all.message += (all.message.empty() ? "" : "\n") + error.message;
-  }
-  return all;
-}
-
-Error unknown(const std::string& what, const std::string& name, const std::string& list) {
-  return {ErrorCode::not_found, "no " + what + " \"" + name + "\"; try: flyball list " + list};
-}
-
 Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario) {
   const auto file = find_shipped("platforms", scenario.platform.name);
   if (!file) {
@@ -45,12 +33,12 @@ Result<World> make_world(const Scenario& scenario) {
   if (!generator) {
     return unknown("world", scenario.world.generator, "worlds");
   }
-  auto parameters = Parameters::resolve("world \"" + scenario.world.generator + "\"",
-                                        generator->parameters(), scenario.world.parameters);
-  if (const auto* errors = std::get_if<std::vector<Error>>(&parameters)) {
-    return join(*errors);
+  const auto parameters = resolved("world \"" + scenario.world.generator + "\"",
+                                   generator->parameters(), scenario.world.parameters);
+  if (!parameters) {
+    return parameters.error();
   }
-  return generator->make(std::get<Parameters>(parameters), scenario.seed);
+  return generator->make(*parameters, scenario.seed);
 }
 
 /// Makes one kernel, or adds a sentence to `missing`.
@@ -80,7 +68,7 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
   make(kernels.localizer, "localizer", names.localizer, missing);
   if (!missing.empty()) {
-    return join(missing);
+    return joined(missing);
   }
   kernels.localizer->start(GeodeticOrigin{});
   return kernels;
@@ -108,12 +96,12 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
   if (!policy) {
     return unknown("policy", preset->policy, "policies");
   }
-  auto parameters = Parameters::resolve("policy \"" + preset->policy + "\"", policy->parameters(),
-                                        preset->parameters);
-  if (const auto* errors = std::get_if<std::vector<Error>>(&parameters)) {
-    return join(*errors);
+  const auto parameters =
+      resolved("policy \"" + preset->policy + "\"", policy->parameters(), preset->parameters);
+  if (!parameters) {
+    return parameters.error();
   }
-  if (const Status started = policy->start(std::get<Parameters>(parameters), knobs); !started) {
+  if (const Status started = policy->start(*parameters, knobs); !started) {
     return started.error();
   }
   // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
@@ -166,7 +154,7 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   }
   setup.equipment.kernels = std::move(*kernels);
   if (const auto errors = check_map(scenario, {}); !errors.empty()) {
-    return join(errors);
+    return joined(errors);
   }
   const std::string priced_as = mapper_cost(scenario.kernels);
   if (!setup.platform->knows(priced_as)) {

@@ -153,7 +153,9 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   context_.counters.planner_failures_in_row = 0;
   last_planning_ = now - asked_at_;
   const Path path{planned.trajectory};
-  if (is_worth_a_look(path.length_m())) {
+  const double total_m = follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m();
+  expected_m_ = expected_m_.value_or(total_m);
+  if (is_worth_a_look(total_m, path.length_m())) {
     look_around(now);
     return;
   }
@@ -166,11 +168,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   follower_.refresh_known_free(context_.map());
 }
 
-bool Navigator::is_worth_a_look(double planned_m) {
-  const double total_m = follower_.travelled_m() - follower_.s_m() + splice_m_ + planned_m;
-  if (!expected_m_) {
-    expected_m_ = total_m;
-  }
+bool Navigator::is_worth_a_look(double total_m, double planned_m) const {
   const Vec3 here_W = follower_.position_W();
   return follower_.has_path() &&
          total_m > *expected_m_ + std::max(worth_a_look_m, worth_a_look * planned_m) &&

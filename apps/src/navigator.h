@@ -69,7 +69,7 @@ class Navigator {
 
  private:
   [[nodiscard]] double lead_s() const;
-  [[nodiscard]] bool is_worth_a_look(double planned_m);
+  [[nodiscard]] bool is_worth_a_look(double total_m, double planned_m) const;
   void look_around(MissionTime now);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);

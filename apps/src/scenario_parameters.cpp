@@ -103,22 +103,39 @@ std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given)
   return errors;
 }
 
+Error joined(const std::vector<Error>& errors) {
+  Error all{ErrorCode::invalid_input, ""};
+  for (const Error& error : errors) {
+    all.message += (all.message.empty() ? "" : "\n") + error.message;
+  }
+  return all;
+}
+
+Error unknown(const std::string& what, const std::string& name, const std::string& list) {
+  return {ErrorCode::not_found, "no " + what + " \"" + name + "\"; try: flyball list " + list};
+}
+
+Result<Parameters> resolved(const std::string& owner,
+                            const std::vector<ParameterSpec>& specs,
+                            const ParameterValues& given) {
+  auto parameters = Parameters::resolve(owner, specs, given);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&parameters)) {
+    return joined(*errors);
+  }
+  return std::get<Parameters>(std::move(parameters));
+}
+
 Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels) {
   auto mapper = all_plugins().make<Mapper>(kernels.mapper);
   if (!mapper) {
-    return Error{ErrorCode::not_found,
-                 "no mapper \"" + kernels.mapper + "\"; try: flyball list kernels"};
+    return unknown("mapper", kernels.mapper, "kernels");
   }
-  const auto chosen = Parameters::resolve("mapper \"" + kernels.mapper + "\"", mapper->parameters(),
-                                          kernels.mapper_parameters);
-  if (const auto* errors = std::get_if<std::vector<Error>>(&chosen)) {
-    Error all{ErrorCode::invalid_input, ""};
-    for (const Error& error : *errors) {
-      all.message += (all.message.empty() ? "" : "\n") + error.message;
-    }
-    return all;
+  const auto chosen = resolved("mapper \"" + kernels.mapper + "\"", mapper->parameters(),
+                               kernels.mapper_parameters);
+  if (!chosen) {
+    return chosen.error();
   }
-  mapper->configure(std::get<Parameters>(chosen));
+  mapper->configure(*chosen);
   return mapper;
 }
 

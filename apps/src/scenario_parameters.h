@@ -36,6 +36,17 @@ struct ParameterGroup {
 /// @return  Wrong kinds and bounds.
 [[nodiscard]] std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given);
 
+/// One error of many, a line for each. @pre There is one.
+[[nodiscard]] Error joined(const std::vector<Error>& errors);
+/// `no policy "slow"; try: flyball list policies`
+[[nodiscard]] Error unknown(const std::string& what,
+                            const std::string& name,
+                            const std::string& list);
+/// A plug-in's parameters, checked; what is wrong with them comes in one error.
+[[nodiscard]] Result<Parameters> resolved(const std::string& owner,
+                                          const std::vector<ParameterSpec>& specs,
+                                          const ParameterValues& given);
+
 /// The mapper that the scenario names, configured.
 ///
 /// @error `not_found`, or `invalid_input` with a sentence for each wrong parameter.

@@ -19,21 +19,14 @@ constexpr double most_power_w = 1e5;
 
 using Row = Eigen::Vector3d;
 
-double core_w(const PowerCost& cost, double f_ghz) {
-  return cost.core_linear_w * f_ghz + cost.core_cubic_w * f_ghz * f_ghz * f_ghz;
-}
-
 }  // namespace
 
 Watts ComputerPower::power(Hertz clock, double busy_cores) const {
-  const double f_ghz = clock.value() * 1e-9;
-  const double cpu_w =
-      cost.cpu_constant_w + cost.cpu_linear_w * f_ghz + busy_cores * core_w(cost, f_ghz);
-  return Watts{cost.board_w + cost.converter * (cost.soc_w + cost.memory_w + cpu_w)};
+  return cost.power(clock, busy_cores);
 }
 
 Joules ComputerPower::job_energy(Hertz clock, double seconds) const {
-  return Joules{cost.converter * core_w(cost, clock.value() * 1e-9) * seconds};
+  return Joules{cost.converter * cost.core_power(clock).value() * seconds};
 }
 
 RotorPower::RotorPower(const Prior& prior)

@@ -52,11 +52,18 @@ bool ModeledPlatform::knows(std::string_view kernel) const {
 }
 
 Watts ModeledPlatform::power(const OperatingPoint& point, double busy_cores) const {
-  const PowerCost& cost = model_.power;
-  const double f = in_ghz(point.frequency);
-  const double core_w = cost.core_linear_w * f + cost.core_cubic_w * f * f * f;
-  const double cpu_w = cost.cpu_constant_w + cost.cpu_linear_w * f + busy_cores * core_w;
-  return Watts{cost.board_w + cost.converter * (cost.soc_w + cost.memory_w + cpu_w)};
+  return model_.power.power(point.frequency, busy_cores);
+}
+
+Watts PowerCost::core_power(Hertz clock) const {
+  const double f = in_ghz(clock);
+  return Watts{core_linear_w * f + core_cubic_w * f * f * f};
+}
+
+Watts PowerCost::power(Hertz clock, double busy_cores) const {
+  const double cpu_w =
+      cpu_constant_w + cpu_linear_w * in_ghz(clock) + busy_cores * core_power(clock).value();
+  return Watts{board_w + converter * (soc_w + memory_w + cpu_w)};
 }
 
 }  // namespace flyball

@@ -4,6 +4,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "synthetic_scans.h"
+#include "wall_scan.h"
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -14,6 +15,10 @@
 
 namespace flyball {
 namespace {
+
+using kit::insert;
+using kit::looking_along_x;
+using kit::wall_scan;
 
 constexpr Cylinder body{0.35, 0.15};
 constexpr double range_m = 7.0;
@@ -27,30 +32,6 @@ std::unique_ptr<Mapper> make(const std::string& name,
   const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
   mapper->configure(std::get<Parameters>(chosen));
   return mapper;
-}
-
-/// A camera at the origin that looks along +x and sees a wall, 2 m wide and high, `distance_m`
-/// away.
-PointCloud wall_scan(float distance_m) {
-  PointCloud cloud_C;
-  for (int i = 0; i < 81 * 81; ++i) {
-    const float right = 0.025F * static_cast<float>(i % 81 - 40);
-    const float down = 0.025F * static_cast<float>(i / 81 - 40);
-    cloud_C.hits_C.emplace_back(right, down, distance_m);
-  }
-  return cloud_C;
-}
-
-Pose looking_along_x() {
-  Pose X_WC = Pose::Identity();
-  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return X_WC;
-}
-
-void insert(Mapper& mapper, const PointCloud& cloud_C, const MapperSettings& settings) {
-  const auto work = mapper.prepare(cloud_C, looking_along_x(), settings);
-  ASSERT_TRUE(work.ok()) << work.error().message;
-  mapper.commit();
 }
 
 Work insert_scan(Mapper& mapper, kit::Place place, int frame, double resolution_m) {

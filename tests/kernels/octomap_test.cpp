@@ -4,6 +4,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "synthetic_scans.h"
+#include "wall_scan.h"
 #include <limits>
 #include <memory>
 
@@ -13,36 +14,16 @@
 namespace flyball {
 namespace {
 
+using kit::insert;
+using kit::looking_along_x;
+using kit::wall_scan;
+
 constexpr Cylinder body{0.35, 0.15};
 
 std::unique_ptr<Mapper> make_octomap() {
   Registry registry;
   register_kernels(registry);
   return registry.make<Mapper>("octomap");
-}
-
-/// A camera at the origin that looks along +x and sees a wall, 2 m wide and high, `distance_m`
-/// away.
-PointCloud wall_scan(float distance_m) {
-  PointCloud cloud_C;
-  for (int i = 0; i < 81 * 81; ++i) {
-    const float right = 0.025F * static_cast<float>(i % 81 - 40);
-    const float down = 0.025F * static_cast<float>(i / 81 - 40);
-    cloud_C.hits_C.emplace_back(right, down, distance_m);
-  }
-  return cloud_C;
-}
-
-Pose looking_along_x() {
-  Pose X_WC = Pose::Identity();
-  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return X_WC;
-}
-
-void insert(Mapper& mapper, const PointCloud& cloud_C, const MapperSettings& settings) {
-  const auto work = mapper.prepare(cloud_C, looking_along_x(), settings);
-  ASSERT_TRUE(work.ok()) << work.error().message;
-  mapper.commit();
 }
 
 TEST(Octomap, shows_a_scan_only_after_commit) {

@@ -3,6 +3,7 @@
 
 #include "../../kernels/src/bricks/ray_scan.h"
 #include "mask_cells.h"
+#include "wall_scan.h"
 #include "world_scans.h"
 
 #include <gtest/gtest.h>
@@ -143,8 +144,7 @@ double free_share_on_axis(PyramidScan& pyramid, int floor_level) {
       cloud.clear_C.push_back(8.0F * ray.normalized());
     }
   }
-  Pose X_WC = Pose::Identity();
-  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Pose X_WC = kit::looking_along_x();
   X_WC.translation() = Vec3{0.02, 0.04, 1.53};
   const Cells cells = cells_of(pyramid.compute(cloud, X_WC, range_m, floor_level));
   const Lattice lattice{finest_m};

@@ -10,10 +10,9 @@
 
 namespace flyball {
 
-/// Input power of the computer, P = board + converter (soc + memory + const + linear f
-/// + u (core_linear f + core_cubic f^3)), f in GHz, u the busy cores. The defaults are a Jetson
-/// TX2's (four A57 cores; estimates from its published rail powers, recalibrate on the board): the
-/// same numbers, with their sources, as sim/platforms/jetson_tx2.toml.
+/// Input power of the computer, as the platform's model has it (`PowerCost`). The defaults are a
+/// Jetson TX2's (four A57 cores; estimates from its published rail powers, recalibrate on the
+/// board): the same numbers, with their sources, as sim/platforms/jetson_tx2.toml.
 struct ComputerPower {
   PowerCost cost{0.6, 1.24, 0.5, 0.38, 0.15, 0.05, 0.11, 0.095};
 

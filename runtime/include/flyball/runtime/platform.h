@@ -70,6 +70,10 @@ struct PowerCost {
   double cpu_linear_w{};
   double core_linear_w{};
   double core_cubic_w{};
+
+  [[nodiscard]] Watts power(Hertz clock, double busy_cores) const;
+  /// What one busy core adds on its own rail, before the converter.
+  [[nodiscard]] Watts core_power(Hertz clock) const;
 };
 
 struct PlatformModel {
