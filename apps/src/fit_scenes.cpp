@@ -35,7 +35,8 @@ Pose looking(const Vec3& p_W, double yaw_rad) {
 }
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+  return {world.bounds_W, world.zones,           world.start_W,     world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m};
 }
 
 /// Camera, point cloud and map: what is done with one view.

@@ -54,6 +54,7 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::string coverage{"lawnmower"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -68,6 +69,16 @@ struct PlannerSettings {
   /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
   /// the newest map, is worth more.
   int budget{4000};
+};
+
+/// What the workload `scanning` surveys: a rectangle in the middle of the world's bounds.
+struct ScanSettings {
+  double length_m{100.0};  ///< Eastwards, along the lanes. MAVBench: 100 x 100 m, 5 lanes.
+  double width_m{100.0};   ///< Northwards, across them.
+  int lanes{5};
+  double height_m{15.0};          ///< Of flight, above the ground.
+  double picture_rate_hz{2.0};    ///< Of the camera that looks down.
+  double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
 };
 
 struct PlatformSettings {
@@ -92,6 +103,7 @@ struct Scenario {
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
+  ScanSettings scan{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

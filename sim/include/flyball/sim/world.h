@@ -9,6 +9,7 @@
 #include "flyball/runtime/result.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct World {
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
   double cruise_height_m{1.5};  ///< Above ground.
+  /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
+  /// that is not so.
+  std::optional<double> open_above_m{};
 };
 
 /// Makes a world from a seed and parameters.
