@@ -21,7 +21,7 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones,           world.start_W,     world.goal_W,
+  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
           world.cruise_height_m, world.ground_z_m, world.open_above_m};
 }
 
@@ -121,11 +121,14 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
+  }
+  if (const Status possible = workload->check(scenario, brief_of(world)); !possible) {
+    return possible.error();
   }
   return workload;
 }
@@ -147,7 +150,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }
@@ -162,7 +165,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }

@@ -124,8 +124,8 @@ double PathFollower::room_m(std::size_t tier) const {
 
 double PathFollower::cruise_speed(std::size_t tier) const {
   const double delta_s = to_seconds(latency_bound_ + guard_.reaction_time());
-  return std::min(tier_speeds_m_s()[tier], safe_speed(guard_.settings().max_deceleration_m_s2,
-                                                      delta_s, room_m(tier)));
+  return std::min(tier_speeds_m_s()[tier],
+                  safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, room_m(tier)));
 }
 
 std::array<double, 3> PathFollower::tier_speeds_m_s() const {

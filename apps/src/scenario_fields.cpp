@@ -59,6 +59,8 @@ Fields vehicle_fields() {
       {"vehicle.wind_east_m_s", &at<in, &V::wind_east_m_s>, -30, 30, "mean wind towards the east"},
       {"vehicle.wind_north_m_s", &at<in, &V::wind_north_m_s>, -30, 30,
        "mean wind towards the north"},
+      {"vehicle.gust_wind_m_s", &at<in, &V::gust_wind_m_s>, 0, 30,
+       "gusts are those of this wind at 6 m: 7.7 light, 15.4 moderate, 23.2 severe"},
   };
 }
 

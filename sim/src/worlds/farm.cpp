@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A farm to be surveyed from above: fields of low crop with fences between them, a barn and trees at
-// their edges. All of it ends below a height that is known before take-off.
+// A farm to be surveyed from above: fields of low crop with fences between them, a barn and trees
+// at their edges. All of it ends below a height that is known before take-off.
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
@@ -34,20 +34,21 @@ constexpr double ceiling_m = 60.0;
 class Farm final : public flyball::WorldGenerator {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    return {{"length_m", 100.0, 20.0, 1000.0, "Of the fields, eastwards."},
-            {"width_m", 100.0, 20.0, 1000.0, "Of the fields, northwards."},
-            {"fields", 4.0, 1.0, 20.0, "Strips of crop, each with a fence between it and the next."},
-            {"crop_height_m", 0.6, 0.0, 3.0, "Mean; each field's is within 50 % of it."},
-            {"trees", 40.0, 0.0, 1000.0, "Around the fields, and a few in them."},
-            {"tree_height_m", 8.0, 2.0, 30.0, "The tallest; the lowest have half of it."}};
+    return {
+        {"length_m", 100.0, 20.0, 1000.0, "Of the fields, eastwards."},
+        {"width_m", 100.0, 20.0, 1000.0, "Of the fields, northwards."},
+        {"fields", 4.0, 1.0, 20.0, "Strips of crop, each with a fence between it and the next."},
+        {"crop_height_m", 0.6, 0.0, 3.0, "Mean; each field's is within 50 % of it."},
+        {"trees", 40.0, 0.0, 1000.0, "Around the fields, and a few in them."},
+        {"tree_height_m", 8.0, 2.0, 30.0, "The tallest; the lowest have half of it."}};
   }
 
   [[nodiscard]] flyball::Result<World> make(const Parameters& given,
                                             std::uint64_t seed) const override {
     World world;
     const Vec3 size{given.number("length_m"), given.number("width_m"), 0.0};
-    const double highest_m = std::max({barn_height_m, given.number("tree_height_m"),
-                                       1.5 * given.number("crop_height_m")});
+    const double highest_m = std::max(
+        {barn_height_m, given.number("tree_height_m"), 1.5 * given.number("crop_height_m")});
     world.bounds_W = {{-margin_m, -margin_m, 1.0},
                       {size.x() + margin_m, size.y() + margin_m, ceiling_m}};
     world.open_above_m = highest_m;

@@ -43,6 +43,7 @@ struct VehicleSettings {
       0.70};  ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
   double wind_east_m_s{};
   double wind_north_m_s{};
+  double gust_wind_m_s{};  ///< Wind at 20 ft whose gusts (Dryden, MIL-F-8785C) blow; 0: none.
 };
 
 struct KernelSettings {
