@@ -48,6 +48,7 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       camera_{world, context.scenario.camera, context.scenario.seed},
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
       clearance_{world},
+      movers_{world.movers},
       wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
   log_.min_clearance_m = clearance_limit_m;
 }
@@ -108,13 +109,14 @@ void ClosedLoop::check_step() {
   const bool near_ground = controller_.mode() == FlightMode::take_off ||
                            controller_.mode() == FlightMode::land ||
                            controller_.mode() == FlightMode::idle;
-  const double clearance_m =
-      clearance_.distance_m(vehicle_.state().X_WB.translation(), context_.airframe.body(),
-                            clearance_limit_m, near_ground);
+  const Vec3& p_WB = vehicle_.state().X_WB.translation();
+  const Cylinder body = context_.airframe.body();
+  const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
+  const double distance_m = clearance_m(movers_, now, p_WB, body, still_m);
   if (is_airborne()) {
-    log_.min_clearance_m = std::min(log_.min_clearance_m, clearance_m);
+    log_.min_clearance_m = std::min(log_.min_clearance_m, distance_m);
   }
-  if (clearance_m <= 0.0) {
+  if (distance_m <= 0.0) {
     context_.finish(now, MissionStatus::failed, MissionFailure::collision);
   }
   if (battery_.is_empty()) {

@@ -68,6 +68,7 @@ class ClosedLoop {
   DepthCamera camera_;
   Gps gps_;
   Clearance clearance_;
+  std::vector<Mover> movers_;
   Wind wind_;
   FlightLog log_{};
   double last_busy_core_s_{};

@@ -78,6 +78,22 @@ TEST(Forest, says_so_when_the_trunks_do_not_fit) {
   EXPECT_NE(world.error().message.find("min_gap_m"), std::string::npos);
 }
 
+TEST(Forest, has_walkers_who_meet_no_trunk_and_leaves_its_trunks_as_they_were) {
+  const auto empty = made_world("forest", 4);
+  const auto world = made_world("forest", 4, {{"walkers", 5.0}});
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->movers.size(), 5U);
+  EXPECT_EQ(corners(*empty), corners(*world));
+  const Clearance clearance{*world};
+  for (const Mover& walker : world->movers) {
+    for (int t_s = 0; t_s < 40; ++t_s) {
+      const Aabb box = box_at(walker, MissionTime{std::chrono::seconds{t_s}});
+      const Vec3 middle = 0.5 * (box.min + box.max);
+      EXPECT_GT(clearance.distance_m(middle, {0.36, 0.8}, 1.0, true), 0.0);
+    }
+  }
+}
+
 TEST(Farm, has_nothing_above_the_height_that_it_names_and_a_yard_that_is_open_to_the_sky) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto world = made_world("farm", seed, {{"trees", 200.0}, {"tree_height_m", 12.0}});

@@ -7,6 +7,7 @@
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/movers.h"
 
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,7 @@ struct World {
   bool has_ground{true};      ///< A solid plane at `ground_z_m`.
   std::vector<Aabb> boxes{};  ///< Solid; may touch and overlap.
   std::vector<Pillar> pillars{};
+  std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
