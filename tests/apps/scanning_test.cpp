@@ -68,6 +68,16 @@ TEST(Scanning, fails_as_incomplete_when_its_lanes_are_too_far_apart) {
   EXPECT_NEAR(record->summary.quality.at("area_covered_percent"), 50.0, 2.0);
 }
 
+TEST(Scanning, plans_by_a_service_and_has_no_map_in_its_graph) {
+  const auto graph = describe_graph(small_farm(), false);
+  ASSERT_TRUE(graph.ok()) << graph.error().message;
+  for (const char* name : {"localize", "coverage", "smooth", "follow", "plan.request"}) {
+    EXPECT_NE(graph->find(name), std::string::npos) << name << "\n" << *graph;
+  }
+  EXPECT_EQ(graph->find("map"), std::string::npos) << *graph;
+  EXPECT_EQ(graph->find("cloud"), std::string::npos) << *graph;
+}
+
 TEST(Scanning, is_refused_where_nothing_is_known_to_be_clear) {
   Scenario scenario = small_farm();
   scenario.world.generator = "forest";
