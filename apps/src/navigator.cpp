@@ -67,6 +67,7 @@ void Navigator::map_published(MissionTime now,
   if (newest_latency_ > latency.bound()) {
     ++context_.counters.bound_overruns;
   }
+  context_.counters.budget_use.push_back(ratio(newest_latency_, latency.bound()));
   latency.add(newest_latency_);
   if (last_published_ != MissionTime{}) {
     interval.add(now - last_published_);

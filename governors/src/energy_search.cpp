@@ -143,7 +143,8 @@ void EnergySearch::learn_latency(const Observation& seen) {
 }
 
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
-  const SpeedLimit limit{settings_.deceleration_m_s2};
+  const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
+                                                        : settings_.deceleration_m_s2};
   const double latency_s = predicted_s(setting);
   const double bound_s = latency_s * bound_.tracker(level(setting.resolution_m)).factor();
   EnergyEstimate best;
@@ -165,7 +166,7 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   return best;
 }
 
-EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
+EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) const {
   const double top_hz = points_.axes()[clock_axis].values.back();
   EnergyEstimate best;
   best.joules_per_m = std::numeric_limits<double>::infinity();
@@ -175,11 +176,20 @@ EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now)
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const MapSetting candidate = setting(point);
     const bool may = candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
+                     !(candidate.range_m < least_range_m) &&
                      (!around.needs_top_clock || candidate.clock_hz == top_hz);
     if (may) {
       const EnergyEstimate estimated = estimate(candidate, around);
       best = is_better(estimated, best) ? estimated : best;
     }
+  }
+  return best;
+}
+
+EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
+  EnergyEstimate best = best_of(around, around.least_range_m);
+  if (!std::isfinite(best.joules_per_m)) {  // No level that is fine enough reaches so far.
+    best = best_of(around, 0.0);
   }
   FLYBALL_ASSERT(std::isfinite(best.joules_per_m), "no setting of %zu is finite", points_.size());
   if (best.setting != in_force_) {

@@ -63,6 +63,26 @@ TEST(EnergySearch, in_the_open_flies_coarse_far_and_fast) {
   EXPECT_EQ(one.in_force(), best.setting);
 }
 
+TEST(EnergySearch, reaches_as_far_as_it_must_where_a_level_can) {
+  EnergySearch one = search();
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  around.sight_m = 7.0;  // Nothing to win beyond.
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
+  around.least_range_m = 11.0;
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 12.0);
+  around.least_range_m = 50.0;
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
+}
+
+TEST(EnergySearch, brakes_as_the_mission_does) {
+  const EnergySearch one = search();
+  Surroundings around = open_space();
+  const double usual_m_s = one.estimate({0.80, 12.0, top_hz}, around).speed_m_s;
+  around.deceleration_m_s2 = 2.0;
+  EXPECT_LT(one.estimate({0.80, 12.0, top_hz}, around).speed_m_s, usual_m_s);
+}
+
 TEST(EnergySearch, its_choice_is_the_best_of_all_that_are_allowed) {
   EnergySearch one = search();
   Surroundings around = open_space();

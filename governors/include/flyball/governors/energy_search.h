@@ -50,7 +50,9 @@ struct MapLevel {
 /// What limits speed besides latency.
 struct Surroundings {
   double speed_limit_m_s{};
-  double most_range_m{1e9};  ///< Of the map; the shortest range is always allowed.
+  double least_range_m{};      ///< Of the map; the longest that a level allows counts as enough.
+  double most_range_m{1e9};    ///< Of the map; the shortest range is always allowed.
+  double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   double sight_m{};        ///< Beyond this the world, not the range, ends what is known to be free.
   double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
@@ -100,6 +102,7 @@ class EnergySearch {
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
   void learn_latency(const Observation& seen);
+  [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m) const;
 
   EnergySearchSettings settings_;
   OperatingPoints points_;
