@@ -150,13 +150,13 @@ class MissionEnergy final : public flyball::Policy {
   }
 
   /// Latencies between the two that are known beforehand lie on a line in log-log.
-  [[nodiscard]] std::vector<flyball::MapLevel> map_levels(const flyball::Parameters& given,
-                                                          double most_m) const {
+  [[nodiscard]] std::vector<flyball::SearchLevel> map_levels(const flyball::Parameters& given,
+                                                             double most_m) const {
     constexpr double fine_slope = 2.2;
     constexpr double coarse_slope = 1.0;
     const double fine_s = given.number("fine_latency_s");
     const double coarse_s = given.number("coarse_latency_s");
-    std::vector<flyball::MapLevel> levels;
+    std::vector<flyball::SearchLevel> levels;
     for (const double r_m : levels_m_) {
       const double u =
           std::log(r_m / levels_m_.front()) / std::log(levels_m_.back() / levels_m_.front());

@@ -113,9 +113,9 @@ double keeps_order(unsigned n, const double* x, double* gradient, void* context)
 class Roborun final : public flyball::Policy {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    // q of the map: least squares on what delivery_congestion shows on the TX2 with fixed settings
-    // of .15-1.2 m and 7-25 m. The stages of the planner are RoboRun's share of its mapping, an
-    // eighth; ours plans aside and does not hold the map up.
+    // q of the map: through the TX2's median latencies at 25 m in delivery_mixed and
+    // delivery_congestion, 10.55 s at .15 m, .52 s at .60 m and .19 s at 1.2 m. A stage of the
+    // planner is taken for an eighth of mapping; ours plans aside and does not hold the map up.
     return {
         {"finest_m", 0.3, 0.05, 2.0, "Finest precision; the others are 2, 4 .. 32 times it."},
         {"most_range_m", 25.0, 2.0, 100.0, "Range of the largest volume."},
@@ -127,9 +127,9 @@ class Roborun final : public flyball::Policy {
         {"overhead_s", 0.19, 0.0, 10.0, "Its own decision, off the budget."},
         {"fixed_s", 0.59, 0.0, 10.0, "Stages that no knob changes, off the budget."},
         {"volume_weight_s2", 1.0, 0.0, 1e6, "w, for the whole of the largest V0."},
-        {"map_q0_s", 1.0e-7, 0.0, 1.0, "q0 of mapping, times m^3 / m^3."},
-        {"map_q1_s", 1.0e-5, 0.0, 1.0, "q1 of mapping."},
-        {"map_q2_s", 1.0e-5, 0.0, 1.0, "q2 of mapping."},
+        {"map_q0_s", 2.24e-6, 0.0, 1.0, "q0 of mapping, times m^3 / m^3."},
+        {"map_q1_s", 3.05e-6, 0.0, 1.0, "q1 of mapping."},
+        {"map_q2_s", 1.53e-5, 0.0, 1.0, "q2 of mapping."},
         {"planner_share", 0.125, 0.0, 10.0, "Cost of a planner stage over mapping's, per volume."}};
   }
 
@@ -217,8 +217,11 @@ class Roborun final : public flyball::Policy {
     const std::array<double, 5> most{high, high, 1.0, 1.0, 1.0};
     nlopt_set_lower_bounds(solver_.get(), least.data());
     nlopt_set_upper_bounds(solver_.get(), most.data());
-    x = {0.5 * (low + high), 0.5 * (low + high), 0.5, 0.5, 0.5};
-    x[2] = x[3] = x[4] = std::max(0.5, least_share);
+    // From the coarse side: on the fine one latencies are so long that the first step leads far
+    // off.
+    const double start = low + 0.75 * (high - low);
+    const double share = std::max(0.5, least_share);
+    x = {start, start, share, share, share};
     double found = 0.0;
     const nlopt_result result = nlopt_optimize(solver_.get(), x.data(), &found);
     return (result > 0 || result == NLOPT_ROUNDOFF_LIMITED) && std::isfinite(found) &&

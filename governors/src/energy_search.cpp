@@ -31,12 +31,12 @@ bool is_positive(double x) {
 }  // namespace
 
 Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
-                                        const std::vector<MapLevel>& levels,
+                                        const std::vector<SearchLevel>& levels,
                                         const std::vector<double>& ranges_m,
                                         const KnobSettings& knobs) {
   std::vector<double> resolutions_m;
   resolutions_m.reserve(levels.size());
-  for (const MapLevel& level : levels) {
+  for (const SearchLevel& level : levels) {
     resolutions_m.push_back(level.resolution_m);
   }
   const KnobSpec* clock = knobs.spec("cpu.frequency_hz");
@@ -66,10 +66,10 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
 }
 
 EnergySearch::EnergySearch(const EnergySearchSettings& settings,
-                           const std::vector<MapLevel>& levels,
+                           const std::vector<SearchLevel>& levels,
                            OperatingPoints points)
     : settings_{settings}, points_{std::move(points)}, bound_{levels.size(), 1, settings.bound} {
-  for (const MapLevel& level : levels) {
+  for (const SearchLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;
     prior.slope_resolution = 0.0;

@@ -29,8 +29,8 @@ KnobSettings knobs() {
 }
 
 EnergySearch search(double fine_most_range_m = 25.0) {
-  const std::vector<MapLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
-                                     {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
   return *EnergySearch::make({}, levels, {7.0, 12.0}, knobs());
 }
 
@@ -184,7 +184,7 @@ TEST(EnergySearch, counts_a_map_that_never_comes_as_a_miss) {
 }
 
 TEST(EnergySearch, refuses_what_no_knob_can_be) {
-  const std::vector<MapLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
+  const std::vector<SearchLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
   EXPECT_FALSE(EnergySearch::make({}, levels, {7.0}, knobs()).ok());
   EXPECT_FALSE(EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}).ok());
 }

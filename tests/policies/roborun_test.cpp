@@ -106,7 +106,7 @@ TEST_F(Roborun, cuts_the_volume_where_a_gap_forbids_coarser_cells) {
 
 TEST_F(Roborun, is_at_most_a_metre_and_a_fifth_near_the_goal) {
   Given given = cubic();
-  given["map_q0_s"] = 1.0;  // Nothing fits, so it would be as coarse as it may.
+  given["map_q0_s"] = 27.0 / (0.75 * 25.0 * 25.0 * 25.0);  // 1000 s at .3 m, 2 s at 2.4 m.
   const auto roborun = start_policy("roborun", given, knobs());
   Observation seen = in_the_open(18.0);
   EXPECT_GT(wish_of(*roborun.policy, seen).resolution_m, 2.0);

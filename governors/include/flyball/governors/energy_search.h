@@ -38,7 +38,7 @@ struct EnergySearchSettings {
 };
 
 /// A resolution that the map may have, and what is known of its cost before the first flight.
-struct MapLevel {
+struct SearchLevel {
   double resolution_m{};
   double latency_s{};    ///< From capture to the published map at `range_m` and `clock_hz`.
   double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
@@ -79,7 +79,7 @@ class EnergySearch {
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
   /// @error `invalid_input` when a knob does not exist or cannot be one of the values.
   static Result<EnergySearch> make(const EnergySearchSettings& settings,
-                                   const std::vector<MapLevel>& levels,
+                                   const std::vector<SearchLevel>& levels,
                                    const std::vector<double>& ranges_m,
                                    const KnobSettings& knobs);
 
@@ -95,7 +95,7 @@ class EnergySearch {
 
  private:
   EnergySearch(const EnergySearchSettings& settings,
-               const std::vector<MapLevel>& levels,
+               const std::vector<SearchLevel>& levels,
                OperatingPoints points);
   [[nodiscard]] MapSetting setting(std::size_t point) const;
   [[nodiscard]] std::size_t level(double resolution_m) const;
