@@ -7,7 +7,7 @@
 
 #include "flyball/runtime/messages.h"
 
-#include "../../kernels/src/scan_update.h"
+#include "../../kernels/src/bricks/scan.h"
 #include <vector>
 
 namespace flyball::bench {
