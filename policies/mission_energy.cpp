@@ -44,7 +44,7 @@ class MissionEnergy final : public flyball::Policy {
             {"narrow_m_s", 2.0, 0.0, 50.0, "A limit of speed, 20 m ahead, that means narrow gaps."},
             {"body_m", 0.71, 0.1, 5.0, "Width of the vehicle with its tube at a crawl."},
             {"min_fine_s", 2.0, 0.0, 3600.0, "Finer cells last at least this long."},
-            {"coarse_budget", 500.0, 100.0, 1e6, "Of a plan in coarse cells, iterations."},
+            {"coarse_budget", 200.0, 100.0, 1e6, "Of a plan in coarse cells, iterations."},
             {"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; learned later."},
             {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."},
             {"patience_s", 3.0, 0.1, 3600.0, "Standing for this long: fine."},
@@ -175,13 +175,14 @@ class MissionEnergy final : public flyball::Policy {
     constexpr double no_limit = std::numeric_limits<double>::max();
     const flyball::Passability::Verdict way = passability_->judge(seen);
     const bool fine = way.coarsest_level == 0;
-    const bool from_nearby = !is_lattice_ && (fine || seen.speed_limit_m_s <= narrow_m_s_);
+    const bool near = seen.speed_limit_m_s <= narrow_m_s_;
+    const bool from_nearby = !is_lattice_ && (fine || near);
     flyball::Surroundings around;
     around.coarsest_m = levels_m_[way.coarsest_level];
     around.least_range_m = way.look_m;
     // Noise from afar opens and closes gaps: what is narrow is looked at from nearby only.
     around.most_range_m = from_nearby && !(way.look_m > 0.0) ? least_range_m_ : no_limit;
-    around.needs_top_clock = fine || from_nearby || seen.phase != flyball::MissionPhase::cruise;
+    around.needs_top_clock = fine || near || seen.phase != flyball::MissionPhase::cruise;
     const double limit_m_s = seen.speed_limit_m_s;
     around.speed_limit_m_s =
         std::isfinite(limit_m_s) && limit_m_s > 0.0 ? std::min(limit_m_s, 100.0) : usual_m_s;

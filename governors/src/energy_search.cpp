@@ -16,13 +16,8 @@ constexpr double smoothing = 0.1;         // of the load beside the map: some se
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own limit of speed settings are equal but for milliwatts: there the sooner one.
-bool is_better(const EnergyEstimate& one, const EnergyEstimate& other) {
-  constexpr double equal = 1e-3;
-  if (std::abs(one.joules_per_m - other.joules_per_m) > equal * one.joules_per_m) {
-    return one.joules_per_m < other.joules_per_m;
-  }
-  return one.response_s < other.response_s;
-}
+// The limit holds against the best of all: from pair to pair small losses would add up.
+constexpr double equal = 1e-3;
 
 bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
@@ -62,6 +57,7 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
              search.computer_.power(Hertz{setting.clock_hz}, search.busy_cores(setting, latency_s))
                  .value()};
   });
+  search.estimates_.resize(search.points_.size());
   return search;
 }
 
@@ -166,21 +162,35 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   return best;
 }
 
-EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) const {
-  const double top_hz = points_.axes()[clock_axis].values.back();
-  EnergyEstimate best;
-  best.joules_per_m = std::numeric_limits<double>::infinity();
+bool EnergySearch::is_allowed(const MapSetting& candidate,
+                              const Surroundings& around,
+                              double least_range_m) const {
   // Where nothing is fine enough, the finest is the best there is.
   const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
+  return candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
+         !(candidate.range_m < least_range_m) &&
+         (!around.needs_top_clock ||
+          candidate.clock_hz == points_.axes()[clock_axis].values.back());
+}
+
+EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) {
+  double least_j = std::numeric_limits<double>::infinity();
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const MapSetting candidate = setting(point);
-    const bool may = candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
-                     !(candidate.range_m < least_range_m) &&
-                     (!around.needs_top_clock || candidate.clock_hz == top_hz);
-    if (may) {
-      const EnergyEstimate estimated = estimate(candidate, around);
-      best = is_better(estimated, best) ? estimated : best;
+    estimates_[point].joules_per_m = std::numeric_limits<double>::infinity();
+    if (is_allowed(candidate, around, least_range_m)) {
+      estimates_[point] = estimate(candidate, around);
+      least_j = std::min(least_j, estimates_[point].joules_per_m);
+    }
+  }
+  EnergyEstimate best;
+  best.joules_per_m = std::numeric_limits<double>::infinity();
+  best.response_s = std::numeric_limits<double>::infinity();
+  for (const EnergyEstimate& estimated : estimates_) {
+    if (estimated.joules_per_m <= (1.0 + equal) * least_j && std::isfinite(least_j) &&
+        estimated.response_s < best.response_s) {
+      best = estimated;
     }
   }
   return best;

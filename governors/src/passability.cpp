@@ -33,6 +33,11 @@ std::size_t Passability::open_level(const Observation& seen) const {
   return 0;
 }
 
+// Coarse cells beside an obstacle are not known free: among them the vehicle would have to stop.
+bool Passability::is_clear_of_obstacles(const Observation& seen, std::size_t level) const {
+  return seen.nearest_obstacle_m >= 0.5 * settings_.body_m + 2.0 * levels_m_[level];
+}
+
 Duration Passability::standing(const Observation& seen) {
   const bool stands = seen.phase == MissionPhase::cruise && !(seen.speed_m_s > standing_m_s);
   standing_since_ = stands ? standing_since_.value_or(seen.now) : std::optional<MissionTime>{};
@@ -46,7 +51,7 @@ Passability::Verdict Passability::judge(const Observation& seen) {
   if (open <= level_) {
     level_ = open;
     needed_at_ = seen.now;
-  } else if (seen.now - needed_at_ >= settings_.least) {
+  } else if (seen.now - needed_at_ >= settings_.least && is_clear_of_obstacles(seen, open)) {
     level_ = open;
   }
   Verdict verdict;

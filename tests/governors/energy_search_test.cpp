@@ -75,6 +75,20 @@ TEST(EnergySearch, reaches_as_far_as_it_must_where_a_level_can) {
   EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
 }
 
+TEST(EnergySearch, looks_no_farther_than_it_pays) {
+  EnergySearch one = search();
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  around.speed_limit_m_s = 1.0;  // Every setting is fast enough, so the soonest one.
+  const EnergyEstimate best = one.choose(around, {});
+  EXPECT_EQ(best.setting.range_m, 7.0);
+  for (std::size_t i = 0; i < one.points().size(); ++i) {
+    const double* at = one.points().values(i);
+    const EnergyEstimate other = one.estimate({at[0], at[1], at[2]}, around);
+    EXPECT_TRUE(at[0] > 0.15 || best.joules_per_m <= 1.001 * other.joules_per_m);
+  }
+}
+
 TEST(EnergySearch, brakes_as_the_mission_does) {
   const EnergySearch one = search();
   Surroundings around = open_space();

@@ -25,6 +25,7 @@ Observation seen(double t_s, double gap_m, double resolution_m) {
   seen.speed_m_s = 5.0;
   seen.narrowest_gap_m = gap_m;
   seen.gap_distance_m = 12.0;
+  seen.nearest_obstacle_m = 20.0;
   seen.map_resolution_m = resolution_m;
   return seen;
 }
@@ -66,6 +67,16 @@ TEST(Passability, becomes_finer_at_once_and_coarser_after_a_while) {
   EXPECT_EQ(passability.judge(seen(0.1, 0.0, 1.20)).coarsest_level, 0U);
   EXPECT_EQ(passability.judge(seen(2.0, 24.0, 0.15)).coarsest_level, 0U);
   EXPECT_EQ(passability.judge(seen(2.2, 24.0, 0.15)).coarsest_level, 3U);
+}
+
+TEST(Passability, becomes_coarser_only_when_obstacles_are_some_cells_away) {
+  Passability passability = four_levels();
+  (void)passability.judge(seen(0.0, 0.0, 1.20));
+  Observation beside_a_wall = seen(10.0, 24.0, 0.15);
+  beside_a_wall.nearest_obstacle_m = 2.7;
+  EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 0U);
+  beside_a_wall.nearest_obstacle_m = 2.8;
+  EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 3U);
 }
 
 TEST(Passability, asks_for_the_finest_cells_after_a_failed_plan) {

@@ -71,9 +71,9 @@ struct EnergyEstimate {
 ///
 ///     J = (P_rotor(v) + P_computer) / v + switching / horizon
 ///
-/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that differ by
-/// less than a thousandth, the one that responds sooner. Latency and rotor power are learned from
-/// observations. Nothing allocates after `make`.
+/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that take
+/// less than a thousandth more than the best, the one that responds soonest. Latency and rotor
+/// power are learned from observations. Nothing allocates after `make`.
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
@@ -102,7 +102,10 @@ class EnergySearch {
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
   void learn_latency(const Observation& seen);
-  [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m) const;
+  [[nodiscard]] bool is_allowed(const MapSetting& candidate,
+                                const Surroundings& around,
+                                double least_range_m) const;
+  [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m);
 
   EnergySearchSettings settings_;
   OperatingPoints points_;
@@ -110,6 +113,7 @@ class EnergySearch {
   LatencyBound bound_;
   RotorPower rotors_{};
   ComputerPower computer_{};
+  std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
   MapSetting in_force_{};
   MissionTime in_force_since_{};
   std::uint64_t revision_{};

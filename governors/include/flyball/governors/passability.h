@@ -40,6 +40,7 @@ class Passability {
 
  private:
   [[nodiscard]] std::size_t open_level(const Observation& seen) const;
+  [[nodiscard]] bool is_clear_of_obstacles(const Observation& seen, std::size_t level) const;
   [[nodiscard]] Duration standing(const Observation& seen);
 
   PassabilitySettings settings_;
