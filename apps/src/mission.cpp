@@ -117,6 +117,11 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.latency_p50_s = quantile(counters.latency_s, 0.5);
   summary.latency_p95_s = quantile(counters.latency_s, 0.95);
   summary.latency_max_s = quantile(counters.latency_s, 1.0);
+  summary.maps = counters.budget_use.size();
+  summary.bound_overruns = counters.bound_overruns;
+  summary.budget_use_p50 = quantile(counters.budget_use, 0.5);
+  summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
+  summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
 }

@@ -94,6 +94,7 @@ struct MissionCounters {
   int replans{};
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
+  std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
   std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
 };
 

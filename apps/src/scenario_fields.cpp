@@ -136,6 +136,8 @@ Fields computer_fields() {
        "frames integrated a second, at most"},
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one plan may take"},
+      {"planner.horizon_m", &at<&Scenario::planner, &PlannerSettings::horizon_m>, 0, 10000,
+       "a farther goal is approached through places on the way; 0: planned to at once"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
        "the companion computer"},
       {"platform.cores", &at<&Scenario::platform, &PlatformSettings::cores>, 1, 256,

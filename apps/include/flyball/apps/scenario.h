@@ -70,6 +70,8 @@ struct PlannerSettings {
   /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
   /// the newest map, is worth more.
   int budget{4000};
+  /// A farther goal is approached through places on the way; 0: it is planned to at once.
+  double horizon_m{};
 };
 
 /// What the workload `scanning` surveys: a rectangle in the middle of the world's bounds.
