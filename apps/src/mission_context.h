@@ -95,7 +95,13 @@ struct MissionCounters {
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
   std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
-  std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
+  std::vector<double> latency_s{};   ///< Sensor to command, one per map revision that was used.
+};
+
+/// What the governor's fallback asks of the path follower.
+struct FlightRestraint {
+  double bound_factor{1.0};  ///< Of the bound on latency.
+  bool must_hover{};
 };
 
 class MissionContext {
@@ -135,6 +141,7 @@ class MissionContext {
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+  FlightRestraint restraint{};
 
  private:
   std::optional<MissionStatus> status_{};

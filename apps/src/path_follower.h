@@ -64,7 +64,8 @@ class PathFollower {
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
   [[nodiscard]] const Guard& guard() const { return guard_; }
-  [[nodiscard]] Duration latency_bound() const { return latency_bound_; }
+  /// In force, widened while the governor asks for it.
+  [[nodiscard]] Duration latency_bound() const;
 
  private:
   [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
