@@ -35,7 +35,8 @@ Pose looking(const Vec3& p_W, double yaw_rad) {
 }
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m};
 }
 
 /// Camera, point cloud and map: what is done with one view.
@@ -207,6 +208,33 @@ RoomsScene scene_b() {
   scene.column_pitch_m = 10.2;
   scene.headings = 4;
   return scene;
+}
+
+Scenario paper_survey() {
+  Scenario scenario;
+  scenario.name = "platform_fit";
+  scenario.world.generator = "farm";
+  scenario.kernels.coverage = "lawnmower";
+  scenario.scan.length_m = scenario.scan.width_m = 100.0;
+  scenario.scan.lanes = 5;
+  return scenario;
+}
+
+Result<KernelLoads> record(const Scenario& survey) {
+  const auto setup = set_up(survey);
+  if (!setup) {
+    return setup.error();
+  }
+  const Vec3 up = Vec3::UnitZ() * survey.scan.height_m;
+  const auto path = setup->equipment.kernels.coverage->cover(
+      {up, survey.scan.length_m, survey.scan.width_m, survey.scan.lanes, setup->world.start_W + up,
+       setup->world.start_W + up});
+  if (!path) {
+    return path.error();
+  }
+  KernelLoads loads;
+  loads[survey.kernels.coverage].calls.push_back(path->work);
+  return loads;
 }
 
 Result<DeliveryLoads> record(const DeliveryScene& scene) {

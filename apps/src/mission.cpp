@@ -21,7 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -125,11 +126,14 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
+  }
+  if (const Status possible = workload->check(scenario, brief_of(world)); !possible) {
+    return possible.error();
   }
   return workload;
 }
@@ -151,7 +155,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }
@@ -166,7 +170,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }

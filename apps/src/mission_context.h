@@ -7,6 +7,7 @@
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -37,6 +38,8 @@ struct MissionBrief {
   Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
   Vec3 goal_W{Vec3::Zero()};
   double cruise_height_m{};
+  double ground_z_m{};
+  std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
 };
 
 struct FlightCommand {
@@ -68,6 +71,7 @@ struct MissionKernels {
   std::unique_ptr<Smoother> smoother;
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<CoveragePlanner> coverage;
 };
 
 /// What is on board.
@@ -121,7 +125,10 @@ class MissionContext {
   const Platform& platform;
   const MissionBrief brief;
   const Airframe airframe;
-  const TrackingTube tube{};
+  TrackingTube tube{};  ///< A workload may widen it before the flight.
+  /// False: the graph has no map. Then space is free where the scenario declares it clear and
+  /// nowhere else, and that is believed to any distance.
+  bool maps_obstacles{true};
   KnobSettings knobs;
   MissionKernels kernels;
   Recorder& recorder;

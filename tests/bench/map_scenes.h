@@ -10,6 +10,8 @@
 #include "../../kernels/src/bricks/scan.h"
 #include <vector>
 
+#include <octomap/Pointcloud.h>
+
 namespace flyball::bench {
 
 enum class Scene { indoor, outdoor };

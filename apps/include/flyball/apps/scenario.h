@@ -43,6 +43,7 @@ struct VehicleSettings {
       0.70};  ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
   double wind_east_m_s{};
   double wind_north_m_s{};
+  double gust_wind_m_s{};  ///< Wind at 20 ft whose gusts (Dryden, MIL-F-8785C) blow; 0: none.
 };
 
 struct KernelSettings {
@@ -54,6 +55,7 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::string coverage{"lawnmower"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -70,6 +72,16 @@ struct PlannerSettings {
   int budget{4000};
   /// A farther goal is approached through places on the way; 0: it is planned to at once.
   double horizon_m{};
+};
+
+/// What the workload `scanning` surveys: a rectangle in the middle of the world's bounds.
+struct ScanSettings {
+  double length_m{100.0};  ///< Eastwards, along the lanes. MAVBench: 100 x 100 m, 5 lanes.
+  double width_m{100.0};   ///< Northwards, across them.
+  int lanes{5};
+  double height_m{15.0};          ///< Of flight, above the ground.
+  double picture_rate_hz{2.0};    ///< Of the camera that looks down.
+  double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
 };
 
 struct PlatformSettings {
@@ -94,6 +106,7 @@ struct Scenario {
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
+  ScanSettings scan{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };
