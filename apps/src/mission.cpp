@@ -21,7 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+  return {world.bounds_W, world.zones,           world.start_W,
+          world.goal_W,   world.cruise_height_m, world.volume_W};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -36,6 +37,7 @@ struct Flight {
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         topics{add_vehicle_topics(graph)} {
+    context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, *setup.platform, queue,
@@ -120,11 +122,14 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
+  }
+  if (const Status fits = workload->suits(world); !fits) {
+    return fits.error();
   }
   return workload;
 }
@@ -146,7 +151,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }
@@ -161,7 +166,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }

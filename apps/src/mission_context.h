@@ -7,6 +7,7 @@
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -37,6 +38,7 @@ struct MissionBrief {
   Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
   Vec3 goal_W{Vec3::Zero()};
   double cruise_height_m{};
+  Aabb volume_W{};  ///< To be explored, if anything is.
 };
 
 struct FlightCommand {
@@ -68,6 +70,7 @@ struct MissionKernels {
   std::unique_ptr<Smoother> smoother;
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<Explorer> explorer;
 };
 
 /// What is on board.
@@ -126,6 +129,7 @@ class MissionContext {
   Recorder& recorder;
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
+  const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
 
  private:

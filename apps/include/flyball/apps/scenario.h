@@ -4,6 +4,7 @@
 /// @file
 /// One mission, completely described: what `flyball run` reads, and what each record begins with.
 
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
@@ -54,6 +55,7 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::string explorer{"nbvp"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -92,6 +94,7 @@ struct Scenario {
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
+  ExploreSettings explore{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

@@ -5,6 +5,7 @@
 /// A workload: builds its graph of kernels, and knows when its mission is done.
 
 #include "flyball/runtime/graph.h"
+#include "flyball/runtime/result.h"
 
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@ namespace flyball {
 
 class MissionContext;  // see apps/src/mission_context.h, navigator.h
 struct VehicleTopics;
+struct World;
 class Navigator;
 
 class Workload {
@@ -26,6 +28,9 @@ class Workload {
   /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
   /// the workload outlives the graph's jobs.
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
+  /// Whether this mission can be flown in a world.
+  /// @error `invalid_input`: what the world lacks.
+  [[nodiscard]] virtual Status suits([[maybe_unused]] const World& world) const { return Done{}; }
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
   /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is

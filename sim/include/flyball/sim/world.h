@@ -37,6 +37,7 @@ struct World {
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
   double cruise_height_m{1.5};  ///< Above ground.
+  Aabb volume_W{};              ///< To be explored; empty where there is nothing to explore.
 };
 
 /// Makes a world from a seed and parameters.
