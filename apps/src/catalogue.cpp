@@ -8,6 +8,7 @@
 #include "flyball/apps/workload.h"
 #include "flyball/governors/policy.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
@@ -32,6 +33,7 @@ std::vector<KernelFamily> kernel_families() {
       {"smoother", plugins.names<Smoother>()},
       {"path_tracker", plugins.names<PathTracker>()},
       {"localizer", plugins.names<Localizer>()},
+      {"coverage", plugins.names<CoveragePlanner>()},
       {"explorer", plugins.names<Explorer>()},
   };
 }

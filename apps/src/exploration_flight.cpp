@@ -34,10 +34,11 @@ ExploreRequest explore_request(const MissionContext& context, const Viewpoint& f
   return request;
 }
 
-Status check_volume(const World& world) {
-  if ((world.volume_W.max - world.volume_W.min).minCoeff() <= 0.0) {
+Status check_volume(const Scenario& scenario, const MissionBrief& brief) {
+  if ((brief.volume_W.max - brief.volume_W.min).minCoeff() <= 0.0) {
     return Error{ErrorCode::invalid_input,
-                 "this world has no volume to explore; set world.generator to \"office\""};
+                 "world \"" + scenario.world.generator +
+                     "\" has no volume to explore; set world.generator to \"office\""};
   }
   return Done{};
 }

@@ -28,7 +28,7 @@ struct ExploreAnswer {
 /// The mission's own judge. @pre The context knows the true world.
 [[nodiscard]] std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context);
 /// @error `invalid_input`: the world has no volume to explore.
-[[nodiscard]] Status check_volume(const World& world);
+[[nodiscard]] Status check_volume(const Scenario& scenario, const MissionBrief& brief);
 
 class ExplorationFlight {
  public:

@@ -14,8 +14,8 @@ Pose looking(const Vec3& p_W, double yaw_rad) {
 }
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones,           world.start_W,
-          world.goal_W,   world.cruise_height_m, world.volume_W};
+  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
 }
 
 Status Perception::look(const Pose& X_WB, KernelLoads& loads) {

@@ -157,6 +157,33 @@ RoomsScene scene_b() {
   return scene;
 }
 
+Scenario paper_survey() {
+  Scenario scenario;
+  scenario.name = "platform_fit";
+  scenario.world.generator = "farm";
+  scenario.kernels.coverage = "lawnmower";
+  scenario.scan.length_m = scenario.scan.width_m = 100.0;
+  scenario.scan.lanes = 5;
+  return scenario;
+}
+
+Result<KernelLoads> record(const Scenario& survey) {
+  const auto setup = set_up(survey);
+  if (!setup) {
+    return setup.error();
+  }
+  const Vec3 up = Vec3::UnitZ() * survey.scan.height_m;
+  const auto path = setup->equipment.kernels.coverage->cover(
+      {up, survey.scan.length_m, survey.scan.width_m, survey.scan.lanes, setup->world.start_W + up,
+       setup->world.start_W + up});
+  if (!path) {
+    return path.error();
+  }
+  KernelLoads loads;
+  loads[survey.kernels.coverage].calls.push_back(path->work);
+  return loads;
+}
+
 Result<DeliveryLoads> record(const DeliveryScene& scene) {
   auto setup = set_up(scene.scenario);
   if (!setup) {

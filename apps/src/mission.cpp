@@ -21,8 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones,           world.start_W,
-          world.goal_W,   world.cruise_height_m, world.volume_W};
+  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -118,6 +118,11 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.latency_p50_s = quantile(counters.latency_s, 0.5);
   summary.latency_p95_s = quantile(counters.latency_s, 0.95);
   summary.latency_max_s = quantile(counters.latency_s, 1.0);
+  summary.maps = counters.budget_use.size();
+  summary.bound_overruns = counters.bound_overruns;
+  summary.budget_use_p50 = quantile(counters.budget_use, 0.5);
+  summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
+  summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
 }
@@ -128,8 +133,8 @@ Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const 
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
   }
-  if (const Status fits = workload->suits(world); !fits) {
-    return fits.error();
+  if (const Status possible = workload->check(scenario, brief_of(world)); !possible) {
+    return possible.error();
   }
   return workload;
 }

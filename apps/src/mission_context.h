@@ -7,6 +7,7 @@
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
@@ -38,6 +39,8 @@ struct MissionBrief {
   Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
   Vec3 goal_W{Vec3::Zero()};
   double cruise_height_m{};
+  double ground_z_m{};
+  std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
   Aabb volume_W{};  ///< To be explored, if anything is.
 };
 
@@ -70,6 +73,7 @@ struct MissionKernels {
   std::unique_ptr<Smoother> smoother;
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<CoveragePlanner> coverage;
   std::unique_ptr<Explorer> explorer;
 };
 
@@ -93,6 +97,7 @@ struct MissionCounters {
   int replans{};
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
+  std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
   std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
 };
 
@@ -123,7 +128,10 @@ class MissionContext {
   const Platform& platform;
   const MissionBrief brief;
   const Airframe airframe;
-  const TrackingTube tube{};
+  TrackingTube tube{};  ///< A workload may widen it before the flight.
+  /// False: the graph has no map. Then space is free where the scenario declares it clear and
+  /// nowhere else, and that is believed to any distance.
+  bool maps_obstacles{true};
   KnobSettings knobs;
   MissionKernels kernels;
   Recorder& recorder;

@@ -74,6 +74,7 @@ class Navigator {
   [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
 
  private:
+  [[nodiscard]] bool is_leg_ending() const;
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
   void start_from_path(PlanQuery& query);

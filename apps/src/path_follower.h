@@ -74,6 +74,7 @@ class PathFollower {
   void turn_towards(double yaw_rad, double dt_s);
   [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
+  [[nodiscard]] double room_m(std::size_t tier) const;
   [[nodiscard]] double cruise_speed(std::size_t tier) const;
   [[nodiscard]] double safe_cruise() const;
   [[nodiscard]] double speed_limit() const;

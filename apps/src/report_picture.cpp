@@ -207,16 +207,39 @@ Json series_json(const MemoryRecorder& trace) {
   return json;
 }
 
+/// The numbers of each row of a channel, in the order of its fields, and then its time.
+Json rows_json(const MemoryRecorder& trace, std::string_view channel) {
+  Json rows = Json::array();
+  for (const MemoryRecorder::Row& row : trace.rows()) {
+    if (row.channel != channel) {
+      continue;
+    }
+    Json numbers = Json::array();
+    for (const Field& field : row.fields) {
+      numbers.push_back(value_of(row.fields, field.name));
+    }
+    numbers.push_back(rounded(to_seconds(row.at)));
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
+}
+
 }  // namespace
 
 RunPicture picture_of(const MissionRecord& record) {
   const Summary& summary = record.summary;
-  const Json json{{"policy", summary.policy},
-                  {"seed", summary.seed},
-                  {"status", to_string(summary.status)},
-                  {"failure", to_string(summary.failure)},
-                  {"world", world_json(record.world)},
-                  {"series", series_json(*record.trace)}};
+  Json json{{"policy", summary.policy},
+            {"seed", summary.seed},
+            {"status", to_string(summary.status)},
+            {"failure", to_string(summary.failure)},
+            {"world", world_json(record.world)},
+            {"series", series_json(*record.trace)}};
+  // What a survey photographed: rectangles to be covered, and footprints of pictures.
+  for (const char* const channel : {"area", "footprint"}) {
+    if (Json rows = rows_json(*record.trace, channel); !rows.empty()) {
+      json[channel] = std::move(rows);
+    }
+  }
   return {summary, json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 

@@ -37,7 +37,9 @@ class Mapping final : public Workload {
     });
   }
 
-  [[nodiscard]] Status suits(const World& world) const override { return check_volume(world); }
+  [[nodiscard]] Status check(const Scenario& scenario, const MissionBrief& brief) const override {
+    return check_volume(scenario, brief);
+  }
 
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 

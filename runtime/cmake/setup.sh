@@ -17,6 +17,8 @@ libsimbody-dev          3.7
 libembree-dev           3.13.5
 libmrpt-topography-dev  2.5.8
 libmrpt-poses-dev       2.5.8
+libsqlite3-dev          3.40.1
+libnlopt-dev            2.7.1
 libtomlplusplus-dev     3.3.0
 libcli11-dev            2.1.2
 nlohmann-json3-dev      3.11.2

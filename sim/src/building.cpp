@@ -38,11 +38,12 @@ void add_walls_along_y(Building& building, const BuildingPlan& plan, RandomStrea
     const WallStretch s{true, wall_x_m(plan, row), wall_y_m(plan, column),
                         wall_y_m(plan, column + 1)};
     if (row == 0 && column == plan.columns / 2) {
-      add_wall_with_door(building, s, plan, plan.entrance_y_m);
-    } else if (row == 0 || row == plan.rows) {
+      add_wall_with_door(building, s, plan, plan.entrance_y_m, random);
+    } else if (row == 0 || (row == plan.rows && !(plan.has_exit && column == plan.columns / 2))) {
       add_wall(building, s);
     } else {
-      add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
+      const double wish_m = random.uniform(s.low_m, s.high_m);
+      add_wall_with_door(building, s, plan, wish_m, random);
     }
   }
 }
@@ -56,7 +57,8 @@ void add_walls_along_x(Building& building, const BuildingPlan& plan, RandomStrea
     if (column == 0 || column == plan.columns) {
       add_wall(building, s);
     } else {
-      add_wall_with_door(building, s, plan, random.uniform(s.low_m, s.high_m));
+      const double wish_m = random.uniform(s.low_m, s.high_m);
+      add_wall_with_door(building, s, plan, wish_m, random);
     }
   }
 }
@@ -126,8 +128,12 @@ void add_wall(Building& building, const WallStretch& s) {
 
 void add_wall_with_door(Building& building,
                         const WallStretch& s,
-                        const BuildingPlan& plan,
-                        double wish_m) {
+                        BuildingPlan plan,
+                        double wish_m,
+                        RandomStream& random) {
+  if (plan.most_door_width_m > plan.door_width_m) {
+    plan.door_width_m = random.uniform(plan.door_width_m, plan.most_door_width_m);
+  }
   const double reach_m = 0.5 * plan.door_width_m + half_wall_m + corner_m;
   const double centre_m = door_centre_m(plan, wish_m, s.low_m + reach_m, s.high_m - reach_m);
   const double left_m = centre_m - 0.5 * plan.door_width_m;

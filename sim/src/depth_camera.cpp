@@ -4,6 +4,7 @@
 #include "flyball/runtime/assert.h"
 #include "flyball/runtime/random.h"
 
+#include "mover_view.h"
 #include "solid_mesh.h"
 #include <algorithm>
 #include <array>
@@ -140,7 +141,10 @@ Intrinsics DepthCameraSpec::intrinsics() const {
 
 struct DepthCamera::Scene {
   Scene(const World& world, const DepthCameraSpec& camera_spec, std::uint64_t noise_seed)
-      : spec{camera_spec}, camera{camera_spec.intrinsics()}, seed{noise_seed} {
+      : spec{camera_spec},
+        camera{camera_spec.intrinsics()},
+        seed{noise_seed},
+        movers{world.movers} {
     const FlushDenormals flush;
     scene = rtcNewScene(device.handle);
     for (int y = 0; y < camera.height_px; y += tile_rows) {
@@ -169,6 +173,7 @@ struct DepthCamera::Scene {
   DepthCameraSpec spec;
   Intrinsics camera;
   std::uint64_t seed;
+  std::vector<Mover> movers;
   EmbreeDevice device;
   RTCScene scene{};
   /// Tile by tile, as they are traced; the lanes beyond the image's edge too.
@@ -261,6 +266,7 @@ DepthImage DepthCamera::capture(const Pose& X_WC, MissionTime now, std::uint64_t
                        infinity);
   const FlushDenormals flush;
   scene_->trace(X_WC.cast<float>(), image.depth_m);
+  draw(scene_->movers, X_WC, image);
   scene_->add_noise(sequence, image.depth_m);
   return image;
 }

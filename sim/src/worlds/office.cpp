@@ -124,7 +124,7 @@ class Office final : public flyball::WorldGenerator {
     const double south_m = std::min(inner_m, outer_m);
     const double north_m = std::max(inner_m, outer_m);
     const WallStretch to_corridor{false, inner_m, west_m, east_m};
-    add_wall_with_door(building, to_corridor, plan, random.uniform(west_m, east_m));
+    add_wall_with_door(building, to_corridor, plan, random.uniform(west_m, east_m), random);
     if (room.number > 0) {
       add_wall(building, {true, west_m, south_m, north_m});
     }

@@ -13,9 +13,10 @@
 
 namespace flyball {
 
+struct Scenario;
 class MissionContext;  // see apps/src/mission_context.h, navigator.h
+struct MissionBrief;
 struct VehicleTopics;
-struct World;
 class Navigator;
 
 class Workload {
@@ -25,12 +26,16 @@ class Workload {
   Workload& operator=(const Workload&) = delete;
   virtual ~Workload() = default;
 
+  /// Whether it can be flown at all, before `build`.
+  ///
+  /// @error `invalid_input`: one sentence with the key, its value and the way out.
+  [[nodiscard]] virtual Status check([[maybe_unused]] const Scenario& scenario,
+                                     [[maybe_unused]] const MissionBrief& brief) const {
+    return Done{};
+  }
   /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
   /// the workload outlives the graph's jobs.
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
-  /// Whether this mission can be flown in a world.
-  /// @error `invalid_input`: what the world lacks.
-  [[nodiscard]] virtual Status suits([[maybe_unused]] const World& world) const { return Done{}; }
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
   /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is

@@ -7,8 +7,10 @@
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/movers.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,10 +35,14 @@ struct World {
   bool has_ground{true};      ///< A solid plane at `ground_z_m`.
   std::vector<Aabb> boxes{};  ///< Solid; may touch and overlap.
   std::vector<Pillar> pillars{};
+  std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
   double cruise_height_m{1.5};  ///< Above ground.
+  /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
+  /// that is not so.
+  std::optional<double> open_above_m{};
   Aabb volume_W{};              ///< To be explored; empty where there is nothing to explore.
 };
 
