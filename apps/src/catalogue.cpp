@@ -9,6 +9,7 @@
 #include "flyball/governors/policy.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -33,6 +34,7 @@ std::vector<KernelFamily> kernel_families() {
       {"path_tracker", plugins.names<PathTracker>()},
       {"localizer", plugins.names<Localizer>()},
       {"coverage", plugins.names<CoveragePlanner>()},
+      {"explorer", plugins.names<Explorer>()},
   };
 }
 

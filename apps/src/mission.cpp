@@ -21,8 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
-          world.cruise_height_m, world.ground_z_m, world.open_above_m};
+  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -37,6 +37,7 @@ struct Flight {
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         topics{add_vehicle_topics(graph)} {
+    context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, *setup.platform, queue,

@@ -8,6 +8,7 @@
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -40,6 +41,7 @@ struct MissionBrief {
   double cruise_height_m{};
   double ground_z_m{};
   std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
+  Aabb volume_W{};  ///< To be explored, if anything is.
 };
 
 struct FlightCommand {
@@ -72,6 +74,7 @@ struct MissionKernels {
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
   std::unique_ptr<CoveragePlanner> coverage;
+  std::unique_ptr<Explorer> explorer;
 };
 
 /// What is on board.
@@ -134,6 +137,7 @@ class MissionContext {
   Recorder& recorder;
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
+  const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
 
  private:

@@ -106,6 +106,7 @@ Fields kernel_fields() {
       {"kernels.path_tracker", &at<in, &K::path_tracker>, 0, 0, "trajectory to set-points"},
       {"kernels.localizer", &at<in, &K::localizer>, 0, 0, "where the vehicle believes it is"},
       {"kernels.coverage", &at<in, &K::coverage>, 0, 0, "an area to a path over all of it"},
+      {"kernels.explorer", &at<in, &K::explorer>, 0, 0, "where to look next"},
       {"kernels.slam_load", &at<in, &K::slam_load>, 0, 0,
        "charge the SLAM time per frame beside a localizer that needs none"},
   };
@@ -123,6 +124,22 @@ Fields scan_fields() {
        "of the camera that looks down"},
       {"scan.coverage_percent", &at<in, &S::coverage_percent>, 0, 100,
        "less of the area in pictures is a failure"},
+  };
+}
+
+Fields explore_fields() {
+  constexpr auto in = &Scenario::explore;
+  using E = ExploreSettings;
+  return {
+      {"explore.coverage_percent", &at<in, &E::coverage_percent>, 1, 100,
+       "of the volume that can be seen: then the exploration is done"},
+      {"explore.gain_range_m", &at<in, &E::gain_range_m>, 1, 25, "how far a view counts"},
+      {"explore.extension_m", &at<in, &E::extension_m>, 0.5, 25, "longest edge of the tree"},
+      {"explore.iterations", &at<in, &E::iterations>, 1, 10000, "nodes of the tree"},
+      {"explore.most_iterations", &at<in, &E::most_iterations>, 1, 10000,
+       "nodes while none of them shows anything new"},
+      {"explore.discount_1_m", &at<in, &E::discount_1_m>, 0, 10,
+       "how fast a gain fades with the way to it"},
   };
 }
 
@@ -172,6 +189,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, gps_fields());
   append(all, kernel_fields());
   append(all, scan_fields());
+  append(all, explore_fields());
   append(all, computer_fields());
   return all;
 }

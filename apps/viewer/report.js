@@ -16,7 +16,10 @@ const charts = [
   { title: 'Rotor power', unit: 'W', lines: [{ key: 'rotor' }], digits: 0 },
   { title: 'Computer power', unit: 'W', lines: [{ key: 'computer' }], digits: 1 },
   { title: 'Battery', unit: '%', lines: [{ key: 'battery' }], digits: 1, top: 100 },
-];
+  { title: 'Coverage', unit: '%', lines: [{ key: 'coverage' }], digits: 1, top: 100 },
+].filter(chart => data.runs.some(run => chart.lines.some(line => (run.series[line.key] || []).some(v => v !== null))));
+for (const chart of charts) for (const run of data.runs) for (const line of chart.lines)
+  run.series[line.key] = run.series[line.key] || [];
 
 /* A canvas at the screen's own resolution; drawing is in CSS pixels. */
 function fit(canvas, height) {

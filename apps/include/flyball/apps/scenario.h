@@ -4,6 +4,7 @@
 /// @file
 /// One mission, completely described: what `flyball run` reads, and what each record begins with.
 
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
@@ -56,6 +57,7 @@ struct KernelSettings {
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
   std::string coverage{"lawnmower"};
+  std::string explorer{"nbvp"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -107,6 +109,7 @@ struct Scenario {
   MapSettings map{};
   PlannerSettings planner{};
   ScanSettings scan{};
+  ExploreSettings explore{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };
