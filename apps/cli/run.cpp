@@ -26,27 +26,35 @@ std::string with_unit(double value, int digits, const std::string& unit) {
   return rounded(value, digits) + " " + unit;
 }
 
+std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
+  std::vector<std::vector<std::string>> lines{
+      {"  mission time", with_unit(s.mission_time_s, 1, "s")},
+      {"  energy", with_unit(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
+                       with_unit(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
+      {"  battery used", with_unit(s.battery_used_percent(), 1, "%")},
+      {"  distance", with_unit(s.distance_m, 1, "m") + ", mean " +
+                         with_unit(s.mean_speed_m_s, 2, "m/s") + ", max " +
+                         with_unit(s.max_speed_m_s, 2, "m/s")},
+      {"  latency", with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
+                        with_unit(s.latency_p95_s * 1e3, 0, "ms")},
+      {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")}};
+  for (const auto& [name, value] : s.quality) {
+    lines.push_back({"  " + name, rounded(value, 3)});
+  }
+  return lines;
+}
+
 std::string result_text(const Summary& s, const std::string& folder) {
   const std::string end = s.failure == MissionFailure::none
                               ? to_string(s.status)
                               : std::string{"failed: "} + to_string(s.failure);
+  std::vector<std::vector<std::string>> lines = flight_lines(s);
+  lines.push_back({"  host time", with_unit(s.host_s, 1, "s") + ", " +
+                                      with_unit(s.real_time_factor, 1, "times real time")});
+  lines.push_back({"  trace hash", s.trace_hash + " (numerics " + s.numeric_fingerprint + ")"});
+  lines.push_back({"  record", folder});
   return s.scenario + ", " + s.policy + ", seed " + std::to_string(s.seed) + ": " + end + "\n" +
-         aligned({
-             {"  mission time", with_unit(s.mission_time_s, 1, "s")},
-             {"  energy", with_unit(s.energy_total_j() * 1e-3, 1, "kJ") + " (computer " +
-                              with_unit(s.energy_computer_j * 1e-3, 1, "kJ") + ")"},
-             {"  battery used", with_unit(s.battery_used_percent(), 1, "%")},
-             {"  distance", with_unit(s.distance_m, 1, "m") + ", mean " +
-                                with_unit(s.mean_speed_m_s, 2, "m/s") + ", max " +
-                                with_unit(s.max_speed_m_s, 2, "m/s")},
-             {"  latency", with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
-                               with_unit(s.latency_p95_s * 1e3, 0, "ms")},
-             {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")},
-             {"  host time", with_unit(s.host_s, 1, "s") + ", " +
-                                 with_unit(s.real_time_factor, 1, "times real time")},
-             {"  trace hash", s.trace_hash + " (numerics " + s.numeric_fingerprint + ")"},
-             {"  record", folder},
-         });
+         aligned(lines);
 }
 
 std::vector<std::string> overrides_of(const RunOptions& options) {

@@ -117,6 +117,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.latency_p95_s = quantile(counters.latency_s, 0.95);
   summary.latency_max_s = quantile(counters.latency_s, 1.0);
   summary.kernels = flight.recorder->kernels();
+  summary.quality = flight.workload->quality();
 }
 
 Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {

@@ -82,6 +82,7 @@ void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& cont
     Plan plan = plan_with_tubes(context, *query, answer.body);
     answer.id = query->id;
     answer.start_direction_W = query->start_direction_W;
+    answer.lead_in_W = query->lead_in_W;
     answer.failure = plan.failure;
     answer.iterations = plan.work.count("iterations");
     answer.waypoints_W = std::move(plan.waypoints_W);
@@ -100,6 +101,9 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
   }
   SmoothRequest request;
   request.waypoints_W = answer.waypoints_W;
+  if (answer.lead_in_W) {
+    request.waypoints_W.insert(request.waypoints_W.begin(), *answer.lead_in_W);
+  }
   request.start_velocity_W = answer.start_direction_W;
   request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
   request.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
@@ -110,6 +114,7 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
     work = smooth->work;
   } else {
     planned.failure = smooth.error().message;
+    planned.map_moved_on = true;
   }
   return planned;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "navigator.h"
 
+#include "flight_recorder.h"
 #include <algorithm>
 #include <cmath>
 
@@ -12,16 +13,19 @@ using namespace std::chrono_literals;
 constexpr auto retry_after =
     500ms;  // A new plan of the same map would fail again: wait for frames.
 constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
-// A plan is spliced in ahead of the vehicle by what the last one took and half as much again.
-constexpr double lead_over_last = 1.5;
+// A plan is spliced in ahead of the vehicle by what plans take and half as much again.
+constexpr double lead_over_usual = 1.5;
+constexpr std::size_t plans_remembered = 5;
 constexpr double least_lead_s = 0.1;
 constexpr double most_lead_s = 1.0;
 constexpr double arrival_m = 0.3;
-// When the way to the goal has become this much longer than it was at first, a look to both sides
-// may show a door that the vehicle has just flown past.
+// When the way to the goal has become this much longer than it was at first, and stays so with a
+// frame that was taken at rest, a look to both sides may show a door that the vehicle flew past.
 constexpr double worth_a_look_m = 5.0;
 constexpr double worth_a_look = 0.1;  // At least this share of the path.
 constexpr double looked_here_m = 2.0;
+constexpr double least_lead_in_m = 0.3;
+constexpr double straight = 0.999;  // Chord over arc.
 
 }  // namespace
 
@@ -38,6 +42,7 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   without_path_since_ = now;
   pending_id_ = 0;
   expected_m_.reset();
+  doubts_way_ = false;
   want_plan(now, "new goal");
 }
 
@@ -72,7 +77,7 @@ void Navigator::map_published(MissionTime now,
     interval.add(now - last_published_);
   }
   last_published_ = now;
-  unused_capture_ = revision.captured;
+  unused_capture_ = newest_capture_ = revision.captured;
   follower_.map_published(revision);
   follower_.set_latency_bound(latency.bound() + interval.bound());
   follower_.refresh_known_free(context_.map());
@@ -86,7 +91,9 @@ void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint6
 }
 
 double Navigator::lead_s() const {
-  return std::clamp(lead_over_last * to_seconds(last_planning_), least_lead_s, most_lead_s);
+  // Their median: one difficult plan does not make the next ones begin at a standstill.
+  const double usual_s = quantile({planning_s_.begin(), planning_s_.end()}, 0.5);
+  return std::clamp(lead_over_usual * usual_s, least_lead_s, most_lead_s);
 }
 
 void Navigator::want_plan(MissionTime now, const std::string& why) {
@@ -107,7 +114,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (follower_.stalled(now) > stall_patience) {
     want_plan(now, "stalled before unknown space");
   }
-  if (!wants_plan_ || now < not_before_) {
+  if (!wants_plan_ || now < not_before_ || (doubts_way_ && !sees_from_rest())) {
     return std::nullopt;
   }
   PlanQuery query;
@@ -115,14 +122,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   query.goal_W = *goal_W_;
   query.start_W = follower_.position_W();
   if (follower_.has_path()) {
-    const double stop_m = follower_.planned_stop_m();
-    const double moving_m = follower_.s_m() + follower_.speed_m_s() * lead_s();
-    splice_m_ = plan_from_stop_ ? stop_m : std::min(moving_m, stop_m);
-    plan_from_stop_ = false;
-    follower_.commit_stop(stop_m);
-    const auto splice = follower_.path().at(splice_m_);
-    query.start_W = splice.p_W;
-    query.start_direction_W = follower_.speed_m_s() > 0.2 ? splice.tangent_W : Vec3::Zero();
+    start_from_path(query);
   }
   asked_at_ = now;
   query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0;
@@ -131,39 +131,60 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   return query;
 }
 
-void Navigator::plan_failed(MissionTime now, std::uint64_t id, const std::string& why) {
-  if (id != pending_id_) {
-    return;
+// At first the new path leaves the old one ahead of the moving vehicle. If it then bends too
+// sharply for the vehicle's speed, the next one leaves where the vehicle would come to rest, so
+// that the bend can begin before that; at last it starts from rest.
+void Navigator::start_from_path(PlanQuery& query) {
+  const Path& path = follower_.path();
+  const double stop_m = follower_.planned_stop_m();
+  const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s(), stop_m);
+  const Vec3 moving_W = path.at(moving_m).p_W;
+  const Vec3 stop_W = path.at(stop_m).p_W;
+  const double chord_m = (stop_W - moving_W).norm();
+  if (refusals_ == 1 && chord_m > std::max(least_lead_in_m, straight * (stop_m - moving_m))) {
+    query.lead_in_W = moving_W;
   }
-  pending_id_ = 0;
+  follower_.commit_stop(stop_m);
+  splice_m_ = refusals_ == 0 || query.lead_in_W ? moving_m : stop_m;
+  query.start_W = refusals_ == 0 ? moving_W : stop_W;
+  query.start_direction_W =
+      follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
+}
+
+void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   ++context_.counters.planner_failures_in_row;
-  not_before_ = now + retry_after;
-  want_plan(now, why);
+  not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});
+  want_plan(now, planned.failure);
 }
 
 void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   if (planned.id != pending_id_) {
     return;
   }
+  pending_id_ = 0;
   if (!planned.failure.empty()) {
-    plan_failed(now, planned.id, planned.failure);
+    plan_failed(now, planned);
     return;
   }
-  pending_id_ = 0;
   context_.counters.planner_failures_in_row = 0;
-  last_planning_ = now - asked_at_;
+  planning_s_.push_back(to_seconds(now - asked_at_));
+  while (planning_s_.size() > plans_remembered) {
+    planning_s_.pop_front();
+  }
   const Path path{planned.trajectory};
   const double total_m = follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m();
   expected_m_ = expected_m_.value_or(total_m);
   if (is_worth_a_look(total_m, path.length_m())) {
-    look_around(now);
+    doubt(now);
     return;
   }
+  doubts_way_ = false;
   if (!follower_.adopt(path, splice_m_)) {
-    plan_from_stop_ = true;
+    ++refusals_;
     want_plan(now, "too late or too fast for the plan");
     return;
   }
+  refusals_ = 0;
   ++path_number_;
   follower_.refresh_known_free(context_.map());
 }
@@ -175,12 +196,23 @@ bool Navigator::is_worth_a_look(double total_m, double planned_m) const {
          !((here_W - looked_at_W_).norm() < looked_here_m);
 }
 
-void Navigator::look_around(MissionTime now) {
+bool Navigator::sees_from_rest() const {
+  return at_rest_since_ && newest_capture_ > *at_rest_since_;
+}
+
+// What made the way longer may be no more than a map that is still too coarse or too old: the first
+// time only another plan is asked for, the second time a look around.
+void Navigator::doubt(MissionTime now) {
+  doubts_way_ = !doubts_way_;
+  if (doubts_way_) {
+    want_plan(now, "the way has become longer");
+    return;
+  }
   looked_at_W_ = follower_.position_W();
   expected_m_.reset();
   const Vec3 ahead_W = *goal_W_ - looked_at_W_;
   follower_.look_around(std::atan2(ahead_W.y(), ahead_W.x()));
-  want_plan(now, "looked around, the way has become longer");
+  want_plan(now, "looked around, the way is still longer");
 }
 
 TrackingError Navigator::measured(const Vec3& error_W) const {
@@ -196,6 +228,11 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = measured(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
+  if (reference.speed_m_s > 0.02) {
+    at_rest_since_.reset();
+  } else if (!at_rest_since_) {
+    at_rest_since_ = now;
+  }
   if (reference.speed_m_s > 0.02 || !goal_W_ || has_arrived()) {
     without_path_since_ = now;
   } else if (to_seconds(now - without_path_since_) > context_.scenario.mission.plan_time_limit_s) {

@@ -6,6 +6,7 @@
 /// committed path, and keeps the latency that the speed limit follows from.
 
 #include "path_follower.h"
+#include <deque>
 #include <limits>
 #include <map>
 #include <string>
@@ -16,6 +17,8 @@ struct PlanQuery {
   std::uint64_t id{};
   Vec3 start_W{Vec3::Zero()};
   Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
+  /// The path comes straight from here, and bends at the start as fast as room allows.
+  std::optional<Vec3> lead_in_W{};
   Vec3 goal_W{Vec3::Zero()};
   bool may_be_tight{};  ///< Only the slow tube is asked for.
 };
@@ -24,6 +27,7 @@ struct PlanAnswer {
   std::uint64_t id{};
   std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
   Vec3 start_direction_W{Vec3::Zero()};
+  std::optional<Vec3> lead_in_W{};
   Cylinder body{};  ///< For which it was found.
   std::string failure{};
   double iterations{};
@@ -33,6 +37,7 @@ struct PlannedPath {
   std::uint64_t id{};
   Trajectory trajectory{};
   std::string failure{};
+  bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
 };
 
 /// Where the vehicle is, seen from its reference.
@@ -57,7 +62,6 @@ class Navigator {
   [[nodiscard]] std::uint64_t path_number() const { return path_number_; }
   /// A plan to ask for now, if any.
   [[nodiscard]] std::optional<PlanQuery> next_query(MissionTime now);
-  void plan_failed(MissionTime now, std::uint64_t id, const std::string& why);
   void path_planned(MissionTime now, const PlannedPath& planned);
 
   /// Set-point for the flight controller; `revision` is the newest that the vehicle has.
@@ -68,9 +72,12 @@ class Navigator {
   [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
 
  private:
+  void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
+  void start_from_path(PlanQuery& query);
   [[nodiscard]] bool is_worth_a_look(double total_m, double planned_m) const;
-  void look_around(MissionTime now);
+  [[nodiscard]] bool sees_from_rest() const;
+  void doubt(MissionTime now);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
   [[nodiscard]] LatencyWindow& window(std::map<double, LatencyWindow>& windows,
@@ -83,14 +90,17 @@ class Navigator {
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
-  bool plan_from_stop_{};  ///< The last plan came too late or bent too sharply to be flown into.
+  int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be flown into.
   MissionTime asked_at_{};
-  Duration last_planning_{};
+  std::deque<double> planning_s_{};  ///< What the last few plans took.
   bool wants_plan_{};
   MissionTime not_before_{};
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};
   std::optional<double> expected_m_{};  ///< From the first path on: travelled when at the goal.
+  bool doubts_way_{};  ///< Longer than expected: a plan with what is seen from rest will tell.
+  std::optional<MissionTime> at_rest_since_{};
+  MissionTime newest_capture_{};
   Vec3 looked_at_W_{Vec3::Constant(std::numeric_limits<double>::infinity())};
   std::map<double, LatencyWindow> latency_{};  ///< By map resolution.
   std::map<double, LatencyWindow> interval_{};

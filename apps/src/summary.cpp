@@ -15,9 +15,15 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array statuses{MissionStatus::succeeded, MissionStatus::failed,
                               MissionStatus::interrupted};
-constexpr std::array failures{MissionFailure::none, MissionFailure::collision,
-                              MissionFailure::battery_empty, MissionFailure::no_plan,
-                              MissionFailure::time_limit};
+constexpr std::array failures{MissionFailure::none,
+                              MissionFailure::collision,
+                              MissionFailure::battery_empty,
+                              MissionFailure::no_plan,
+                              MissionFailure::time_limit,
+                              MissionFailure::target_lost,
+                              MissionFailure::localization_lost,
+                              MissionFailure::not_found,
+                              MissionFailure::incomplete};
 
 /// Throws like the library's own getters when no value has this name.
 template <class Value, std::size_t n>
@@ -90,6 +96,9 @@ void read_computing(const Json& json, Summary& summary) {
   summary.latency_p95_s = number(json.at("latency_s").at("p95"));
   summary.latency_max_s = number(json.at("latency_s").at("max"));
   read_kernels(json.at("kernels"), summary);
+  for (const auto& [name, value] : json.at("quality").items()) {
+    summary.quality[name] = number(value);
+  }
 }
 
 }  // namespace
@@ -118,6 +127,14 @@ const char* to_string(MissionFailure failure) {
       return "no_plan";
     case MissionFailure::time_limit:
       return "time_limit";
+    case MissionFailure::target_lost:
+      return "target_lost";
+    case MissionFailure::localization_lost:
+      return "localization_lost";
+    case MissionFailure::not_found:
+      return "not_found";
+    case MissionFailure::incomplete:
+      return "incomplete";
   }
   return "unknown";
 }
@@ -152,6 +169,7 @@ std::string to_json(const Summary& summary, int indent) {
         {"p95", summary.latency_p95_s},
         {"max", summary.latency_max_s}}},
       {"kernels", kernels_json(summary)},
+      {"quality", Json(summary.quality)},
       {"host_s", summary.host_s},
       {"real_time_factor", summary.real_time_factor},
       {"trace_hash", summary.trace_hash},

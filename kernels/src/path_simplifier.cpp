@@ -55,13 +55,33 @@ Place place_at(const Polygon& points, double s_m) {
   return {};
 }
 
+using Span = std::pair<Place, Place>;
+
+Span anywhere(const Polygon& points, RandomStream& random) {
+  const double total_m = length_m(points);
+  const double one_m = random.uniform(0.0, total_m);
+  const double other_m = random.uniform(0.0, total_m);
+  return {place_at(points, std::min(one_m, other_m)), place_at(points, std::max(one_m, other_m))};
+}
+
+/// Around one corner, no farther from it than twice its shorter piece: a detour of metres before
+/// hundreds of metres straight ahead would hardly ever be hit by places drawn anywhere.
+Span across_a_corner(const Polygon& points, RandomStream& random) {
+  const auto inner = static_cast<double>(points.size() - 2);
+  const auto i =
+      1 + std::min(points.size() - 3, static_cast<std::size_t>(random.uniform(0.0, inner)));
+  const Vec3 back = points[i - 1] - points[i];
+  const Vec3 on = points[i + 1] - points[i];
+  const double reach_m = 2.0 * std::min(back.norm(), on.norm());
+  const double back_m = random.uniform(0.0, std::min(back.norm(), reach_m));
+  const double on_m = random.uniform(0.0, std::min(on.norm(), reach_m));
+  return {{i - 1, points[i] + back_m * back.normalized(), -back_m},
+          {i, points[i] + on_m * on.normalized(), on_m}};
+}
+
 void shortcut(Polygon& points, MotionChecker& checker, RandomStream& random) {
   for (int i = 0; i < shortcuts && points.size() > 2; ++i) {
-    const double total_m = length_m(points);
-    const double one_m = random.uniform(0.0, total_m);
-    const double other_m = random.uniform(0.0, total_m);
-    const Place from = place_at(points, std::min(one_m, other_m));
-    const Place to = place_at(points, std::max(one_m, other_m));
+    const auto [from, to] = i % 2 == 0 ? across_a_corner(points, random) : anywhere(points, random);
     const double saved_m = to.s_m - from.s_m - (to.p_W - from.p_W).norm();
     if (from.piece == to.piece || saved_m < worthwhile_m || !checker.is_flyable(from.p_W, to.p_W) ||
         !checker.is_flyable(points[from.piece], from.p_W) ||

@@ -35,6 +35,7 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.latency_max_s = 0.33;
   summary.min_clearance_m = 0.44;
   summary.kernels["octomap"] = {123, 45.6, 78.9, 1.25};
+  summary.quality["area_covered_percent"] = 97.25;
   summary.host_s = 3.5;
   summary.real_time_factor = 28.5;
   summary.trace_hash = "0123456789abcdef";

@@ -27,7 +27,9 @@ struct Trip {
     for (int i = 0; i < n; ++i) {
       now += 20ms;
       where.X_WB.translation() = navigator.follower().position_W();
-      navigator.map_published(now, {++revision, now - 100ms, now, 0.15}, 100ms);
+      if (i % 5 == 0) {
+        navigator.map_published(now, {++revision, now - 100ms, now, 0.15}, 100ms);
+      }
       (void)navigator.tick(now, 20ms, where);
     }
   }
@@ -86,31 +88,90 @@ TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
   EXPECT_NEAR(again->start_W.x(), trip.navigator.follower().position_W().x(), 0.02);
 }
 
-TEST(Navigator, looks_around_before_it_flies_a_way_that_has_become_longer) {
+/// Its path is blocked; the new one is longer by `detour_m`.
+void replan(Trip& trip, double detour_m) {
+  trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  const Vec3 end_W = query->goal_W + Vec3{detour_m, 0, 0};
+  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, end_W), ""});
+}
+
+struct LongerTrip : Trip {
+  LongerTrip() {
+    navigator.set_goal(now, Vec3{20, 0, 1.5});
+    const auto first = navigator.next_query(now);
+    navigator.path_planned(now, {first->id, straight(first->start_W, first->goal_W), ""});
+    tick(100);
+    number = navigator.path_number();
+    replan(*this, 6.0);
+  }
+  std::uint64_t number{};
+};
+
+TEST(Navigator, flies_a_way_at_once_that_is_a_little_longer) {
   Trip trip;
   trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
-  const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  replan(trip, 0.0);
   trip.tick(100);
-  const auto replan = [&trip](double detour_m) {
-    trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
-    const auto query = trip.navigator.next_query(trip.now);
-    ASSERT_TRUE(query.has_value());
-    const Vec3 end_W = query->goal_W + Vec3{detour_m, 0, 0};
-    trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, end_W), ""});
-  };
   const auto number = trip.navigator.path_number();
-  replan(4.0);
-  EXPECT_EQ(trip.navigator.path_number(), number + 1);  // A little longer is flown at once.
-  replan(6.0);
+  replan(trip, 4.0);
   EXPECT_EQ(trip.navigator.path_number(), number + 1);
+}
+
+TEST(Navigator, does_not_fly_a_way_that_has_become_longer_before_it_has_seen_it_from_rest) {
+  LongerTrip trip;
+  EXPECT_EQ(trip.navigator.path_number(), trip.number);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());  // Still on its way to a stop.
+  trip.tick(100);
+  replan(trip, 0.0);
+  EXPECT_EQ(trip.navigator.path_number(), trip.number + 1);  // The nearer look has found it.
+  EXPECT_FALSE(trip.navigator.follower().is_looking_around());
+}
+
+TEST(Navigator, looks_around_before_it_flies_a_way_that_stays_longer) {
+  LongerTrip trip;
+  trip.tick(100);
+  replan(trip, 6.0);
+  EXPECT_EQ(trip.navigator.path_number(), trip.number);
   EXPECT_TRUE(trip.navigator.follower().is_looking_around());
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
   trip.tick(500);
-  const auto query = trip.navigator.next_query(trip.now);
-  ASSERT_TRUE(query.has_value());
-  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, {35, 0, 1.5}), ""});
-  EXPECT_EQ(trip.navigator.path_number(), number + 2);  // It has looked: now this is the way.
+  replan(trip, 15.0);
+  EXPECT_EQ(trip.navigator.path_number(), trip.number + 1);  // It has looked: now this is the way.
+}
+
+TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for_the_last) {
+  Trip trip;
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  replan(trip, 0.0);
+  trip.tick(100);
+  trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
+  const auto first = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_FALSE(first->lead_in_W.has_value());
+  const Vec3 aside_W = first->start_W + Vec3{0, 5, 0};
+  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, aside_W), ""});
+  const auto second = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(second.has_value());
+  ASSERT_TRUE(second->lead_in_W.has_value());
+  EXPECT_GT(second->start_W.x(), second->lead_in_W->x() + 0.3);
+  trip.navigator.path_planned(trip.now, {second->id, straight(*second->lead_in_W, aside_W), ""});
+  const auto third = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(third.has_value());
+  EXPECT_FALSE(third->lead_in_W.has_value());  // From rest.
+  EXPECT_NEAR(third->start_W.x(), second->start_W.x(), 0.1);
+}
+
+TEST(Navigator, plans_at_once_when_only_the_map_has_moved_on) {
+  for (const bool moved_on : {false, true}) {
+    Trip trip;
+    trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.navigator.path_planned(trip.now, {query->id, {}, "hits an occupied cell", moved_on});
+    EXPECT_EQ(trip.navigator.next_query(trip.now).has_value(), moved_on);
+  }
 }
 
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
@@ -128,7 +189,7 @@ TEST(Navigator, gives_up_with_no_plan_after_the_time_limit) {
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
   for (int i = 0; i < 400 && !trip.rig.context->is_over(); ++i) {
     if (const auto query = trip.navigator.next_query(trip.now)) {
-      trip.navigator.plan_failed(trip.now, query->id, "no path");
+      trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
     }
     trip.tick(1);
   }

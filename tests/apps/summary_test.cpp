@@ -21,6 +21,7 @@ TEST(Summary, reads_back_what_was_written) {
   EXPECT_EQ(read.distance_m, written.distance_m) << "to the last bit";
   EXPECT_EQ(read.seed, written.seed);
   EXPECT_EQ(read.kernels.at("octomap").calls, 123U);
+  EXPECT_EQ(read.quality.at("area_covered_percent"), 97.25);
 }
 
 TEST(Summary, every_status_and_failure_reads_back) {
@@ -29,7 +30,9 @@ TEST(Summary, every_status_and_failure_reads_back) {
        {MissionStatus::succeeded, MissionStatus::failed, MissionStatus::interrupted}) {
     for (const auto failure :
          {MissionFailure::none, MissionFailure::collision, MissionFailure::battery_empty,
-          MissionFailure::no_plan, MissionFailure::time_limit}) {
+          MissionFailure::no_plan, MissionFailure::time_limit, MissionFailure::target_lost,
+          MissionFailure::localization_lost, MissionFailure::not_found,
+          MissionFailure::incomplete}) {
       summary.status = status;
       summary.failure = failure;
       Summary read;
@@ -79,6 +82,7 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "policy_faults",
                               "latency_s",
                               "kernels",
+                              "quality",
                               "host_s",
                               "real_time_factor",
                               "trace_hash",

@@ -11,7 +11,17 @@
 namespace flyball {
 
 enum class MissionStatus : std::uint8_t { succeeded, failed, interrupted };
-enum class MissionFailure : std::uint8_t { none, collision, battery_empty, no_plan, time_limit };
+enum class MissionFailure : std::uint8_t {
+  none,
+  collision,
+  battery_empty,
+  no_plan,
+  time_limit,
+  target_lost,        ///< The person that was followed is out of sight.
+  localization_lost,  ///< The localizer lost track and did not find it again.
+  not_found,          ///< Everything was searched; the person was not seen.
+  incomplete          ///< Less was covered or mapped than the mission asks for.
+};
 
 [[nodiscard]] const char* to_string(MissionStatus status);
 [[nodiscard]] const char* to_string(MissionFailure failure);
@@ -49,6 +59,8 @@ struct Summary {
   double latency_max_s{};
   double min_clearance_m{};
   std::map<std::string, KernelStatistics> kernels{};
+  /// The workload's own quality of flight; the unit is the name's ending.
+  std::map<std::string, double> quality{};
   double host_s{};
   double real_time_factor{};
   std::string trace_hash{};
@@ -62,7 +74,7 @@ struct Summary {
 };
 
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
-/// {name: {...}}`.
+/// {name: {...}}` and `quality {name: number}`.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
 /// @return Empty optional-like result when the text is not a summary.
 [[nodiscard]] bool from_json(const std::string& text, Summary& summary);

@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/graph.h"
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,9 @@ class Workload {
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
+  /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is
+  /// the name's ending.
+  [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
 };
 
 class Registry;
