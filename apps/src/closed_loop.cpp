@@ -44,8 +44,8 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       camera_{world, context.scenario.camera, context.scenario.seed},
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
       clearance_{world},
-      wind_W_{context.scenario.vehicle.wind_east_m_s, context.scenario.vehicle.wind_north_m_s,
-              0.0} {
+      wind_W_{context.scenario.vehicle.wind_east_m_s, context.scenario.vehicle.wind_north_m_s, 0.0},
+      people_{world.people} {
   log_.min_clearance_m = clearance_limit_m;
 }
 
@@ -67,6 +67,12 @@ void ClosedLoop::start() {
                [this] { publish_navigation(); });
   const Duration frame = from_seconds(1.0 / context_.scenario.camera.rate_hz);
   queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
+  if (context_.colour_camera) {
+    executor_.subscribe<GimbalAngles>(topics_.gimbal,
+                                      [this](const GimbalAngles& angles) { gimbal_.aim(angles); });
+    const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
+    queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
+  }
 }
 
 void ClosedLoop::physics_step() {
@@ -103,9 +109,11 @@ void ClosedLoop::check_step() {
   const bool near_ground = controller_.mode() == FlightMode::take_off ||
                            controller_.mode() == FlightMode::land ||
                            controller_.mode() == FlightMode::idle;
+  const Vec3 p_WB = vehicle_.state().X_WB.translation();
+  const double solids_m =
+      clearance_.distance_m(p_WB, context_.airframe.body(), clearance_limit_m, near_ground);
   const double clearance_m =
-      clearance_.distance_m(vehicle_.state().X_WB.translation(), context_.airframe.body(),
-                            clearance_limit_m, near_ground);
+      distance_to_people_m(people_, now, p_WB, context_.airframe.body(), solids_m);
   if (is_airborne()) {
     log_.min_clearance_m = std::min(log_.min_clearance_m, clearance_m);
   }
@@ -133,6 +141,16 @@ void ClosedLoop::publish_navigation() {
 void ClosedLoop::publish_depth() {
   executor_.publish(topics_.depth, camera_.frame(camera_pose(vehicle_.state().X_WB), queue_.now(),
                                                  frame_count_++));
+}
+
+void ClosedLoop::publish_colour() {
+  gimbal_.step(1.0 / context_.scenario.colour_camera.rate_hz);
+  const Pose X_LC = camera_in_level_frame(gimbal_.angles());
+  const Pose X_WC = level_frame(vehicle_.state().X_WB) * X_LC;
+  const ColourFrame frame =
+      context_.colour_camera->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  executor_.publish(topics_.colour, frame);
+  executor_.publish(topics_.colour_buffer, frame);
 }
 
 void ClosedLoop::obey(const FlightCommand& command) {

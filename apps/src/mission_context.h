@@ -7,12 +7,14 @@
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/detector.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/kernels/smoother.h"
+#include "flyball/kernels/tracker.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/knob.h"
@@ -21,6 +23,8 @@
 #include "flyball/runtime/recorder.h"
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/airframe.h"
+#include "flyball/sim/colour_camera.h"
+#include "flyball/sim/gimbal.h"
 #include "flyball/sim/world.h"
 
 #include <memory>
@@ -58,6 +62,9 @@ struct VehicleTopics {
   Topic<FlightStatus> status;
   Topic<Setpoint> setpoint;
   Topic<FlightCommand> command;
+  Topic<ColourFrame> colour{};         ///< These three only where the workload looks for people.
+  Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until somebody takes them.
+  Topic<GimbalAngles> gimbal{};        ///< What the gimbal is told.
 };
 
 struct MissionKernels {
@@ -68,6 +75,9 @@ struct MissionKernels {
   std::unique_ptr<Smoother> smoother;
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<Detector> detector;         ///< These three only where the workload
+  std::unique_ptr<Tracker> buffered_tracker;  ///< looks for people.
+  std::unique_ptr<Tracker> real_time_tracker;
 };
 
 /// What is on board.
@@ -75,6 +85,7 @@ struct MissionEquipment {
   Airframe airframe{};
   KnobSettings knobs{};
   MissionKernels kernels{};
+  std::unique_ptr<ColourCamera> colour_camera{};  ///< Null where nobody looks for people.
 };
 
 /// A map as it was published.
@@ -123,10 +134,12 @@ class MissionContext {
   const TrackingTube tube{};
   KnobSettings knobs;
   MissionKernels kernels;
+  std::unique_ptr<ColourCamera> colour_camera;
   Recorder& recorder;
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+  std::vector<Person> people_truth{};  ///< For error statistics and verdicts only.
 
  private:
   std::optional<MissionStatus> status_{};
@@ -134,6 +147,6 @@ class MissionContext {
 };
 
 /// Topics that the closed loop serves.
-[[nodiscard]] VehicleTopics add_vehicle_topics(Graph& graph);
+[[nodiscard]] VehicleTopics add_vehicle_topics(Graph& graph, bool with_colour_camera = false);
 
 }  // namespace flyball

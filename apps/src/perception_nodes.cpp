@@ -164,14 +164,21 @@ Pose camera_pose(const Pose& X_WB) {
   return X_WC;
 }
 
+Topic<PoseEstimate> add_localization(Graph& graph,
+                                     const VehicleTopics& vehicle,
+                                     MissionContext& context) {
+  const auto pose = graph.topic<PoseEstimate>("pose");
+  add_localizer(graph, vehicle, pose, context);
+  return pose;
+}
+
 PerceptionTopics add_perception(Graph& graph,
                                 const VehicleTopics& vehicle,
                                 MissionContext& context) {
   PerceptionTopics topics;
-  topics.pose = graph.topic<PoseEstimate>("pose");
+  topics.pose = add_localization(graph, vehicle, context);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
   topics.map = graph.topic<MapRevision>("map_revision");
-  add_localizer(graph, vehicle, topics.pose, context);
   if (context.scenario.kernels.slam_load) {
     add_slam_load(graph, vehicle);
   }

@@ -29,6 +29,11 @@ struct PerceptionTopics {
   Topic<MapRevision> map;
 };
 
+/// Adds the node `localize`: navigation samples to poses.
+Topic<PoseEstimate> add_localization(Graph& graph,
+                                     const VehicleTopics& vehicle,
+                                     MissionContext& context);
+
 /// Adds the nodes `localize`, `slam_load` (if the scenario wants it), `points` and `map`.
 PerceptionTopics add_perception(Graph& graph,
                                 const VehicleTopics& vehicle,

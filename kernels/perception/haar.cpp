@@ -94,6 +94,7 @@ class Haar final : public flyball::Detector {
     cv::Mat grey;
     cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
     cv::equalizeHist(grey, grey);
+    work.add("images", 1.0);
     std::vector<Detection> found;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       count(grey.size(), cascades_[i].getOriginalWindowSize(), work);

@@ -24,10 +24,11 @@ constexpr int padding_px = 8;    // So that somebody at the image's edge has a m
 constexpr int most_levels = 64;  // OpenCV's limit.
 constexpr double most_overlap = 0.4;
 
-// The trained window shows a margin around the person: OpenCV's sample peopledetect.cpp.
+// The trained window of 64 x 128 pixels has a margin of 16 around the person (Dalal and Triggs,
+// section 4).
 flyball::ImageBox without_margin(const cv::Rect& window, double scale) {
-  return {(window.x + 0.1 * window.width) / scale, (window.y + 0.07 * window.height) / scale,
-          0.8 * window.width / scale, 0.8 * window.height / scale};
+  return {(window.x + 0.25 * window.width) / scale, (window.y + 0.125 * window.height) / scale,
+          0.5 * window.width / scale, 0.75 * window.height / scale};
 }
 
 class Hog final : public flyball::Detector {
@@ -66,6 +67,7 @@ class Hog final : public flyball::Detector {
 
  private:
   std::vector<Detection> look(const cv::Mat& rgb, double scale, flyball::Work& work) {
+    work.add("images", 1.0);
     count(rgb.size(), work);
     if (rgb.cols < hog_.winSize.width || rgb.rows < hog_.winSize.height) {
       return {};

@@ -83,6 +83,7 @@ class Yolo final : public flyball::Detector {
  private:
   std::vector<Detection> look(const cv::Mat& rgb, double scale, flyball::Work& work) {
     const cv::Size input{on_grid(rgb.cols * scale), on_grid(rgb.rows * scale)};
+    work.add("images", 1.0);
     work.add("pixels", input.area());
     work.add("multiply_adds", multiply_adds(input));
     const cv::Mat blob = cv::dnn::blobFromImage(flyball::resized(rgb, input), 1.0 / 255.0);

@@ -7,6 +7,7 @@
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/colour_camera.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/gps.h"
 
@@ -54,6 +55,9 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::string detector{"hog"};
+  std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
+  std::string tracker{"kcf"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -68,6 +72,21 @@ struct PlannerSettings {
   /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
   /// the newest map, is worth more.
   int budget{4000};
+};
+
+struct DetectorSettings {
+  double scale{1.0};  ///< Default of the knob; a policy sets it in flight.
+  /// Whose price a detection has on the modeled computer: `own`, or a kernel of the platform file.
+  std::string cost_of{"own"};
+  std::string models_folder{"shipped"};  ///< Looked in first for weights; see `flyball models`.
+};
+
+struct PhotographySettings {
+  double distance_m{7.0};  ///< Kept to the person, along the ground.
+  double person_height_m{1.75};
+  int lost_after_detections{10};  ///< In a row without the person: the target is lost.
+  double success_s{60.0};         ///< Tracked for less is a failure.
+  double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
 };
 
 struct PlatformSettings {
@@ -88,10 +107,13 @@ struct Scenario {
   WorldSettings world{};
   VehicleSettings vehicle{};
   DepthCameraSpec camera{};
+  ColourCameraSpec colour_camera{};
   GpsSpec gps{};
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
+  DetectorSettings detector{};
+  PhotographySettings photography{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

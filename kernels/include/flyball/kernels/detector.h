@@ -38,7 +38,8 @@ class Detector : public Kernel {
   ///
   /// @param scale  The image is resized by it before anything is looked for: smaller is cheaper,
   ///               larger finds people who are farther away. Boxes are in pixels of `image`.
-  /// @return       Adds `pixels` (of the resized image) and what dominates to `work`: `windows`
+  /// @return       Adds `images` (one), `pixels` (of the resized image, at all sizes looked at) and
+  /// what dominates to `work`: `windows`
   ///               looked at, or `multiply_adds` of a network.
   /// @error        `invalid_input` if the image is empty, or not of the size that its camera says,
   ///               or the scale is not in (0, 8].
