@@ -21,7 +21,9 @@ class Density final : public flyball::Policy {
             {"coarse_m", 0.80, 0.05, 2.0, "Resolution in the open."},
             {"enter_density", 0.06, 0.0, 1.0, "At or above this share of columns: fine."},
             {"leave_density", 0.045, 0.0, 1.0, "At or below this share of columns: coarse."},
-            {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."}};
+            {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."},
+            {"fine_range_m", 0.0, 0.0, 100.0, "Range where fine; 0: as the scenario says."},
+            {"coarse_range_m", 0.0, 0.0, 100.0, "Range where coarse; 0: as the scenario says."}};
   }
 
   flyball::Status start(const flyball::Parameters& given,
@@ -31,6 +33,8 @@ class Density final : public flyball::Policy {
     enter_ = given.number("enter_density");
     leave_ = given.number("leave_density");
     min_fine_ = flyball::from_seconds(given.number("min_fine_s"));
+    fine_range_m_ = given.number("fine_range_m");
+    coarse_range_m_ = given.number("coarse_range_m");
     fine_since_.reset();
     if (fine_m_ >= coarse_m_) {
       return refused("fine_m = " + std::to_string(fine_m_) +
@@ -40,8 +44,16 @@ class Density final : public flyball::Policy {
       return refused("leave_density = " + std::to_string(leave_) +
                      " must not be above enter_density = " + std::to_string(enter_));
     }
-    if (knobs.spec(knob) == nullptr) {
-      return refused("there is no knob " + std::string{knob} + "; try: flyball list knobs");
+    for (const char* name : {knob, range_knob}) {
+      if (knobs.spec(name) == nullptr) {
+        return refused("there is no knob " + std::string{name} + "; try: flyball list knobs");
+      }
+    }
+    // With one range given and the other not, that one must come back.
+    const double usual_m = knobs.value(range_knob);
+    if (fine_range_m_ > 0.0 || coarse_range_m_ > 0.0) {
+      fine_range_m_ = fine_range_m_ > 0.0 ? fine_range_m_ : usual_m;
+      coarse_range_m_ = coarse_range_m_ > 0.0 ? coarse_range_m_ : usual_m;
     }
     return flyball::Done{};
   }
@@ -56,11 +68,15 @@ class Density final : public flyball::Policy {
     flyball::Decision wish;
     wish.reason = flyball::Reason::density;
     wish.set(knob, fine_since_ ? fine_m_ : coarse_m_);
+    if (fine_range_m_ > 0.0) {
+      wish.set(range_knob, fine_since_ ? fine_range_m_ : coarse_range_m_);
+    }
     return wish;
   }
 
  private:
   static constexpr const char* knob = "map.resolution_m";
+  static constexpr const char* range_knob = "map.range_m";
   static flyball::Error refused(const std::string& why) {
     return {flyball::ErrorCode::invalid_input, "policy \"density\": " + why};
   }
@@ -69,6 +85,8 @@ class Density final : public flyball::Policy {
   double coarse_m_{};
   double enter_{};
   double leave_{};
+  double fine_range_m_{};  ///< Both 0, or neither.
+  double coarse_range_m_{};
   flyball::Duration min_fine_{};
   std::optional<flyball::MissionTime> fine_since_;  ///< Empty: coarse.
 };

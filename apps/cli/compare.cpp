@@ -3,15 +3,12 @@
 #include "flyball/apps/comparison.h"
 #include "flyball/apps/report.h"
 
-#include "children.h"
 #include "commands.h"
-#include "console.h"
-#include "flight_options.h"
+#include "flight_batch.h"
 #include "seed_list.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -27,71 +24,24 @@ struct CompareOptions {
 };
 
 /// One mission of the comparison.
-struct Entry {
-  Scenario scenario{};
-  std::string folder{};
-  std::vector<std::string> arguments{};
+struct Entry : PlannedFlight {
   std::optional<RunPicture> picture{};  ///< Empty until it has flown.
 };
 using Entries = std::vector<Entry>;
-
-std::vector<std::string> arguments_of(const CompareOptions& options, const Entry& entry) {
-  std::vector<std::string> words{"run",       options.flight.scenario,
-                                 "--policy",  entry.scenario.governor.policy,
-                                 "--seed",    std::to_string(entry.scenario.seed),
-                                 "--json",    "--out",
-                                 entry.folder};
-  for (const std::string& setting : options.flight.settings) {
-    words.insert(words.end(), {"--set", setting});
-  }
-  return words;
-}
-
-using Planned = std::variant<Entry, std::vector<Error>>;
-
-Planned plan_one(const CompareOptions& options, const std::string& policy, std::uint64_t seed) {
-  std::vector<std::string> settings = options.flight.settings;
-  settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
-  auto loaded = load_scenario(options.flight.scenario, settings);
-  if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
-    return std::move(*errors);
-  }
-  Entry entry;
-  entry.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
-  entry.folder = run_folder(comparison_folder(options.flight, entry.scenario), policy, seed);
-  entry.arguments = arguments_of(options, entry);
-  return entry;
-}
-
-/// Two policies of one name (files in different folders) would write over each other's flights.
-std::optional<Error> find_shared_folder(const CompareOptions& options) {
-  std::set<std::string> folders;
-  for (const std::string& policy : options.policies) {
-    if (!folders.insert(run_folder("", policy, 0)).second) {
-      return Error{ErrorCode::invalid_input,
-                   "--policies has two that are called \"" + policy + "\"; name each once"};
-    }
-  }
-  return std::nullopt;
-}
 
 /// Every mission, read and checked before the first one flies.
 std::variant<Entries, std::vector<Error>> plan(const CompareOptions& options,
                                                const std::vector<std::uint64_t>& seeds) {
   Entries entries;
   for (std::size_t i = 0; i < options.policies.size() * seeds.size(); ++i) {
-    Planned planned =
-        plan_one(options, options.policies[i / seeds.size()], seeds[i % seeds.size()]);
+    auto planned = plan_flight(options.flight, options.policies[i / seeds.size()],
+                               seeds[i % seeds.size()], "");
     if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
       return std::move(*errors);
     }
-    entries.push_back(std::move(std::get<Entry>(planned)));
+    entries.push_back({std::move(std::get<PlannedFlight>(planned)), std::nullopt});
   }
   return entries;
-}
-
-std::string name_of(const Entry& entry) {
-  return entry.scenario.governor.policy + " seed " + std::to_string(entry.scenario.seed);
 }
 
 void reuse_finished(Entries& entries, const std::string& folder) {
@@ -106,17 +56,6 @@ void reuse_finished(Entries& entries, const std::string& folder) {
   }
 }
 
-/// What a process that left no record said, or how it ended.
-Error failure_of(const Entry& entry, const ChildEnd& end) {
-  const bool by_signal = end.exit_code > 128;
-  std::string why = by_signal ? "ended by signal " + std::to_string(end.exit_code - 128)
-                              : "no record, exit code " + std::to_string(end.exit_code);
-  if (!end.errors.empty()) {
-    why += "; " + end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
-  }
-  return {ErrorCode::failed, name_of(entry) + ": " + why};
-}
-
 void show_progress(const Entry& entry, std::size_t done, std::size_t all) {
   const Summary& s = entry.picture->summary;
   const bool failed = s.failure != MissionFailure::none;
@@ -125,52 +64,24 @@ void show_progress(const Entry& entry, std::size_t done, std::size_t all) {
        std::to_string(static_cast<long>(s.mission_time_s)) + " s");
 }
 
-struct Flown {
-  bool interrupted{};
-  int exit_code{exit_success};
-  std::vector<Error> errors{};
-};
-
-/// A mission without record. What is wrong with the input is wrong for many: it is said once.
-void add_failure(const Entry& entry, const ChildEnd& end, Flown& flown) {
-  Error error = failure_of(entry, end);
-  if (end.exit_code == exit_bad_input) {
-    const std::string program =
-        "flyball: ";  // Each line begins with it, and `refuse` adds it again.
-    const std::size_t last = end.errors.find_last_not_of('\n');
-    error.message = end.errors.substr(std::min(program.size(), end.errors.size()),
-                                      last == std::string::npos ? 0 : last + 1 - program.size());
-  }
-  const auto is_same = [&error](const Error& other) { return other.message == error.message; };
-  if (std::none_of(flown.errors.begin(), flown.errors.end(), is_same)) {
-    flown.errors.push_back(std::move(error));
-  }
-  flown.exit_code = end.exit_code == exit_bad_input
-                        ? exit_bad_input
-                        : std::max(flown.exit_code, exit_mission_failed);
-}
-
 Flown fly_missing(Entries& entries, std::size_t jobs) {
   std::vector<Entry*> missing;
-  std::vector<std::vector<std::string>> arguments;
+  std::vector<const PlannedFlight*> flights;
   for (Entry& entry : entries) {
     if (!entry.picture) {
       missing.push_back(&entry);
-      arguments.push_back(entry.arguments);
+      flights.push_back(&entry);
     }
   }
-  Flown flown;
   std::size_t done = entries.size() - missing.size();
-  flown.interrupted = run_children(arguments, jobs, [&](const ChildEnd& end) {
-    Entry& entry = *missing[end.index];
+  return fly_all(flights, jobs, [&](std::size_t index) {
+    Entry& entry = *missing[index];
     entry.picture = finished_run(entry.folder, entry.scenario);
-    if (!entry.picture) {
-      add_failure(entry, end, flown);
-    } else if (++done; has_watcher()) {
-      show_progress(entry, done, entries.size());
+    if (entry.picture && has_watcher()) {
+      show_progress(entry, ++done, entries.size());
     }
+    return entry.picture.has_value();
   });
-  return flown;
 }
 
 /// The folders in which nothing was written: each process removes its own, but not those it shares.
@@ -215,8 +126,8 @@ int compare(const CompareOptions& options) {
   if (!seeds) {
     return refuse({seeds.error()});
   }
-  if (const std::optional<Error> shared = find_shared_folder(options)) {
-    return refuse({*shared});
+  if (const Status distinct = check_distinct(options.policies); !distinct) {
+    return refuse({distinct.error()});
   }
   auto planned = plan(options, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {

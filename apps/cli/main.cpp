@@ -15,6 +15,8 @@ int parse_and_run(int argc, char** argv) {
   int exit_code = flyball::exit_success;
   flyball::add_run(program, exit_code);
   flyball::add_compare(program, exit_code);
+  flyball::add_tournament(program, exit_code);
+  flyball::add_tune(program, exit_code);
   flyball::add_list(program, exit_code);
   flyball::add_graph(program, exit_code);
   flyball::add_config(program, exit_code);

@@ -8,7 +8,9 @@
 #include "flyball/apps/workload.h"
 #include "flyball/governors/policy.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/detector.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -35,6 +37,8 @@ std::vector<KernelFamily> kernel_families() {
       {"localizer", plugins.names<Localizer>()},
       {"detector", plugins.names<Detector>()},
       {"tracker", plugins.names<Tracker>()},
+      {"coverage", plugins.names<CoveragePlanner>()},
+      {"explorer", plugins.names<Explorer>()},
   };
 }
 

@@ -20,6 +20,10 @@ Vec3 start_position(const World& world, const Airframe& airframe) {
   return world.start_W + Vec3::UnitZ() * (0.5 * airframe.body_height_m);
 }
 
+WindSpec wind_spec(const VehicleSettings& settings) {
+  return {{settings.wind_east_m_s, settings.wind_north_m_s, 0.0}, settings.gust_wind_m_s};
+}
+
 double start_yaw(const World& world) {
   return yaw_of(world.goal_W - world.start_W);
 }
@@ -44,8 +48,9 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       camera_{world, context.scenario.camera, context.scenario.seed},
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
       clearance_{world},
-      wind_W_{context.scenario.vehicle.wind_east_m_s, context.scenario.vehicle.wind_north_m_s, 0.0},
-      people_{world.people} {
+      movers_{world.movers},
+      people_{world.people},
+      wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
   log_.min_clearance_m = clearance_limit_m;
 }
 
@@ -79,15 +84,17 @@ void ClosedLoop::physics_step() {
   const double dt_s = context_.scenario.vehicle.physics_step_s;
   const RotorSpeeds command =
       controller_.update(vehicle_.state(), vehicle_.mass_kg(), queue_.now(), dt_s);
-  vehicle_.step(dt_s, command, wind_W_);
+  vehicle_.step(dt_s, command, wind_.velocity_W());
 }
 
 void ClosedLoop::energy_step() {
   const double dt_s = to_seconds(Duration{energy_period});
   const VehicleState& state = vehicle_.state();
+  // As often as power: the shortest gusts are 3 m long, .2 s at 15 m/s.
+  wind_.advance(dt_s, state.X_WB.translation().z() - context_.brief.ground_z_m, state.v_WB);
   log_.rotor_w = context_.scenario.vehicle.rotor_power == "thrust"
                      ? thrust_power_w(vehicle_, context_.scenario.vehicle.drive_efficiency)
-                     : regression_.update(state, vehicle_.payload_kg(), wind_W_, dt_s);
+                     : regression_.update(state, vehicle_.payload_kg(), wind_.velocity_W(), dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
@@ -109,15 +116,15 @@ void ClosedLoop::check_step() {
   const bool near_ground = controller_.mode() == FlightMode::take_off ||
                            controller_.mode() == FlightMode::land ||
                            controller_.mode() == FlightMode::idle;
-  const Vec3 p_WB = vehicle_.state().X_WB.translation();
-  const double solids_m =
-      clearance_.distance_m(p_WB, context_.airframe.body(), clearance_limit_m, near_ground);
-  const double clearance_m =
-      distance_to_people_m(people_, now, p_WB, context_.airframe.body(), solids_m);
+  const Vec3& p_WB = vehicle_.state().X_WB.translation();
+  const Cylinder body = context_.airframe.body();
+  const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
+  const double moving_m = clearance_m(movers_, now, p_WB, body, still_m);
+  const double distance_m = distance_to_people_m(people_, now, p_WB, body, moving_m);
   if (is_airborne()) {
-    log_.min_clearance_m = std::min(log_.min_clearance_m, clearance_m);
+    log_.min_clearance_m = std::min(log_.min_clearance_m, distance_m);
   }
-  if (clearance_m <= 0.0) {
+  if (distance_m <= 0.0) {
     context_.finish(now, MissionStatus::failed, MissionFailure::collision);
   }
   if (battery_.is_empty()) {

@@ -11,6 +11,7 @@
 #include "flyball/sim/gps.h"
 #include "flyball/sim/rotor_power.h"
 #include "flyball/sim/vehicle.h"
+#include "flyball/sim/wind.h"
 
 #include "mission_context.h"
 #include <memory>
@@ -68,14 +69,15 @@ class ClosedLoop {
   DepthCamera camera_;
   Gps gps_;
   Clearance clearance_;
-  Vec3 wind_W_;
+  std::vector<Mover> movers_;
+  std::vector<Person> people_;
+  Wind wind_;
   FlightLog log_{};
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};
   std::uint64_t frame_count_{};
   Gimbal gimbal_{};
   std::uint64_t colour_count_{};
-  const std::vector<Person> people_;  ///< Of the true world.
 };
 
 }  // namespace flyball

@@ -53,10 +53,14 @@ struct RoomsScene {
 [[nodiscard]] DeliveryScene scene_a();
 /// The rooms of the same building as MAVBench's 3-D mapping sees them: same camera, same map.
 [[nodiscard]] RoomsScene scene_b();
+/// MAVBench's scanning: 100 x 100 m in five lanes.
+[[nodiscard]] Scenario paper_survey();
 
 /// @error `not_found`, `invalid_input` (the scenario), `failed` (a kernel, or no way to the goal).
 [[nodiscard]] Result<DeliveryLoads> record(const DeliveryScene& scene);
 /// Perception only. Places that furniture takes are left out.
 [[nodiscard]] Result<KernelLoads> record(const RoomsScene& scene);
+/// The plan of a scenario's survey, which is asked for once in a mission.
+[[nodiscard]] Result<KernelLoads> record(const Scenario& survey);
 
 }  // namespace flyball

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "governor_loop.h"
 
+#include "gap_scan.h"
 #include <algorithm>
 #include <cstdio>
 
@@ -41,7 +42,10 @@ void GovernorLoop::tick(MissionTime now) {
     observe_surroundings();
     record();
   }
+  const HostTime asked = HostTime::clock::now();
   const Decision decision = governor_.decide(seen_);
+  decision_host_us_.push_back(
+      std::chrono::duration<double, std::micro>(HostTime::clock::now() - asked).count());
   apply(now, decision);
   ++decisions_;
 }
@@ -54,6 +58,9 @@ void GovernorLoop::record() {
        {"obstacle_density", seen_.obstacle_density},
        {"density_ahead", seen_.density_ahead},
        {"nearest_obstacle_m", seen_.nearest_obstacle_m},
+       {"narrowest_gap_m", seen_.narrowest_gap_m},
+       {"gap_distance_m", seen_.gap_distance_m},
+       {"mean_gap_m", seen_.mean_gap_m},
        {"distance_to_goal_m", seen_.distance_to_goal_m},
        {"latency_s", to_seconds(seen_.latency)},
        {"latency_bound_s", to_seconds(seen_.latency_bound)},
@@ -75,6 +82,7 @@ void GovernorLoop::observe_surroundings() {
   const Vec3 p_W = follower.position_W();
   seen_.speed_m_s = follower.speed_m_s();
   seen_.speed_limit_m_s = speed_limit_ahead();
+  seen_.max_deceleration_m_s2 = context_.scenario.mission.max_acceleration_m_s2;
   seen_.known_free_m = follower.known_free_m();
   seen_.tracking_error_m = navigator_->tracking_error().size_m;
   seen_.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
@@ -84,6 +92,7 @@ void GovernorLoop::observe_surroundings() {
   seen_.obstacle_density =
       context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m);
   seen_.density_ahead = density_ahead();
+  observe_gaps();
   seen_.nearest_obstacle_m =
       context_.map().nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
 }
@@ -110,6 +119,17 @@ double GovernorLoop::density_ahead() const {
     }
   }
   return most;
+}
+
+void GovernorLoop::observe_gaps() {
+  GapScan scan;
+  scan.half_band_m = density_half_band_m;
+  scan.bounds_W = context_.brief.bounds_W;
+  const GapsAhead gaps =
+      gaps_ahead(context_.map(), navigator_->follower().position_W(), context_.goal_now_W, scan);
+  seen_.narrowest_gap_m = gaps.narrowest_m;
+  seen_.gap_distance_m = gaps.narrowest_at_m;
+  seen_.mean_gap_m = gaps.mean_m;
 }
 
 void GovernorLoop::observe_computer(MissionTime now) {

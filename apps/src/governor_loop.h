@@ -31,6 +31,8 @@ class GovernorLoop {
     ++all_misses_;
   }
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
+  /// What each decision took on the host; nothing in the mission depends on it.
+  [[nodiscard]] const std::vector<double>& decision_host_us() const { return decision_host_us_; }
   [[nodiscard]] std::uint64_t knob_changes() const { return knob_changes_; }
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
   [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
@@ -39,6 +41,7 @@ class GovernorLoop {
   void observe_surroundings();
   [[nodiscard]] double speed_limit_ahead() const;
   [[nodiscard]] double density_ahead() const;
+  void observe_gaps();
   void observe_computer(MissionTime now);
   void record();
   void apply(MissionTime now, const Decision& decision);
@@ -59,6 +62,7 @@ class GovernorLoop {
   std::uint64_t all_misses_{};
   std::uint64_t decisions_{};
   std::uint64_t knob_changes_{};
+  std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };

@@ -21,7 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W, world.zones, world.start_W, world.goal_W, world.cruise_height_m};
+  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -36,7 +37,7 @@ struct Flight {
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
-    context.people_truth = setup.world.people;
+    context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, *setup.platform, queue,
@@ -117,15 +118,30 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.latency_p50_s = quantile(counters.latency_s, 0.5);
   summary.latency_p95_s = quantile(counters.latency_s, 0.95);
   summary.latency_max_s = quantile(counters.latency_s, 1.0);
+  summary.maps = counters.budget_use.size();
+  summary.bound_overruns = counters.bound_overruns;
+  summary.budget_use_p50 = quantile(counters.budget_use, 0.5);
+  summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
+  summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario) {
+Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
+  }
+  return workload;
+}
+
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
+  auto workload = named_workload(scenario);
+  if (workload) {
+    if (const Status possible = (*workload)->check(scenario, brief_of(world)); !possible) {
+      return possible.error();
+    }
   }
   return workload;
 }
@@ -147,7 +163,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = named_workload(scenario);  // Drawn even for a world that it cannot fly in.
   if (!workload) {
     return workload.error();
   }
@@ -162,7 +178,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario);
+  auto workload = make_workload(scenario, setup->world);
   if (!workload) {
     return workload.error();
   }

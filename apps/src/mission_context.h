@@ -7,7 +7,9 @@
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
+#include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/detector.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -41,6 +43,9 @@ struct MissionBrief {
   Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
   Vec3 goal_W{Vec3::Zero()};
   double cruise_height_m{};
+  double ground_z_m{};
+  std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
+  Aabb volume_W{};                       ///< To be explored, if anything is.
 };
 
 struct FlightCommand {
@@ -78,6 +83,8 @@ struct MissionKernels {
   std::unique_ptr<Detector> detector;         ///< These three only where the workload
   std::unique_ptr<Tracker> buffered_tracker;  ///< looks for people.
   std::unique_ptr<Tracker> real_time_tracker;
+  std::unique_ptr<CoveragePlanner> coverage;
+  std::unique_ptr<Explorer> explorer;
 };
 
 /// What is on board.
@@ -101,7 +108,8 @@ struct MissionCounters {
   int replans{};
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
-  std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
+  std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
+  std::vector<double> latency_s{};   ///< Sensor to command, one per map revision that was used.
 };
 
 class MissionContext {
@@ -131,15 +139,18 @@ class MissionContext {
   const Platform& platform;
   const MissionBrief brief;
   const Airframe airframe;
-  const TrackingTube tube{};
+  TrackingTube tube{};  ///< A workload may widen it before the flight.
+  /// False: the graph has no map. Then space is free where the scenario declares it clear and
+  /// nowhere else, and that is believed to any distance.
+  bool maps_obstacles{true};
   KnobSettings knobs;
   MissionKernels kernels;
   std::unique_ptr<ColourCamera> colour_camera;
   Recorder& recorder;
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
+  const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
-  std::vector<Person> people_truth{};  ///< For error statistics and verdicts only.
 
  private:
   std::optional<MissionStatus> status_{};

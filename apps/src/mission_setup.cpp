@@ -68,6 +68,8 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   make(kernels.smoother, "smoother", names.smoother, missing);
   make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
   make(kernels.localizer, "localizer", names.localizer, missing);
+  make(kernels.coverage, "coverage planner", names.coverage, missing);
+  make(kernels.explorer, "explorer", names.explorer, missing);
   if (!missing.empty()) {
     return joined(missing);
   }

@@ -146,7 +146,7 @@ void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& co
 
 void add_follow(Graph& graph,
                 const VehicleTopics& vehicle,
-                const PerceptionTopics& perception,
+                Topic<PoseEstimate> pose_topic,
                 const NavigationTopics& topics,
                 Navigator& navigator) {
   NodeSpec spec;
@@ -156,12 +156,12 @@ void add_follow(Graph& graph,
   spec.priority = 40;
   spec.deadline = tick_period;
   spec.on_miss = OnMiss::brake;
-  spec.reads = {perception.pose.index, topics.path.index};
+  spec.reads = {pose_topic.index, topics.path.index};
   spec.writes = {vehicle.setpoint.index, topics.plan.request.index};
   graph.node(std::move(spec), [=, &navigator](JobContext& job) {
     Work work;
     work.add("ticks", 1.0);
-    const auto pose = job.latest(perception.pose);
+    const auto pose = job.latest(pose_topic);
     if (const auto planned = job.take(topics.path)) {
       navigator.path_planned(job.now(), *planned);
     }
@@ -175,20 +175,36 @@ void add_follow(Graph& graph,
   });
 }
 
+NavigationTopics add_topics(Graph& graph) {
+  NavigationTopics topics;
+  topics.plan = graph.service<PlanQuery, PlanAnswer>("plan");
+  topics.path = graph.topic<PlannedPath>("path");
+  return topics;
+}
+
 }  // namespace
+
+NavigationTopics add_path_following(Graph& graph,
+                                    const VehicleTopics& vehicle,
+                                    Topic<PoseEstimate> pose,
+                                    MissionContext& context,
+                                    Navigator& navigator) {
+  const NavigationTopics topics = add_topics(graph);
+  add_smooth(graph, topics, context);
+  add_follow(graph, vehicle, pose, topics, navigator);
+  return topics;
+}
 
 NavigationTopics add_navigation(Graph& graph,
                                 const VehicleTopics& vehicle,
                                 const PerceptionTopics& perception,
                                 MissionContext& context,
                                 Navigator& navigator) {
-  NavigationTopics topics;
-  topics.plan = graph.service<PlanQuery, PlanAnswer>("plan");
-  topics.path = graph.topic<PlannedPath>("path");
+  const NavigationTopics topics = add_topics(graph);
   add_check(graph, perception, context, navigator);
   add_plan(graph, topics, context);
   add_smooth(graph, topics, context);
-  add_follow(graph, vehicle, perception, topics, navigator);
+  add_follow(graph, vehicle, perception.pose, topics, navigator);
   return topics;
 }
 

@@ -14,6 +14,15 @@ struct NavigationTopics {
   Topic<PlannedPath> path;
 };
 
+/// Adds the nodes `smooth` and `follow`, and the service `plan` between them, which has no node
+/// yet.
+/// @param navigator  Outlives the graph's jobs.
+NavigationTopics add_path_following(Graph& graph,
+                                    const VehicleTopics& vehicle,
+                                    Topic<PoseEstimate> pose,
+                                    MissionContext& context,
+                                    Navigator& navigator);
+
 /// Adds the nodes `check`, `plan`, `smooth` and `follow`.
 /// @param navigator  Outlives the graph's jobs.
 NavigationTopics add_navigation(Graph& graph,

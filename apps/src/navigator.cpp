@@ -2,6 +2,7 @@
 #include "navigator.h"
 
 #include "flight_recorder.h"
+#include "sub_goal.h"
 #include <algorithm>
 #include <cmath>
 
@@ -72,6 +73,7 @@ void Navigator::map_published(MissionTime now,
   if (newest_latency_ > latency.bound()) {
     ++context_.counters.bound_overruns;
   }
+  context_.counters.budget_use.push_back(ratio(newest_latency_, latency.bound()));
   latency.add(newest_latency_);
   if (last_published_ != MissionTime{}) {
     interval.add(now - last_published_);
@@ -108,7 +110,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!goal_W_ || pending_id_ != 0 || follower_.is_looking_around()) {
     return std::nullopt;
   }
-  if (follower_.is_at_end() && !has_arrived()) {
+  if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
     want_plan(now, "path ends short of the goal");
   }
   if (follower_.stalled(now) > stall_patience) {
@@ -119,16 +121,29 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   }
   PlanQuery query;
   query.id = pending_id_ = next_id_++;
-  query.goal_W = *goal_W_;
   query.start_W = follower_.position_W();
   if (follower_.has_path()) {
     start_from_path(query);
   }
+  query.goal_W =
+      sub_goal_W(context_, query.start_W, *goal_W_, context_.counters.planner_failures_in_row);
   asked_at_ = now;
   query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0;
   wants_plan_ = false;
   ++context_.counters.replans;
   return query;
+}
+
+// Early enough that the vehicle flies on, late enough that the next leg, half a horizon at least,
+// is longer than what is left.
+bool Navigator::is_leg_ending() const {
+  const double horizon_m = context_.scenario.planner.horizon_m;
+  if (horizon_m <= 0.0 || !follower_.has_path()) {
+    return false;
+  }
+  const Path& path = follower_.path();
+  return path.length_m() - follower_.s_m() < 0.4 * horizon_m &&
+         (path.at(path.length_m()).p_W - *goal_W_).norm() > arrival_m;
 }
 
 // At first the new path leaves the old one ahead of the moving vehicle. If it then bends too
@@ -172,7 +187,11 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     planning_s_.pop_front();
   }
   const Path path{planned.trajectory};
-  const double total_m = follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m();
+  // A leg's end is not the goal.
+  const bool has_legs = context_.scenario.planner.horizon_m > 0.0;
+  const double rest_m = has_legs ? (path.at(path.length_m()).p_W - *goal_W_).norm() : 0.0;
+  const double total_m =
+      follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m() + rest_m;
   expected_m_ = expected_m_.value_or(total_m);
   if (is_worth_a_look(total_m, path.length_m())) {
     doubt(now);

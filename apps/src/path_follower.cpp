@@ -94,7 +94,8 @@ void PathFollower::refresh_known_free(const OccupancyView& map) {
   }
   // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
   constexpr double step_m = 0.075;
-  const double horizon_m = context_.knobs.value("map.range_m") + 2.0;
+  const double horizon_m =
+      context_.maps_obstacles ? context_.knobs.value("map.range_m") + 2.0 : path_.length_m();
   const auto speeds = tier_speeds_m_s();
   for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
     const Cylinder body = context_.body_at(speeds[tier]);
@@ -110,15 +111,21 @@ double PathFollower::distance_since(MissionTime captured) const {
 }
 
 // At most what the newest frame itself can have seen: the map remembers free space beyond its
-// range, but something may have come there since.
-double PathFollower::cruise_speed(std::size_t tier) const {
-  const double speed_m_s = tier_speeds_m_s()[tier];
+// range, but something may have come there since. Without a map, what is declared clear stays so.
+double PathFollower::room_m(std::size_t tier) const {
+  const double from_here_m = free_until_m_[tier] - s_m_;
+  if (!context_.maps_obstacles) {
+    return from_here_m;
+  }
   const double in_sight_m =
-      context_.knobs.value("map.range_m") - context_.body_at(speed_m_s).radius_m;
-  const double from_capture_m = free_until_m_[tier] - s_m_ + distance_since(newest_capture_);
+      context_.knobs.value("map.range_m") - context_.body_at(tier_speeds_m_s()[tier]).radius_m;
+  return std::min(from_here_m + distance_since(newest_capture_), in_sight_m);
+}
+
+double PathFollower::cruise_speed(std::size_t tier) const {
   const double delta_s = to_seconds(latency_bound_ + guard_.reaction_time());
-  return std::min(speed_m_s, safe_speed(guard_.settings().max_deceleration_m_s2, delta_s,
-                                        std::min(from_capture_m, in_sight_m)));
+  return std::min(tier_speeds_m_s()[tier],
+                  safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, room_m(tier)));
 }
 
 std::array<double, 3> PathFollower::tier_speeds_m_s() const {
@@ -190,6 +197,9 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
     turn(dt_s, now);
   }
+  if (face_yaw_rad_ && stands_still()) {
+    turn_towards(*face_yaw_rad_, dt_s);
+  }
   odometer_.emplace_back(now, travelled_m_);
   while (odometer_.front().first + odometer_memory < now) {
     odometer_.pop_front();
@@ -215,11 +225,15 @@ std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   return yaw_of(direction) + 0.8 * std::sin(stalled_s);
 }
 
+void PathFollower::turn_towards(double yaw_rad, double dt_s) {
+  const double error = wrap_angle(yaw_rad - yaw_rad_);
+  yaw_rad_ =
+      wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+}
+
 void PathFollower::turn(double dt_s, MissionTime now) {
   if (const auto wanted_rad = wanted_yaw_rad(now)) {
-    const double error = wrap_angle(*wanted_rad - yaw_rad_);
-    yaw_rad_ =
-        wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+    turn_towards(*wanted_rad, dt_s);
   }
   const bool stands = speed_m_s_ <= 0.02;
   if (!stands || is_at_end()) {

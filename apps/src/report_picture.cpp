@@ -166,6 +166,23 @@ Json value_of(const std::vector<Field>& fields, std::string_view name) {
   return nullptr;
 }
 
+/// A figure that a mission judges itself by, as it stood at each time; null before there is one.
+Json judged_json(const MemoryRecorder& trace,
+                 std::string_view channel,
+                 std::string_view field,
+                 const Json& times_s) {
+  Json values = Json::array();
+  Json newest = nullptr;
+  auto row = trace.rows().begin();
+  for (const Json& time : times_s) {
+    for (; row != trace.rows().end() && to_seconds(row->at) <= time.get<double>() + 1e-3; ++row) {
+      newest = row->channel == channel ? value_of(row->fields, field) : newest;
+    }
+    values.push_back(newest);
+  }
+  return values;
+}
+
 Json series_json(const MemoryRecorder& trace) {
   std::vector<const MemoryRecorder::Row*> states;
   for (const MemoryRecorder::Row& row : trace.rows()) {
@@ -186,19 +203,43 @@ Json series_json(const MemoryRecorder& trace) {
       json[series.name].push_back(value_of(states[i]->fields, series.field));
     }
   }
+  json["coverage"] = judged_json(trace, "coverage", "coverage_percent", json["t"]);
   return json;
+}
+
+/// The numbers of each row of a channel, in the order of its fields, and then its time.
+Json rows_json(const MemoryRecorder& trace, std::string_view channel) {
+  Json rows = Json::array();
+  for (const MemoryRecorder::Row& row : trace.rows()) {
+    if (row.channel != channel) {
+      continue;
+    }
+    Json numbers = Json::array();
+    for (const Field& field : row.fields) {
+      numbers.push_back(value_of(row.fields, field.name));
+    }
+    numbers.push_back(rounded(to_seconds(row.at)));
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
 }
 
 }  // namespace
 
 RunPicture picture_of(const MissionRecord& record) {
   const Summary& summary = record.summary;
-  const Json json{{"policy", summary.policy},
-                  {"seed", summary.seed},
-                  {"status", to_string(summary.status)},
-                  {"failure", to_string(summary.failure)},
-                  {"world", world_json(record.world)},
-                  {"series", series_json(*record.trace)}};
+  Json json{{"policy", summary.policy},
+            {"seed", summary.seed},
+            {"status", to_string(summary.status)},
+            {"failure", to_string(summary.failure)},
+            {"world", world_json(record.world)},
+            {"series", series_json(*record.trace)}};
+  // What a survey photographed: rectangles to be covered, and footprints of pictures.
+  for (const char* const channel : {"area", "footprint"}) {
+    if (Json rows = rows_json(*record.trace, channel); !rows.empty()) {
+      json[channel] = std::move(rows);
+    }
+  }
   return {summary, json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 

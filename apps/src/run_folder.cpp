@@ -7,10 +7,13 @@
 
 #include "frame_files.h"
 #include "trace_file.h"
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace flyball {
 namespace {
@@ -42,7 +45,7 @@ std::string data_fingerprint(const Scenario& scenario) {
 
 std::string summary_table(const Summary& summary) {
   const bool failed = summary.status == MissionStatus::failed;
-  const std::pair<const char*, std::string> cells[] = {
+  std::vector<std::pair<std::string, std::string>> cells{
       {"policy", html_text(summary.policy)},
       {"seed", std::to_string(summary.seed)},
       {"end", failed ? to_string(summary.failure) : to_string(summary.status)},
@@ -52,10 +55,15 @@ std::string summary_table(const Summary& summary) {
       {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
       {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
       {"clearance m", rounded(summary.min_clearance_m, 2)}};
+  for (const auto& [name, value] : summary.quality) {
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    cells.emplace_back(html_text(title), rounded(value, 1));
+  }
   std::string titles;
   std::string values;
   for (const auto& [title, value] : cells) {
-    titles += std::string{"<th>"} + title + "</th>";
+    titles += std::string{"<th>"}.append(title).append("</th>");
     values += "<td>" + value + "</td>";
   }
   return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";

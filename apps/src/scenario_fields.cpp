@@ -30,7 +30,7 @@ Fields mission_fields() {
        "longer ends the mission as failed"},
       {"mission.plan_time_limit_s", &at<in, &M::plan_time_limit_s>, 1, 86400,
        "standing without a path for longer ends it too"},
-      {"mission.max_speed_m_s", &at<in, &M::max_speed_m_s>, 0.5, 15,
+      {"mission.max_speed_m_s", &at<in, &M::max_speed_m_s>, 0.5, 20,
        "upper limit; the safe speed below it is computed"},
       {"mission.max_acceleration_m_s2", &at<in, &M::max_acceleration_m_s2>, 0.5, 20,
        "the braking that the speed limit counts on"},
@@ -59,6 +59,8 @@ Fields vehicle_fields() {
       {"vehicle.wind_east_m_s", &at<in, &V::wind_east_m_s>, -30, 30, "mean wind towards the east"},
       {"vehicle.wind_north_m_s", &at<in, &V::wind_north_m_s>, -30, 30,
        "mean wind towards the north"},
+      {"vehicle.gust_wind_m_s", &at<in, &V::gust_wind_m_s>, 0, 30,
+       "gusts are those of this wind at 6 m: 7.7 light, 15.4 moderate, 23.2 severe"},
   };
 }
 
@@ -149,10 +151,43 @@ Fields kernel_fields() {
       {"kernels.smoother", &at<in, &K::smoother>, 0, 0, "way-points to a trajectory"},
       {"kernels.path_tracker", &at<in, &K::path_tracker>, 0, 0, "trajectory to set-points"},
       {"kernels.localizer", &at<in, &K::localizer>, 0, 0, "where the vehicle believes it is"},
+      {"kernels.coverage", &at<in, &K::coverage>, 0, 0, "an area to a path over all of it"},
+      {"kernels.explorer", &at<in, &K::explorer>, 0, 0, "where to look next"},
       {"kernels.slam_load", &at<in, &K::slam_load>, 0, 0,
        "charge the SLAM time per frame beside a localizer that needs none"},
       {"kernels.detector", &at<in, &K::detector>, 0, 0, "people in colour images"},
       {"kernels.tracker", &at<in, &K::tracker>, 0, 0, "where what was detected goes"},
+  };
+}
+
+Fields scan_fields() {
+  constexpr auto in = &Scenario::scan;
+  using S = ScanSettings;
+  return {
+      {"scan.length_m", &at<in, &S::length_m>, 5, 5000, "of the surveyed area, along the lanes"},
+      {"scan.width_m", &at<in, &S::width_m>, 5, 5000, "across the lanes"},
+      {"scan.lanes", &at<in, &S::lanes>, 1, 1000, "flown to and fro"},
+      {"scan.height_m", &at<in, &S::height_m>, 2, 120, "of flight, above the ground"},
+      {"scan.picture_rate_hz", &at<in, &S::picture_rate_hz>, 0.1, 60,
+       "of the camera that looks down"},
+      {"scan.coverage_percent", &at<in, &S::coverage_percent>, 0, 100,
+       "less of the area in pictures is a failure"},
+  };
+}
+
+Fields explore_fields() {
+  constexpr auto in = &Scenario::explore;
+  using E = ExploreSettings;
+  return {
+      {"explore.coverage_percent", &at<in, &E::coverage_percent>, 1, 100,
+       "of the volume that can be seen: then the exploration is done"},
+      {"explore.gain_range_m", &at<in, &E::gain_range_m>, 1, 25, "how far a view counts"},
+      {"explore.extension_m", &at<in, &E::extension_m>, 0.5, 25, "longest edge of the tree"},
+      {"explore.iterations", &at<in, &E::iterations>, 1, 10000, "nodes of the tree"},
+      {"explore.most_iterations", &at<in, &E::most_iterations>, 1, 10000,
+       "nodes while none of them shows anything new"},
+      {"explore.discount_1_m", &at<in, &E::discount_1_m>, 0, 10,
+       "how fast a gain fades with the way to it"},
   };
 }
 
@@ -166,6 +201,8 @@ Fields computer_fields() {
        "frames integrated a second, at most"},
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one plan may take"},
+      {"planner.horizon_m", &at<&Scenario::planner, &PlannerSettings::horizon_m>, 0, 10000,
+       "a farther goal is approached through places on the way; 0: planned to at once"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
        "the companion computer"},
       {"platform.cores", &at<&Scenario::platform, &PlatformSettings::cores>, 1, 256,
@@ -202,6 +239,8 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, kernel_fields());
   append(all, detector_fields());
   append(all, photography_fields());
+  append(all, scan_fields());
+  append(all, explore_fields());
   append(all, computer_fields());
   return all;
 }

@@ -95,6 +95,11 @@ void read_computing(const Json& json, Summary& summary) {
   summary.latency_p50_s = number(json.at("latency_s").at("p50"));
   summary.latency_p95_s = number(json.at("latency_s").at("p95"));
   summary.latency_max_s = number(json.at("latency_s").at("max"));
+  summary.maps = json.at("maps").get<std::uint64_t>();
+  summary.bound_overruns = json.at("bound_overruns").get<std::uint64_t>();
+  summary.budget_use_p50 = number(json.at("budget_use_p50"));
+  summary.decision_host_us_p50 = number(json.at("decision_host_us").at("p50"));
+  summary.decision_host_us_p99 = number(json.at("decision_host_us").at("p99"));
   read_kernels(json.at("kernels"), summary);
   for (const auto& [name, value] : json.at("quality").items()) {
     summary.quality[name] = number(value);
@@ -168,6 +173,11 @@ std::string to_json(const Summary& summary, int indent) {
        {{"p50", summary.latency_p50_s},
         {"p95", summary.latency_p95_s},
         {"max", summary.latency_max_s}}},
+      {"maps", summary.maps},
+      {"bound_overruns", summary.bound_overruns},
+      {"budget_use_p50", summary.budget_use_p50},
+      {"decision_host_us",
+       {{"p50", summary.decision_host_us_p50}, {"p99", summary.decision_host_us_p99}}},
       {"kernels", kernels_json(summary)},
       {"quality", Json(summary.quality)},
       {"host_s", summary.host_s},

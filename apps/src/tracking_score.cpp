@@ -31,7 +31,7 @@ void TrackingScore::count(MissionTime now, const Target& target) {
   double best_overlap = 0.0;
   if (target.box) {
     ++frames_with_box_;
-    for (const Person& person : context_.people_truth) {
+    for (const Person& person : context_.truth->people) {
       const auto truth =
           box_of(person, target.frame.captured, target.frame.X_WC_truth, target.frame.camera);
       best_overlap = std::max(best_overlap, truth ? overlap(*truth, *target.box) : 0.0);

@@ -16,7 +16,10 @@ const charts = [
   { title: 'Rotor power', unit: 'W', lines: [{ key: 'rotor' }], digits: 0 },
   { title: 'Computer power', unit: 'W', lines: [{ key: 'computer' }], digits: 1 },
   { title: 'Battery', unit: '%', lines: [{ key: 'battery' }], digits: 1, top: 100 },
-];
+  { title: 'Coverage', unit: '%', lines: [{ key: 'coverage' }], digits: 1, top: 100 },
+].filter(chart => data.runs.some(run => chart.lines.some(line => (run.series[line.key] || []).some(v => v !== null))));
+for (const chart of charts) for (const run of data.runs) for (const line of chart.lines)
+  run.series[line.key] = run.series[line.key] || [];
 
 /* A canvas at the screen's own resolution; drawing is in CSS pixels. */
 function fit(canvas, height) {
@@ -144,6 +147,21 @@ function label(pen, x, y, text, ink) {
   x = Math.max(pen.measureText(text).width / 2 + 2, Math.min(map.clientWidth - pen.measureText(text).width / 2 - 2, x));
   pen.strokeText(text, x, y); pen.fillStyle = ink; pen.fillText(text, x, y);
 }
+/* Pictures of the ground: darker where more of them overlap. Until the time under the pointer, if any. */
+function drawCovered(pen, run, X, Y) {
+  const far = !run.footprint ? 0 : state.time === null ? run.footprint.length
+    : run.footprint.filter(picture => picture[8] <= state.time).length;
+  pen.fillStyle = colour(run.policy); pen.globalAlpha = .07;
+  for (const corners of (run.footprint || []).slice(0, far)) {
+    pen.beginPath();
+    for (let i = 0; i < 8; i += 2) i ? pen.lineTo(X(corners[i]), Y(corners[i + 1])) : pen.moveTo(X(corners[0]), Y(corners[1]));
+    pen.fill();
+  }
+  pen.globalAlpha = 1;
+  pen.strokeStyle = '#22303c'; pen.lineWidth = 1; pen.setLineDash([5, 4]);
+  for (const [x0, y0, x1, y1] of run.area || []) pen.strokeRect(X(x0), Y(y1), (x1 - x0) * view.scale, (y1 - y0) * view.scale);
+  pen.setLineDash([]);
+}
 function drawPath(pen, run, X, Y) {
   const { x, y, t } = run.series;
   pen.strokeStyle = colour(run.policy); pen.lineWidth = 1.8; pen.lineJoin = 'round';
@@ -172,9 +190,10 @@ function drawMap() {
   pen.fillRect(X(world.min[0]), Y(world.max[1]), X(world.max[0]) - X(world.min[0]), Y(world.min[1]) - Y(world.max[1]));
   pen.strokeRect(X(world.min[0]), Y(world.max[1]), X(world.max[0]) - X(world.min[0]), Y(world.min[1]) - Y(world.max[1]));
   drawSolid(pen, world, X, Y);
+  for (const run of runs) drawCovered(pen, run, X, Y);
   for (const run of runs) drawPath(pen, run, X, Y);
   drawPlace(pen, X(world.start[0]), Y(world.start[1]), 'start');
-  drawPlace(pen, X(world.goal[0]), Y(world.goal[1]), 'goal');
+  if (String(world.goal) !== String(world.start)) drawPlace(pen, X(world.goal[0]), Y(world.goal[1]), 'goal');
   runs.filter(failed).forEach(run => {
     const last = run.series.x.length - 1;
     if (last < 0) return;

@@ -26,6 +26,7 @@ class AerialPhotography final : public Workload {
 
   void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
     context_ = &context;
+    context.maps_obstacles = false;
     vehicle_ = vehicle;
     const PhotographySettings& wanted = context.scenario.photography;
     FollowSettings follow;

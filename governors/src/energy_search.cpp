@@ -16,13 +16,8 @@ constexpr double smoothing = 0.1;         // of the load beside the map: some se
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own limit of speed settings are equal but for milliwatts: there the sooner one.
-bool is_better(const EnergyEstimate& one, const EnergyEstimate& other) {
-  constexpr double equal = 1e-3;
-  if (std::abs(one.joules_per_m - other.joules_per_m) > equal * one.joules_per_m) {
-    return one.joules_per_m < other.joules_per_m;
-  }
-  return one.response_s < other.response_s;
-}
+// The limit holds against the best of all: from pair to pair small losses would add up.
+constexpr double equal = 1e-3;
 
 bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
@@ -31,12 +26,12 @@ bool is_positive(double x) {
 }  // namespace
 
 Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
-                                        const std::vector<MapLevel>& levels,
+                                        const std::vector<SearchLevel>& levels,
                                         const std::vector<double>& ranges_m,
                                         const KnobSettings& knobs) {
   std::vector<double> resolutions_m;
   resolutions_m.reserve(levels.size());
-  for (const MapLevel& level : levels) {
+  for (const SearchLevel& level : levels) {
     resolutions_m.push_back(level.resolution_m);
   }
   const KnobSpec* clock = knobs.spec("cpu.frequency_hz");
@@ -62,14 +57,15 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
              search.computer_.power(Hertz{setting.clock_hz}, search.busy_cores(setting, latency_s))
                  .value()};
   });
+  search.estimates_.resize(search.points_.size());
   return search;
 }
 
 EnergySearch::EnergySearch(const EnergySearchSettings& settings,
-                           const std::vector<MapLevel>& levels,
+                           const std::vector<SearchLevel>& levels,
                            OperatingPoints points)
     : settings_{settings}, points_{std::move(points)}, bound_{levels.size(), 1, settings.bound} {
-  for (const MapLevel& level : levels) {
+  for (const SearchLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;
     prior.slope_resolution = 0.0;
@@ -143,7 +139,8 @@ void EnergySearch::learn_latency(const Observation& seen) {
 }
 
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
-  const SpeedLimit limit{settings_.deceleration_m_s2};
+  const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
+                                                        : settings_.deceleration_m_s2};
   const double latency_s = predicted_s(setting);
   const double bound_s = latency_s * bound_.tracker(level(setting.resolution_m)).factor();
   EnergyEstimate best;
@@ -165,21 +162,44 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   return best;
 }
 
-EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
-  const double top_hz = points_.axes()[clock_axis].values.back();
-  EnergyEstimate best;
-  best.joules_per_m = std::numeric_limits<double>::infinity();
+bool EnergySearch::is_allowed(const MapSetting& candidate,
+                              const Surroundings& around,
+                              double least_range_m) const {
   // Where nothing is fine enough, the finest is the best there is.
   const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
+  return candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
+         !(candidate.range_m < least_range_m) &&
+         (!around.needs_top_clock ||
+          candidate.clock_hz == points_.axes()[clock_axis].values.back());
+}
+
+EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) {
+  double least_j = std::numeric_limits<double>::infinity();
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const MapSetting candidate = setting(point);
-    const bool may = candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
-                     (!around.needs_top_clock || candidate.clock_hz == top_hz);
-    if (may) {
-      const EnergyEstimate estimated = estimate(candidate, around);
-      best = is_better(estimated, best) ? estimated : best;
+    estimates_[point].joules_per_m = std::numeric_limits<double>::infinity();
+    if (is_allowed(candidate, around, least_range_m)) {
+      estimates_[point] = estimate(candidate, around);
+      least_j = std::min(least_j, estimates_[point].joules_per_m);
     }
+  }
+  EnergyEstimate best;
+  best.joules_per_m = std::numeric_limits<double>::infinity();
+  best.response_s = std::numeric_limits<double>::infinity();
+  for (const EnergyEstimate& estimated : estimates_) {
+    if (estimated.joules_per_m <= (1.0 + equal) * least_j && std::isfinite(least_j) &&
+        estimated.response_s < best.response_s) {
+      best = estimated;
+    }
+  }
+  return best;
+}
+
+EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
+  EnergyEstimate best = best_of(around, around.least_range_m);
+  if (!std::isfinite(best.joules_per_m)) {  // No level that is fine enough reaches so far.
+    best = best_of(around, 0.0);
   }
   FLYBALL_ASSERT(std::isfinite(best.joules_per_m), "no setting of %zu is finite", points_.size());
   if (best.setting != in_force_) {

@@ -23,8 +23,8 @@ class Reader {
     for (const auto& [key, node] : file) {
       read_top(key, node);
     }
-    if (preset_.policy.empty() && problems_.empty()) {
-      problems_ = path_ + ": no policy; write policy = \"NAME\" (flyball list policies)";
+    if (problems_.empty()) {
+      problems_ = missing();
     }
     if (!problems_.empty()) {
       return Error{ErrorCode::invalid_input, problems_};
@@ -33,14 +33,37 @@ class Reader {
   }
 
  private:
+  [[nodiscard]] std::string missing() const {
+    const bool both = !preset_.application.empty() && !preset_.clock.empty();
+    const bool one = !preset_.application.empty() || !preset_.clock.empty();
+    if (one && !preset_.policy.empty()) {
+      return path_ + ": either a policy, or an application and a clock";
+    }
+    if (one && !both) {
+      return path_ + ": application and clock go together; write both";
+    }
+    if (both && !preset_.parameters.empty()) {
+      return path_ + ": a combination has no [parameters]; they stand in the presets that it names";
+    }
+    return one || !preset_.policy.empty()
+               ? ""
+               : path_ + ": no policy; write policy = \"NAME\" (flyball list policies)";
+  }
+
   void read_top(const toml::key& key, const toml::node& node) {
     if (key == "policy") {
       read_text(key, node, preset_.policy);
     } else if (key == "description") {
       read_text(key, node, preset_.description);
+    } else if (key == "application") {
+      read_text(key, node, preset_.application);
+    } else if (key == "clock") {
+      read_text(key, node, preset_.clock);
     } else if (key != "parameters") {
       complain(node,
-               quoted(key) + " is no key of a preset; known: policy, description, [parameters]");
+               quoted(key) +
+                   " is no key of a preset; known: policy, description, [parameters], application, "
+                   "clock");
     } else if (const toml::table* parameters = node.as_table()) {
       for (const auto& [name, value] : *parameters) {
         read_parameter(name, value);

@@ -3,14 +3,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // OctoMap's log-odds octree: Hornung et al. 2013, doi:10.1007/s10514-012-9321-0. The trees are
-// those that stock insertion makes; see scan_update.h. One tree per resolution that was used.
+// those that stock insertion makes, byte for byte, and so is the work that is counted; the host is
+// spared: bricks/ray_scan.h walks the rays, bricks/octree_record.h writes the cells. One tree per
+// resolution that was used.
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
+#include "bricks/octree_record.h"
+#include "bricks/ray_scan.h"
 #include "octomap_view.h"
 #include "octree_file.h"
-#include "scan_update.h"
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -20,8 +23,7 @@ namespace {
 using flyball::Error;
 using flyball::ErrorCode;
 
-constexpr double most_cells_per_ray = 500.0;  // bounds the masks of a scan at 375 MB
-constexpr double half_keys = 32768.0;         // OctoMap's keys have 16 bits
+constexpr double half_keys = 32768.0;  // OctoMap's keys have 16 bits
 
 Error invalid(std::string message) {
   return {ErrorCode::invalid_input, std::move(message)};
@@ -44,8 +46,8 @@ flyball::Status check(const flyball::PointCloud& cloud_C,
     return invalid("map.resolution_m " + std::to_string(settings.resolution_m) +
                    " and map.range_m " + std::to_string(settings.range_m) + " must be positive");
   }
-  if (settings.range_m > most_cells_per_ray * settings.resolution_m) {
-    return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 500 cells of " +
+  if (settings.range_m > flyball::RayScan::most_cells_per_ray * settings.resolution_m) {
+    return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 250 cells of " +
                    std::to_string(settings.resolution_m) + " m; shorten it or coarsen the map");
   }
   if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
@@ -73,7 +75,10 @@ constexpr float confirmed_log_odds = 2.2F;  // p = .9: three hits
 /// those cells that were once occupied beyond doubt. The view asks the walls first; obstacles are
 /// static.
 struct Layer {
-  explicit Layer(double resolution_m) : tree{resolution_m}, walls{resolution_m} {
+  explicit Layer(double resolution_m)
+      : rays{resolution_m, flyball::RayScan::Match::stock},
+        tree{resolution_m},
+        walls{resolution_m} {
     tree.setClampingThresMin(0.12);  // both as in MAVBench's code
     tree.setClampingThresMax(0.97);
   }
@@ -98,6 +103,7 @@ struct Layer {
     }
   }
 
+  flyball::RayScan rays;
   octomap::OcTree tree;
   octomap::OcTree walls;
 };
@@ -124,13 +130,13 @@ class OctomapMapper final : public flyball::Mapper {
     try {
       Layer& layer = layer_of(settings.resolution_m);
       take(cloud_C, X_WC, settings.range_m);
-      const auto counts = update_.compute(layer.tree, scan_);
+      masks_ = &layer.rays.compute(scan_);
       pending_ = &layer;
       flyball::Work work;
       work.add("frame", 1.0);
-      work.add("rays", counts.rays);
-      work.add("traversals", counts.traversals);
-      work.add("updates", counts.updates);
+      work.add("rays", masks_->rays);
+      work.add("traversals", masks_->traversals);
+      work.add("updates", masks_->updates);
       return work;
     } catch (const std::exception& e) {
       return Error{ErrorCode::failed, std::string{"octomap: "} + e.what()};
@@ -139,7 +145,7 @@ class OctomapMapper final : public flyball::Mapper {
 
   void commit() override {
     if (pending_ != nullptr) {
-      update_.apply(pending_->tree);
+      record_.write(masks_->bricks, pending_->tree);
       view_.activate(pending_->tree);
       if (pending_->is_wide()) {
         pending_->confirm(scan_.hits_W);
@@ -240,7 +246,8 @@ class OctomapMapper final : public flyball::Mapper {
   std::vector<std::unique_ptr<Layer>> layers_{};
   flyball::OctomapView view_{};
   flyball::Scan scan_{};
-  flyball::ScanUpdate update_{};
+  flyball::OctreeRecord record_{};
+  const flyball::ScanMasks* masks_{};  ///< Of the pending layer.
   Layer* pending_{};
 };
 

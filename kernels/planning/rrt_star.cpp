@@ -7,41 +7,21 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
 
+#include "improving_stop.h"
 #include "ompl_search.h"
 #include "staged_search.h"
-#include <algorithm>
-#include <cmath>
 
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 
 namespace {
 
 constexpr double range_m = 4.0;
-constexpr int least_improvement = 500;  // Iterations after the first path.
-
-/// Stops at the stage's limit, or when the improvement has had its share.
-class Stop {
- public:
-  explicit Stop(int max_iterations) : limit_{max_iterations} {}
-  bool operator()(const ompl::geometric::RRTstar& planner, const flyball::PlanSampler&) {
-    const int done = static_cast<int>(planner.numIterations());
-    if (!improving_ && std::isfinite(planner.bestCost().value())) {
-      improving_ = true;
-      limit_ = std::min(limit_, done + std::max(done, least_improvement));
-    }
-    return done >= limit_;
-  }
-
- private:
-  int limit_;
-  bool improving_{false};
-};
 
 flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::RRTstar;
   return flyball::search_with_ompl<Planner>(
       stage, checker, [](Planner& planner) { planner.setRange(range_m); },
-      Stop{stage.max_iterations},
+      flyball::ImprovingStop{stage.max_iterations},
       [](const Planner& planner, const flyball::PlanSampler&) {
         return static_cast<int>(planner.numIterations());
       });

@@ -15,8 +15,9 @@ namespace {
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Matrix3 = Eigen::Matrix3d;
 
-// A tiny pull to the first guess. Snap falls with the seventh power of the duration: beside a short
-// piece a long one weighs nothing, and what only the long one decides would drown in rounding.
+// A tiny pull to the first guess. Snap falls with the seventh power of the duration (jerk with the
+// fifth): beside a short piece a long one weighs nothing, and what only the long one decides would
+// drown in rounding.
 constexpr double ridge = 1e-6;
 
 /// k! / (k - n)!: the factor that n derivatives bring to t^k.
@@ -46,21 +47,25 @@ const Matrix8& coefficients_from_ends() {
   return inverse;
 }
 
-Matrix8 snap_of_coefficients() {
+Matrix8 form_of_coefficients(int n) {
   Matrix8 form = Matrix8::Zero();
-  for (int i = 4; i < 8; ++i) {
-    for (int k = 4; k < 8; ++k) {
-      form(i, k) = derivative_factor(i, 4) * derivative_factor(k, 4) / (i + k - 7);
+  for (int i = n; i < 8; ++i) {
+    for (int k = n; k < 8; ++k) {
+      form(i, k) = derivative_factor(i, n) * derivative_factor(k, n) / (i + k - 2 * n + 1);
     }
   }
   return form;
 }
 
-/// Squared snap as a quadratic form of [p, v, a, j] at both ends, for unit duration.
-const Matrix8& snap_of_ends() {
-  static const Matrix8 form =
-      coefficients_from_ends().transpose() * snap_of_coefficients() * coefficients_from_ends();
-  return form;
+Matrix8 form_of_ends(int n) {
+  return coefficients_from_ends().transpose() * form_of_coefficients(n) * coefficients_from_ends();
+}
+
+/// The squared n-th derivative as a quadratic form of [p, v, a, j] at both ends, for unit duration.
+const Matrix8& squared_derivative(int n) {
+  static const Matrix8 jerk = form_of_ends(3);
+  static const Matrix8 snap = form_of_ends(4);
+  return n == 3 ? jerk : snap;
 }
 
 Vec3 powers(double duration_s) {
@@ -76,17 +81,19 @@ struct NormalEquations {
   std::vector<Vec3> b;
 };
 
+/// @param n  The derivative that is kept small.
 void add_piece(NormalEquations& equations,
+               int n,
                std::size_t i,
                const std::vector<SnapKnot>& knots,
                double duration_s) {
   FLYBALL_ASSERT(duration_s > 0.0, "duration_s=%g", duration_s);
   const SnapKnot& from = knots[i];
   const SnapKnot& to = knots[i + 1];
-  const Matrix8& q = snap_of_ends();
+  const Matrix8& q = squared_derivative(n);
   const Vec3 move = to.p_W - from.p_W;
   const Eigen::DiagonalMatrix<double, 3> scale{powers(duration_s)};
-  const double weight = std::pow(duration_s, -7);
+  const double weight = std::pow(duration_s, 1 - 2 * n);
   equations.diagonal[i] += weight * (scale * q.block<3, 3>(1, 1) * scale);
   equations.diagonal[i + 1] += weight * (scale * q.block<3, 3>(5, 5) * scale);
   equations.above[i] +=
@@ -136,12 +143,15 @@ void solve(NormalEquations& equations, std::vector<SnapKnot>& knots) {
 
 }  // namespace
 
-void minimise_snap(std::vector<SnapKnot>& knots, const std::vector<double>& durations_s) {
+void minimise(int derivative,
+              std::vector<SnapKnot>& knots,
+              const std::vector<double>& durations_s) {
+  FLYBALL_ASSERT(derivative == 3 || derivative == 4, "derivative=%d", derivative);
   FLYBALL_ASSERT(durations_s.size() + 1 == knots.size(), "%zu knots, %zu durations", knots.size(),
                  durations_s.size());
   NormalEquations equations{knots.size()};
   for (std::size_t i = 0; i < durations_s.size(); ++i) {
-    add_piece(equations, i, knots, durations_s[i]);
+    add_piece(equations, derivative, i, knots, durations_s[i]);
   }
   constrain(equations, knots);
   std::vector<SnapKnot> solved = knots;

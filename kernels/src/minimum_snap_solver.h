@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Minimum-snap polynomials through knots with given directions.
+/// Minimum-snap or minimum-jerk polynomials through knots with given directions.
 
 #include "flyball/runtime/trajectory.h"
 
@@ -22,13 +22,14 @@ struct SnapKnot {
   bool is_fixed{};
 };
 
-/// Finds the derivatives at the free knots that minimise the integral of the squared snap.
+/// Finds the derivatives at the free knots that minimise the integral of the squared jerk
+/// (`derivative` 3) or snap (4).
 ///
 /// The unconstrained quadratic programme in the free end derivatives of Richter, Bry and Roy 2013
 /// (doi:10.1007/978-3-319-28872-7_37, eq. 26), with one scalar instead of a vector per derivative.
-/// @pre  One duration per pair of neighbours, all positive.
+/// @pre  `derivative` is 3 or 4; one duration per pair of neighbours, all positive.
 /// @cost O(knots): the normal equations are block-tridiagonal.
-void minimise_snap(std::vector<SnapKnot>& knots, const std::vector<double>& durations_s);
+void minimise(int derivative, std::vector<SnapKnot>& knots, const std::vector<double>& durations_s);
 
 /// The polynomial of degree 7 between two knots.
 [[nodiscard]] PolynomialPiece piece_between(const SnapKnot& from,

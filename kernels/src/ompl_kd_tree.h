@@ -18,7 +18,7 @@
 
 namespace flyball {
 
-/// @tparam T  Pointer to a motion with a `state` of RealVectorStateSpace(3).
+/// @tparam T  Pointer to a motion with a `state`, or `state()`, of RealVectorStateSpace(3).
 template <typename T>
 class KdTree final : public ompl::NearestNeighbors<T> {
  public:
@@ -82,9 +82,18 @@ class KdTree final : public ompl::NearestNeighbors<T> {
     std::vector<std::pair<double, std::size_t>> best;
   };
 
+  /// The planners' motions have a member `state`, BIT*'s vertices a function.
+  template <class M>
+  static auto state_of(const M& motion, int) -> decltype(motion->state()) {
+    return motion->state();
+  }
+  template <class M>
+  static auto state_of(const M& motion, long) -> decltype((motion->state)) {
+    return motion->state;
+  }
   static Eigen::Vector3d position(const T& motion) {
     const double* values =
-        motion->state->template as<ompl::base::RealVectorStateSpace::StateType>()->values;
+        state_of(motion, 0)->template as<ompl::base::RealVectorStateSpace::StateType>()->values;
     return {values[0], values[1], values[2]};
   }
   static int side(const Node& node, const Eigen::Vector3d& p, int depth) {

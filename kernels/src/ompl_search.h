@@ -86,13 +86,23 @@ class OmplStateSampler final : public ompl::base::StateSampler {
   RandomStream random_;
 };
 
-/// An OMPL planner whose generator does not depend on how many others were made before.
+/// An OMPL planner whose generator does not depend on how many others were made before. (BIT* has
+/// none of its own.)
 template <class Planner>
 class Seeded final : public Planner {
  public:
   Seeded(const ompl::base::SpaceInformationPtr& space, std::uint64_t seed) : Planner{space} {
-    this->rng_.setLocalSeed(static_cast<std::uint_fast32_t>(seed & 0x7fffffffU));
+    seed_generator(*this, static_cast<std::uint_fast32_t>(seed & 0x7fffffffU), 0);
   }
+
+ private:
+  template <class P>
+  static auto seed_generator(P& planner, std::uint_fast32_t seed, int)
+      -> decltype(planner.rng_.setLocalSeed(seed)) {
+    planner.rng_.setLocalSeed(seed);
+  }
+  template <class P>
+  static void seed_generator(P&, std::uint_fast32_t, long) {}
 };
 
 inline ompl::base::SpaceInformationPtr make_space(const SearchStage& stage,

@@ -22,10 +22,23 @@ struct BuildingPlan {
   double room_depth_m{9.0};  ///< Between wall centres, along x; a multiple of .15.
   double room_width_m{10.2};
   double door_width_m{0.82};
-  double entrance_y_m{};  ///< Wish; kept .5 m away from the corners of the room behind it.
-  bool fine_doors{true};  ///< See `door_centre_m`.
+  double most_door_width_m{};  ///< Above `door_width_m`: each door's width is drawn between them.
+  double entrance_y_m{};       ///< Wish; kept .5 m away from the corners of the room behind it.
+  bool has_exit{false};        ///< A door in the last wall too, in the middle column.
+  bool fine_doors{true};       ///< See `door_centre_m`.
   int furniture_per_room{4};
   Vec3 keep_clear_W{Vec3::Zero()};  ///< No furniture within 1.3 m.
+};
+
+constexpr double half_wall_m = 0.075;  ///< Faces in the middle of voxels.
+constexpr double ceiling_z_m = 2.775;  ///< In the middle of a voxel.
+
+/// A stretch of wall between two crossings, from wall centre to wall centre.
+struct WallStretch {
+  bool along_y{};
+  double at_m{};   ///< Across the wall.
+  double low_m{};  ///< Along it.
+  double high_m{};
 };
 
 /// Opening in a wall, as seen from above.
@@ -50,6 +63,19 @@ struct Building {
                                    double wish_m,
                                    double low_m,
                                    double high_m);
+
+void add_wall(Building& building, const WallStretch& stretch);
+/// The door is kept .5 m away from the corners.
+void add_wall_with_door(Building& building,
+                        const WallStretch& stretch,
+                        BuildingPlan plan,
+                        double wish_m,
+                        RandomStream& random);
+/// Boxes on the room's floor, a passage away from each other, from the building's doors so far and
+/// from what the plan keeps clear.
+void furnish(Building& building, const Aabb& room, const BuildingPlan& plan, RandomStream& random);
+/// Over the building's extent, whose height it sets.
+void add_ceiling(Building& building);
 
 /// @pre The plan's rooms are larger than a door and 2 m.
 [[nodiscard]] Building make_building(const BuildingPlan& plan, RandomStream& random);

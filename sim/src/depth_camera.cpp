@@ -5,6 +5,7 @@
 #include "flyball/runtime/random.h"
 
 #include "embree_scene.h"
+#include "mover_view.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +52,10 @@ Intrinsics DepthCameraSpec::intrinsics() const {
 
 struct DepthCamera::Scene {
   Scene(const World& world, const DepthCameraSpec& camera_spec, std::uint64_t noise_seed)
-      : spec{camera_spec}, camera{camera_spec.intrinsics()}, seed{noise_seed} {
+      : spec{camera_spec},
+        camera{camera_spec.intrinsics()},
+        seed{noise_seed},
+        movers{world.movers} {
     const FlushDenormals flush;
     scene = rtcNewScene(device.handle);
     for (int y = 0; y < camera.height_px; y += tile_rows) {
@@ -82,6 +86,7 @@ struct DepthCamera::Scene {
   DepthCameraSpec spec;
   Intrinsics camera;
   std::uint64_t seed;
+  std::vector<Mover> movers;
   EmbreeDevice device;
   RTCScene scene{};
   /// Tile by tile, as they are traced; the lanes beyond the image's edge too.
@@ -174,6 +179,7 @@ DepthImage DepthCamera::capture(const Pose& X_WC, MissionTime now, std::uint64_t
                        infinity);
   const FlushDenormals flush;
   scene_->trace(X_WC.cast<float>(), image.depth_m);
+  draw(scene_->movers, X_WC, image);
   scene_->add_noise(sequence, image.depth_m);
   return image;
 }

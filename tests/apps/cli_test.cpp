@@ -76,6 +76,8 @@ TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
 
 TEST_F(Cli, refuses_a_policy_twice) {
   expect_refused("compare delivery_forest --policies fixed_fine,fixed_fine", "name each once");
+  expect_refused("tournament --worlds delivery_forest --policies fixed_fine,fixed_fine",
+                 "name each once");
 }
 
 TEST_F(Cli, refuses_a_world_that_cannot_be_made) {

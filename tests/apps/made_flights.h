@@ -33,6 +33,11 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.latency_p50_s = 0.11;
   summary.latency_p95_s = 0.22;
   summary.latency_max_s = 0.33;
+  summary.maps = 55;
+  summary.bound_overruns = 3;
+  summary.budget_use_p50 = 0.66;
+  summary.decision_host_us_p50 = 1.5;
+  summary.decision_host_us_p99 = 2.75;
   summary.min_clearance_m = 0.44;
   summary.kernels["octomap"] = {123, 45.6, 78.9, 1.25};
   summary.quality["area_covered_percent"] = 97.25;

@@ -38,7 +38,7 @@ inline PlatformModel free_of_charge() {
 }
 
 struct MissionRig {
-  explicit MissionRig(const GridMap& map, Scenario chosen = one_core())
+  explicit MissionRig(const GridMap& map, Scenario chosen = one_core(), MissionBrief brief = {})
       : scenario{std::move(chosen)} {
     MissionEquipment equipment;
     equipment.airframe.body_diameter_m = 0.65;
@@ -46,7 +46,7 @@ struct MissionRig {
     equipment.knobs = KnobSettings{standard_knobs(scenario, platform)};
     equipment.kernels.mapper = std::make_unique<GridMapper>(map);
     equipment.kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
-    context = std::make_unique<MissionContext>(scenario, platform, trace, MissionBrief{},
+    context = std::make_unique<MissionContext>(scenario, platform, trace, std::move(brief),
                                                std::move(equipment));
   }
 

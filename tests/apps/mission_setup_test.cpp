@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mission_setup.h"
 
+#include "flyball/apps/files.h"
+
+#include "scratch_folder.h"
+#include <fstream>
+#include <iterator>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -35,8 +41,20 @@ TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
   EXPECT_NE(refusal(scenario).find("flyball list policies"), std::string::npos);
 }
 
+/// The shipped platform without a price for the brick map.
+std::string older_platform() {
+  std::ifstream in{find_shipped("platforms", "jetson_tx2").value()};
+  std::string text{std::istreambuf_iterator<char>{in}, {}};
+  for (const std::string heading : {"[kernels.flyball]", "[kernels.flyball.seconds_per]"}) {
+    text.replace(text.find(heading) + 9, 7, "another");
+  }
+  return text;
+}
+
 TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
+  const ScratchFolder folder;
   Scenario scenario;
+  scenario.platform.name = folder.file("older.toml", older_platform());
   scenario.kernels.mapper = "flyball";
   const auto unpriced = set_up(scenario);
   ASSERT_FALSE(unpriced.ok());

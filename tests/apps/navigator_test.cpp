@@ -53,6 +53,43 @@ TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
+TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
+  const GridMap map = kit::corridor(60.0);
+  Scenario scenario = kit::MissionRig::one_core();
+  scenario.planner.horizon_m = 20.0;
+  MissionBrief brief;
+  brief.bounds_W = {Vec3{-2, -3, 0}, Vec3{60, 3, 3}};
+  kit::MissionRig rig{map, scenario, brief};
+  Navigator navigator{*rig.context};
+  navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
+  MissionTime now{1s};
+  navigator.set_goal(now, Vec3{50, 0, 1.5});
+  PoseEstimate where;
+  double least_m_s = 10.0;
+  int plans = 0;
+  for (int i = 0; i < 3000 && !navigator.has_arrived(); ++i) {
+    if (const auto query = navigator.next_query(now)) {
+      EXPECT_LE((query->goal_W - query->start_W).norm(), 20.0 + 1e-9);
+      ++plans;
+      navigator.path_planned(now, {query->id, straight(query->start_W, query->goal_W), ""});
+    }
+    now += 20ms;
+    where.X_WB.translation() = navigator.follower().position_W();
+    if (i % 5 == 0) {
+      navigator.map_published(now, {static_cast<std::uint64_t>(i), now - 100ms, now, 0.15}, 100ms);
+    }
+    (void)navigator.tick(now, 20ms, where);
+    const double x_m = navigator.follower().position_W().x();
+    if (x_m > 10.0 && x_m < 40.0) {
+      least_m_s = std::min(least_m_s, navigator.follower().speed_m_s());
+    }
+  }
+  EXPECT_TRUE(navigator.has_arrived());
+  EXPECT_GE(plans, 3);
+  EXPECT_LE(plans, 8);
+  EXPECT_GT(least_m_s, 1.0) << "it does not stop between two legs";
+}
+
 TEST(Navigator,
      plans_from_a_point_ahead_when_its_path_is_blocked_and_stops_there_if_no_answer_comes) {
   Trip trip;

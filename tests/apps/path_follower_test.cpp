@@ -41,6 +41,20 @@ TEST(PathFollower, stops_before_the_first_place_that_is_not_known_free) {
   EXPECT_LT(ride.follower.speed_m_s(), 0.1);
 }
 
+TEST(PathFollower, faces_a_heading_where_it_comes_to_stand_and_where_it_hovers) {
+  Ride ride{60.0};
+  ride.follower.face(2.0);
+  ride.tick(200);
+  EXPECT_NEAR(ride.follower.yaw_rad(), 0.0, 0.01) << "on the way it looks ahead";
+  ride.tick(3000);
+  ASSERT_TRUE(ride.follower.stands_still());
+  EXPECT_NEAR(ride.follower.yaw_rad(), 2.0, 0.01);
+  ride.follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
+  ride.follower.face(-1.0);
+  ride.tick(200);
+  EXPECT_NEAR(ride.follower.yaw_rad(), -1.0, 0.01);
+}
+
 TEST(PathFollower, looks_to_both_sides_where_it_stands_and_then_ahead_again) {
   Ride ride{60.0};
   ride.tick(100);
@@ -134,6 +148,26 @@ TEST(PathFollower, does_not_trust_free_space_beyond_what_the_newest_frame_can_se
   const double range_m = ride.rig.context->knobs.value("map.range_m");
   const double delta_s = 0.2 + to_seconds(ride.follower.guard().reaction_time());
   EXPECT_NEAR(ride.follower.speed_m_s(), safe_speed(6.0, delta_s, range_m - body_m), 0.05);
+}
+
+TEST(PathFollower, believes_declared_space_to_any_distance_where_there_is_no_map) {
+  GridMap map = kit::corridor(45.0);
+  kit::MissionRig rig{map};
+  rig.context->maps_obstacles = false;
+  PathFollower follower{*rig.context};
+  follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
+  ASSERT_TRUE(follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0));
+  follower.refresh_known_free(map);  // Once: nothing is published that would change it.
+  MissionTime now{};
+  double fastest_m_s = 0.0;
+  for (int i = 0; i < 1500; ++i) {
+    follower.tick(now += 20ms, 20ms, Vec3::Zero());
+    fastest_m_s = std::max(fastest_m_s, follower.speed_m_s());
+  }
+  EXPECT_NEAR(fastest_m_s, 10.0, 0.05);  // The knob's limit; in sight of 7 m it would be 8.
+  EXPECT_LT(follower.s_m(), 45.0 - 0.325);
+  EXPECT_GT(follower.s_m(), 44.0);
+  EXPECT_LT(follower.speed_m_s(), 0.1);
 }
 
 TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {

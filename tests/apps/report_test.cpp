@@ -36,6 +36,19 @@ TEST(Report, the_top_view_shows_what_is_in_the_way_and_no_ceiling) {
   EXPECT_EQ(world["goal"], nlohmann::json::parse("[10.0, 0.0]"));
 }
 
+TEST(Report, a_picture_of_a_survey_has_the_area_and_each_footprint_with_its_time) {
+  MissionRecord record = made_record("a", 1);
+  EXPECT_FALSE(nlohmann::json::parse(picture_of(record).json).contains("footprint"));
+  record.trace->record(MissionTime{}, "area",
+                       {{"x0_m", 0.0}, {"y0_m", 0.0}, {"x1_m", 9.0}, {"y1_m", 4.0}});
+  record.trace->record(MissionTime{from_seconds(1.5)}, "footprint",
+                       {{"x0_m", 1.0}, {"y0_m", 2.0}, {"x1_m", 3.0}, {"y1_m", 4.0}});
+  const auto json = nlohmann::json::parse(picture_of(record).json);
+  EXPECT_EQ(json["area"][0], nlohmann::json::parse("[0.0, 0.0, 9.0, 4.0, 0.0]"));
+  ASSERT_EQ(json["footprint"].size(), 1U);
+  EXPECT_EQ(json["footprint"][0], nlohmann::json::parse("[1.0, 2.0, 3.0, 4.0, 1.5]"));
+}
+
 TEST(Report, very_many_boxes_become_a_raster_of_the_same_area) {
   MissionRecord record = made_record("a", 1);
   record.world.boxes.clear();

@@ -23,6 +23,8 @@ TEST(RunFolder, holds_the_mission_its_summary_its_trace_and_a_page) {
   EXPECT_EQ(summary.seed, 5U);
   EXPECT_EQ(scratch.content("deep/run/mission.toml"), mission_file(scenario));
   EXPECT_NE(scratch.content("deep/run/report.html").find("<canvas"), std::string::npos);
+  EXPECT_NE(scratch.content("deep/run/report.html").find("<th>area covered percent</th>"),
+            std::string::npos);
   for (const auto& entry : std::filesystem::directory_iterator{scratch.path("deep/run")}) {
     EXPECT_NE(entry.path().extension(), ".part");
   }

@@ -15,7 +15,8 @@ class Score : public testing::Test {
   Score() {
     Person person;
     person.walk = {{0.0, {7.0, 0.0, 0.0}}};
-    rig.context->people_truth = {person};
+    world.people = {person};
+    rig.context->truth = &world;
   }
   Target target_at(double t_s, bool on_person) {
     Target target;
@@ -23,7 +24,7 @@ class Score : public testing::Test {
     target.frame.camera = ColourCameraSpec{}.intrinsics();
     target.frame.X_WC_truth = camera_in_level_frame({});
     target.frame.X_WC_truth.translation().z() = 0.875;
-    target.box = box_of(rig.context->people_truth.front(), target.frame.captured,
+    target.box = box_of(world.people.front(), target.frame.captured,
                         target.frame.X_WC_truth, target.frame.camera);
     if (!on_person) {
       target.box->x_px += 100.0;
@@ -35,6 +36,7 @@ class Score : public testing::Test {
   }
   kit::GridMap map = kit::corridor(10.0);
   kit::MissionRig rig{map};
+  World world;
   TrackingScore score{*rig.context};
 };
 

@@ -7,8 +7,10 @@
 
 #include "flyball/runtime/messages.h"
 
-#include "../../kernels/src/scan_update.h"
+#include "../../kernels/src/bricks/scan.h"
 #include <vector>
+
+#include <octomap/Pointcloud.h>
 
 namespace flyball::bench {
 

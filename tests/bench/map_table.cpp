@@ -32,8 +32,11 @@ std::string question_name(const Question& question) {
          question.kind + (question.stock ? "/stock" : "/bricks");
 }
 
-std::string take_table_option(int& argc, char** argv) {
-  const std::string option = "--table=";
+std::string inflation_name(const std::string& scene) {
+  return "inflate/" + scene;
+}
+
+std::optional<std::string> take_option(int& argc, char** argv, const std::string& option) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument.rfind(option, 0) == 0) {
@@ -42,7 +45,7 @@ std::string take_table_option(int& argc, char** argv) {
       return argument.substr(option.size());
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 void TableReporter::ReportRuns(const std::vector<Run>& runs) {
@@ -64,18 +67,32 @@ void TableReporter::ReportRuns(const std::vector<Run>& runs) {
   }
 }
 
-bool TableReporter::write(const std::string& file) const {
+bool TableReporter::has_differences() const {
+  return std::any_of(least_.begin(), least_.end(), [](const auto& entry) {
+    const auto differing = entry.second.counters.find("differing");
+    return differing != entry.second.counters.end() && differing->second > 0.0;
+  });
+}
+
+bool TableReporter::write(const std::string& file, const Plan& plan) const {
   std::ofstream out{file};
-  out << "# Mapping one frame\n\nMilliseconds of CPU time for a frame: ten frames of a flight, 20 "
+  out << "# Mapping one frame\n\nMilliseconds of CPU time for a frame: ten frames of a flight, "
+         "after a frame of warm-up, 20 "
          "m "
          "of range, the least of several runs; in brackets, how many times as fast as stock "
          "`insertPointCloud` in the same run. `+ record`: the OctoMap tree is written too, and is "
          "stock's byte for byte. `knob`: a map of 0.15 m cells that is freed at this level; all "
          "others are maps of this resolution.\n";
   for (const char* simd : {"AVX-512", "AVX2", "portable"}) {
-    write_insertions(out, simd);
+    write_insertions(out, plan, simd);
   }
-  write_questions(out);
+  write_questions(out, plan);
+  for (const char* scene : {"indoor", "outdoor"}) {
+    if (const Least* least = find(inflation_name(scene))) {
+      out << "\nInflating 24 x 24 x 6 m (" << scene
+          << ", 0.15 m, body of 0.45 m radius): " << rounded(least->time) << " ms.\n";
+    }
+  }
   if (const Least* least = find("switch")) {
     out << "\nChanging the level and back: " << rounded(least->time) << " ns.\n";
   }
@@ -87,14 +104,16 @@ const TableReporter::Least* TableReporter::find(const std::string& name) const {
   return found == least_.end() ? nullptr : &found->second;
 }
 
-void TableReporter::write_insertions(std::ostream& out, const std::string& simd) const {
+void TableReporter::write_insertions(std::ostream& out,
+                                     const Plan& plan,
+                                     const std::string& simd) const {
   out << "\n## " << simd
       << "\n\n| scene | image | m | stock | exact | exact + record | rays | pyramid | knob | cells "
          "(exact) | kB read and written |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const char* scene : {"indoor", "outdoor"}) {
-    for (const auto& [width, height] : {std::pair{320, 240}, std::pair{640, 480}}) {
-      for (int level = 0; level < 4; ++level) {
-        write_row(out, {scene, width, height, level, "stock", false, simd});
+    for (const ImageSize& size : plan.sizes) {
+      for (int level = 0; level < plan.levels; ++level) {
+        write_row(out, {scene, size.width_px, size.height_px, level, "stock", false, simd});
       }
     }
   }
@@ -129,14 +148,14 @@ void TableReporter::write_row(std::ostream& out, Insertion row) const {
   out << "\n";
 }
 
-void TableReporter::write_questions(std::ostream& out) const {
-  out << "\n# Questions\n\nNanoseconds; `differing`: answers unlike stock's, of a million points "
-         "and "
-         "of 50000 bodies and segments (at most 5 m long), at one resolution.\n\n"
+void TableReporter::write_questions(std::ostream& out, const Plan& plan) const {
+  out << "\n# Questions\n\nNanoseconds; `differing`: answers unlike stock's, of " << plan.questions
+      << " points and of " << plan.questions / 20
+      << " bodies and segments (at most 5 m long), at one resolution.\n\n"
          "| scene | m | kind | stock | bricks | times as fast | differing |\n"
          "|---|---|---|---|---|---|---|\n";
   for (const char* scene : {"indoor", "outdoor"}) {
-    for (int level = 0; level < 4; ++level) {
+    for (int level = 0; level < plan.levels; ++level) {
       for (const char* kind : {"point", "body", "segment"}) {
         const Least* stock = find(question_name({scene, level, kind, true}));
         const Least* ours = find(question_name({scene, level, kind, false}));

@@ -4,7 +4,9 @@
 /// @file
 /// Tables out of what map_bench measured.
 
+#include "map_pipeline.h"
 #include <map>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -31,8 +33,12 @@ struct Question {
 [[nodiscard]] std::string insertion_name(const Insertion& insertion);
 [[nodiscard]] std::string question_name(const Question& question);
 
-/// Takes `--table=FILE` out of the arguments; empty when it is not there.
-[[nodiscard]] std::string take_table_option(int& argc, char** argv);
+[[nodiscard]] std::string inflation_name(const std::string& scene);
+
+/// Takes the argument that begins so out of the arguments: what follows that, if it is there.
+[[nodiscard]] std::optional<std::string> take_option(int& argc,
+                                                     char** argv,
+                                                     const std::string& option);
 
 /// Prints every run, and keeps the least time of each benchmark's repetitions.
 class TableReporter final : public benchmark::ConsoleReporter {
@@ -40,7 +46,9 @@ class TableReporter final : public benchmark::ConsoleReporter {
   TableReporter() : benchmark::ConsoleReporter{OO_Tabular} {}
   void ReportRuns(const std::vector<Run>& runs) override;
   /// False when the file cannot be written.
-  [[nodiscard]] bool write(const std::string& file) const;
+  [[nodiscard]] bool write(const std::string& file, const Plan& plan) const;
+  /// Whether any answer was unlike stock's.
+  [[nodiscard]] bool has_differences() const;
 
  private:
   struct Least {
@@ -48,9 +56,9 @@ class TableReporter final : public benchmark::ConsoleReporter {
     std::map<std::string, double> counters;
   };
   [[nodiscard]] const Least* find(const std::string& name) const;
-  void write_insertions(std::ostream& out, const std::string& simd) const;
+  void write_insertions(std::ostream& out, const Plan& plan, const std::string& simd) const;
   void write_row(std::ostream& out, Insertion row) const;
-  void write_questions(std::ostream& out) const;
+  void write_questions(std::ostream& out, const Plan& plan) const;
 
   std::map<std::string, Least> least_{};
 };

@@ -65,6 +65,51 @@ TEST(CliFlights, a_comparison_flies_each_mission_once) {
   EXPECT_EQ(fs::last_write_time(flyball.place.path(kept)), written);
 }
 
+/// The scenario of `short_flight` as a file, with this name.
+std::string short_world(const FlyballProgram& flyball, const std::string& name) {
+  return flyball.place.file(name + ".toml",
+                            "name = \"" + name +
+                                "\"\n[world]\ngenerator = \"empty\"\ngoal_distance_m = 5.0\n"
+                                "[camera]\nwidth_px = 32\nheight_px = 18\n");
+}
+
+TEST(CliFlights, a_tournament_goes_on_where_it_was_stopped) {
+  const FlyballProgram flyball;
+  const std::string worlds =
+      "--worlds " + short_world(flyball, "near") + "," + short_world(flyball, "far");
+  const std::string line =
+      "tournament " + worlds + " --policies fixed_fine,fixed_coarse --out t --json ";
+  const auto half = flyball.run(line + "--seeds 1 --jobs 2");
+  ASSERT_EQ(half.exit_code, 0) << half.errors;
+  const auto whole = flyball.run(line + "--seeds 1..2 --jobs 2");
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  EXPECT_NE(whole.errors.find("4 of 8 flights are known from before"), std::string::npos)
+      << whole.errors;
+  const auto table = nlohmann::json::parse(whole.output);
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table[1]["scenario"], "far");
+  EXPECT_EQ(table[1]["rows"][1]["policy"], "fixed_coarse");
+  EXPECT_EQ(table[1]["rows"][1]["n"], 2);
+  EXPECT_EQ(table[1]["differences"][0]["pairs"], 2);
+  EXPECT_TRUE(fs::exists(flyball.place.path("t/tournament.html")));
+  EXPECT_TRUE(fs::exists(flyball.place.path("t/tournament.db")));
+  EXPECT_FALSE(fs::exists(flyball.place.path("t/near"))) << "records go when they are counted";
+}
+
+TEST(CliFlights, tuning_writes_the_setting_that_took_the_least_energy) {
+  const FlyballProgram flyball;
+  const auto tuned = flyball.run("tune " + short_world(flyball, "near") +
+                                 " --try max_speed_m_s=1,4 --seeds 1001..1002 --out t --json");
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.errors;
+  const auto ranked = nlohmann::json::parse(tuned.output)["candidates"];
+  ASSERT_EQ(ranked.size(), 2U);
+  EXPECT_LT(ranked[0]["mean_energy_j"], ranked[1]["mean_energy_j"]);
+  EXPECT_EQ(ranked[0]["parameters"]["max_speed_m_s"], 4.0);
+  const std::string preset = flyball.place.content("t/tuned.toml");
+  EXPECT_NE(preset.find("max_speed_m_s = 4"), std::string::npos) << preset;
+  EXPECT_NE(preset.find("1001"), std::string::npos) << "it says what it was tuned on";
+}
+
 /// Starts a long flight, waits until it has begun, and presses Ctrl-C. Returns the exit code.
 int interrupt(const FlyballProgram& flyball, std::vector<std::string> words) {
   words.insert(words.begin(), "flyball");

@@ -29,8 +29,8 @@ KnobSettings knobs() {
 }
 
 EnergySearch search(double fine_most_range_m = 25.0) {
-  const std::vector<MapLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
-                                     {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
   return *EnergySearch::make({}, levels, {7.0, 12.0}, knobs());
 }
 
@@ -61,6 +61,40 @@ TEST(EnergySearch, in_the_open_flies_coarse_far_and_fast) {
   EXPECT_EQ(best.setting.range_m, 12.0);
   EXPECT_EQ(best.setting.clock_hz, top_hz);
   EXPECT_EQ(one.in_force(), best.setting);
+}
+
+TEST(EnergySearch, reaches_as_far_as_it_must_where_a_level_can) {
+  EnergySearch one = search();
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  around.sight_m = 7.0;  // Nothing to win beyond.
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
+  around.least_range_m = 11.0;
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 12.0);
+  around.least_range_m = 50.0;
+  EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
+}
+
+TEST(EnergySearch, looks_no_farther_than_it_pays) {
+  EnergySearch one = search();
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  around.speed_limit_m_s = 1.0;  // Every setting is fast enough, so the soonest one.
+  const EnergyEstimate best = one.choose(around, {});
+  EXPECT_EQ(best.setting.range_m, 7.0);
+  for (std::size_t i = 0; i < one.points().size(); ++i) {
+    const double* at = one.points().values(i);
+    const EnergyEstimate other = one.estimate({at[0], at[1], at[2]}, around);
+    EXPECT_TRUE(at[0] > 0.15 || best.joules_per_m <= 1.001 * other.joules_per_m);
+  }
+}
+
+TEST(EnergySearch, brakes_as_the_mission_does) {
+  const EnergySearch one = search();
+  Surroundings around = open_space();
+  const double usual_m_s = one.estimate({0.80, 12.0, top_hz}, around).speed_m_s;
+  around.deceleration_m_s2 = 2.0;
+  EXPECT_LT(one.estimate({0.80, 12.0, top_hz}, around).speed_m_s, usual_m_s);
 }
 
 TEST(EnergySearch, its_choice_is_the_best_of_all_that_are_allowed) {
@@ -164,7 +198,7 @@ TEST(EnergySearch, counts_a_map_that_never_comes_as_a_miss) {
 }
 
 TEST(EnergySearch, refuses_what_no_knob_can_be) {
-  const std::vector<MapLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
+  const std::vector<SearchLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
   EXPECT_FALSE(EnergySearch::make({}, levels, {7.0}, knobs()).ok());
   EXPECT_FALSE(EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}).ok());
 }

@@ -42,6 +42,22 @@ TEST_F(Preset, needs_no_parameters) {
   EXPECT_TRUE(preset->parameters.empty());
 }
 
+TEST_F(Preset, may_combine_an_application_with_a_clock) {
+  const auto preset = load("application = 'two_level'\nclock = 'schedutil_10ms'");
+  ASSERT_TRUE(preset.ok()) << preset.error().message;
+  EXPECT_TRUE(preset->is_combination());
+  EXPECT_EQ("two_level", preset->application);
+  EXPECT_EQ("schedutil_10ms", preset->clock);
+  EXPECT_FALSE(load("policy = 'fixed'")->is_combination());
+  for (const std::string text :
+       {"application = 'a'", "clock = 'a'", "policy = 'a'\napplication = 'b'\nclock = 'c'",
+        "application = 'a'\nclock = 'b'\n[parameters]\nx = 1"}) {
+    const auto refused = load(text);
+    ASSERT_FALSE(refused.ok()) << text;
+    EXPECT_NE(std::string::npos, refused.error().message.find(path_));
+  }
+}
+
 TEST_F(Preset, names_file_and_line_of_each_problem_at_once) {
   const auto preset =
       load("policy = 'fixed'\ncolour = 1\n[parameters]\nfine_m = true\nat = 12:00:00\n");

@@ -46,9 +46,20 @@ TEST(MinimumSnapSolver, finds_the_known_speed_between_two_equal_rests) {
   // Rest to rest over 2 m in 2 s is p = 2 (35 u^4 - 84 u^5 + 70 u^6 - 20 u^7); the knot in the
   // middle must not change it: v = 2 * 140 (u^3 - 3 u^4 + 3 u^5 - u^6) / 2 s at u = 1/2.
   std::vector<SnapKnot> knots{knot(0, true), knot(1, false), knot(2, true)};
-  flyball::minimise_snap(knots, {1.0, 1.0});
+  flyball::minimise(4, knots, {1.0, 1.0});
   EXPECT_NEAR(knots[1].along[0], 140.0 / 64.0, 1e-4);
   EXPECT_NEAR(knots[1].along[1], 0.0, 1e-4);
+}
+
+TEST(MinimumSnapSolver, finds_the_minimum_jerk_motion_between_two_places) {
+  // Flash and Hogan's p = 2 (10 u^3 - 15 u^4 + 6 u^5) over 2 m in 2 s, whose jerk is
+  // 60 - 360 u + 360 u^2 times 2 m / (2 s)^3: 15 at both ends, -7.5 in the middle.
+  std::vector<SnapKnot> knots{knot(0, true), knot(1, false), knot(2, true)};
+  knots.front().along.z() = knots.back().along.z() = 15.0;
+  flyball::minimise(3, knots, {1.0, 1.0});
+  EXPECT_NEAR(knots[1].along[0], 1.875, 1e-4);
+  EXPECT_NEAR(knots[1].along[1], 0.0, 1e-4);
+  EXPECT_NEAR(knots[1].along[2], -7.5, 1e-3);
 }
 
 TEST(MinimumSnapSolver, leaves_no_better_neighbour) {
@@ -65,7 +76,7 @@ TEST(MinimumSnapSolver, leaves_no_better_neighbour) {
       durations_s.push_back(random.uniform(0.5, 2.0));
     }
   }
-  flyball::minimise_snap(knots, durations_s);
+  flyball::minimise(4, knots, durations_s);
   const double least = snap_of(knots, durations_s);
   for (std::size_t i = 1; i < 6; ++i) {
     for (int n = 0; n < 3; ++n) {
@@ -82,7 +93,7 @@ TEST(MinimumSnapSolver, keeps_sane_beside_a_piece_that_is_ten_thousand_times_sho
   std::vector<SnapKnot> knots{knot(0, true), knot(300, false), knot(300.01, false),
                               knot(310, true)};
   knots[1].along = knots[2].along = {5.0, 0.0, 0.0};
-  flyball::minimise_snap(knots, {60.0, 0.002, 4.0});
+  flyball::minimise(4, knots, {60.0, 0.002, 4.0});
   for (const auto& k : knots) {
     EXPECT_TRUE(k.along.allFinite());
     EXPECT_LT(std::abs(k.along[0]), 20.0);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -96,10 +97,12 @@ void expect_sound(const Trajectory& trajectory, const SmoothRequest& request) {
   }
 }
 
-TEST(MinimumSnap, flies_collision_free_curves_within_limits_in_random_worlds) {
+class Smoothers : public testing::TestWithParam<std::string> {};
+
+TEST_P(Smoothers, fly_collision_free_curves_within_limits_in_random_worlds) {
   const auto registry = kernels();
   const auto planner = registry.make<flyball::PathPlanner>("rrt_connect");
-  const auto smooth = registry.make<flyball::Smoother>("minimum_snap");
+  const auto smooth = registry.make<flyball::Smoother>(GetParam());
   int curves = 0;
   int corners = 0;
   int stopped = 0;
@@ -128,15 +131,16 @@ TEST(MinimumSnap, flies_collision_free_curves_within_limits_in_random_worlds) {
   EXPECT_LT(stopped, corners / 4);  // most corners are rounded, not stopped at
 }
 
-TEST(MinimumSnap, passes_narrow_doors_without_hitting_the_frame) {
+TEST_P(Smoothers, pass_narrow_doors_without_hitting_the_frame) {
   const auto registry = kernels();
+  const auto smooth = registry.make<flyball::Smoother>(GetParam());
   const auto planner = registry.make<flyball::PathPlanner>("rrt_connect");
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Scene scene = flyball::kit::office(3, seed);
     const auto plan = planner->plan(scene.request, scene.map);
     ASSERT_FALSE(plan.waypoints_W.empty());
     const SmoothRequest request = request_along(plan.waypoints_W);
-    const auto result = smoother()->smooth(request, scene.map);
+    const auto result = smooth->smooth(request, scene.map);
     ASSERT_TRUE(result.ok());
     expect_sound(result->trajectory, request);
     const Path path{result->trajectory};
@@ -146,6 +150,39 @@ TEST(MinimumSnap, passes_narrow_doors_without_hitting_the_frame) {
           << "seed " << seed << " at " << path.samples()[i].s_m;
     }
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels,
+                         Smoothers,
+                         testing::Values("minimum_jerk", "minimum_snap"),
+                         [](const auto& one) { return one.param; });
+
+/// Integral of the squared n-th derivative.
+double effort(const Trajectory& trajectory, int n) {
+  constexpr int steps = 200;
+  double sum = 0.0;
+  for (const auto& piece : trajectory.pieces) {
+    for (int i = 0; i < steps; ++i) {
+      const double t_s = piece.duration_s * (i + 0.5) / steps;
+      sum += piece.derivative(n, t_s).squaredNorm() * piece.duration_s / steps;
+    }
+  }
+  return sum;
+}
+
+TEST(MinimumJerk, keeps_jerk_smaller_and_snap_larger_than_minimum_snap) {
+  // A straight way: no corner bounds the speed, so both take the same time before limits.
+  const SmoothRequest request = request_along({{0, 0, 1.5}, {60, 0, 1.5}});
+  const auto registry = kernels();
+  const auto curve = [&](const char* name) {
+    return registry.make<flyball::Smoother>(name)->smooth(request, open_space())->trajectory;
+  };
+  const Trajectory jerk = curve("minimum_jerk");
+  const Trajectory snap = curve("minimum_snap");
+  // Scaled to the same duration T: the n-th derivative's effort falls with T^(2n - 1).
+  const double longer = jerk.duration_s() / snap.duration_s();
+  EXPECT_LT(effort(jerk, 3) * std::pow(longer, 5), effort(snap, 3));
+  EXPECT_LT(effort(snap, 4), effort(jerk, 4) * std::pow(longer, 7));
 }
 
 TEST(MinimumSnap, keeps_long_edges_straight_and_curves_local) {

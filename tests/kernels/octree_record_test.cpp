@@ -53,8 +53,10 @@ INSTANTIATE_TEST_SUITE_P(places,
                          OctreeRecordInPlace,
                          testing::Values(Case{kit::Place::indoor, 0.15},
                                          Case{kit::Place::indoor, 0.30},
+                                         Case{kit::Place::indoor, 0.80},
                                          Case{kit::Place::outdoor, 0.15},
-                                         Case{kit::Place::outdoor, 0.30}),
+                                         Case{kit::Place::outdoor, 0.30},
+                                         Case{kit::Place::outdoor, 0.80}),
                          [](const auto& param) {
                            const std::string place =
                                param.param.place == kit::Place::indoor ? "indoor" : "outdoor";
@@ -107,6 +109,28 @@ TEST(OctreeRecord, frees_whole_blocks_as_stock_frees_their_cells_one_by_one) {
     ASSERT_EQ(bytes(stock), bytes(ours)) << "round " << round;
   }
   EXPECT_GT(ours.size(), 100U);
+}
+
+TEST(OctreeRecord, follows_rays_along_axes_through_corners_and_inside_one_cell_as_stock_does) {
+  octomap::OcTree stock{0.15};
+  octomap::OcTree ours{0.15};
+  RayScan exact{0.15, RayScan::Match::stock};
+  OctreeRecord record;
+  Scan scan;
+  scan.range_m = 3.0;
+  for (const float x : {-4.0F, -1.2F, -0.3F, -0.01F, 0.0F, 0.01F, 0.3F, 1.2F, 4.0F}) {
+    for (const float y : {-1.2F, 0.0F, 0.15F, 1.2F}) {
+      for (const float z : {-1.2F, 0.0F, 1.2F, 0.6F}) {
+        scan.hits_W.emplace_back(x, y, z);
+      }
+    }
+  }
+  for (const float start : {0.0F, 0.075F, 0.15F, 0.6F}) {
+    scan.origin_W = {start, start, start};
+    stock.insertPointCloud(kit::points_of(scan), scan.origin_W, scan.range_m);
+    record.write(exact.compute(scan).bricks, ours);
+    ASSERT_EQ(bytes(stock), bytes(ours)) << "from " << start;
+  }
 }
 
 TEST(OctreeRecord, starts_a_tree_from_any_single_cell) {

@@ -122,7 +122,7 @@ TEST_P(Rrt, says_why_there_is_no_plan) {
 
 INSTANTIATE_TEST_SUITE_P(Planners,
                          Rrt,
-                         testing::Values("rrt_connect", "rrt_star"),
+                         testing::Values("rrt", "rrt_connect", "rrt_star", "prm", "bit_star"),
                          [](const auto& one) { return one.param; });
 
 // A .71 m body through .75 m doors: ± 2 cm.

@@ -76,6 +76,10 @@ struct PolicyCandidate {
     seen.computer_power = Watts{draw.uniform(2.0, 15.0)};
     seen.rotor_power = Watts{draw.uniform(150.0, 600.0)};
     seen.battery_percent = draw.uniform(0.0, 100.0);
+    seen.max_deceleration_m_s2 = draw.uniform(1.0, 8.0);
+    seen.narrowest_gap_m = draw.uniform(0.0, 24.0);
+    seen.gap_distance_m = draw.uniform(0.0, 24.0);
+    seen.mean_gap_m = draw.uniform(seen.narrowest_gap_m, 24.0);
   }
   return all;
 }
@@ -93,6 +97,8 @@ struct PolicyCandidate {
     seen.distance_to_goal_m = seen.tracking_error_m = seen.map_resolution_m = x;
     seen.busy_cores = seen.busiest_core_load = seen.battery_percent = x;
     seen.density_ahead = seen.speed_limit_m_s = x;
+    seen.max_deceleration_m_s2 = x;
+    seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = x;
     seen.map_revision = all.size();
     seen.frequency = Hertz{x};
     seen.computer_power = seen.rotor_power = Watts{x};

@@ -47,6 +47,25 @@ TEST(Density, does_not_flutter_between_its_two_thresholds) {
   EXPECT_EQ(0.80, resolution_m(*density.policy, 40.0, 0.049));
 }
 
+TEST(Density, goes_with_a_range_of_its_own_at_each_level_when_it_is_given_one) {
+  Given given = two_levels;
+  given["coarse_range_m"] = 20.0;
+  const auto density = start_policy("density", given);
+  ASSERT_TRUE(density.status.ok());
+  flyball::Observation seen;
+  const auto range_m = [&](double obstacles) {
+    seen.now += std::chrono::seconds{10};
+    seen.obstacle_density = obstacles;
+    const auto wish = density.policy->decide(seen);
+    EXPECT_EQ(2U, wish.size());
+    EXPECT_EQ("map.range_m", wish.begin()[1].knob);
+    return wish.begin()[1].value;
+  };
+  EXPECT_EQ(20.0, range_m(0.0));
+  EXPECT_EQ(7.0, range_m(0.2)) << "the scenario's";
+  EXPECT_EQ(20.0, range_m(0.0));
+}
+
 TEST(Density, stays_fine_for_its_minimum_time) {
   const auto density = start_policy("density", two_levels);
   EXPECT_EQ(0.15, resolution_m(*density.policy, 10.0, 0.2));

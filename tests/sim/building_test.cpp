@@ -91,6 +91,26 @@ TEST(Building, has_a_door_in_each_wall_between_rooms_and_one_entrance) {
   }
 }
 
+TEST(Building, draws_the_widths_of_its_doors_and_has_an_exit_where_that_is_asked_for) {
+  RandomStream random{4, "building_test"};
+  BuildingPlan plan = plan_at(300.0);
+  plan.most_door_width_m = 1.6;
+  plan.has_exit = true;
+  const Building building = make_building(plan, random);
+  ASSERT_EQ(building.doors.size(), 19U);
+  int exits = 0;
+  int wide = 0;
+  for (const Doorway& door : building.doors) {
+    const int along = door.wall_along_y ? 1 : 0;
+    const double width_m = door.opening_W.max[along] - door.opening_W.min[along];
+    EXPECT_TRUE(width_m >= 0.82 - 1e-9 && width_m <= 1.6);
+    wide += width_m > 1.21 ? 1 : 0;
+    exits += door.wall_along_y && door.opening_W.max.x() > 335.0 ? 1 : 0;
+  }
+  EXPECT_EQ(exits, 1);
+  EXPECT_TRUE(wide > 3 && wide < 16);
+}
+
 TEST(Building, puts_its_walls_faces_in_the_middle_of_voxels) {
   RandomStream random{2, "building_test"};
   const Building building = make_building(plan_at(300.0), random);

@@ -152,8 +152,9 @@ TEST(JetsonTx2, prices_the_recorded_work_near_the_papers_kernel_times) {
 
 TEST(JetsonTx2, knows_the_price_of_every_kernel_of_a_mission) {
   const ModeledPlatform platform{tx2()};
-  for (const char* kernel : {"depth_to_points", "octomap", "swept_cylinder", "rrt_connect",
-                             "rrt_star", "minimum_snap", "visual_slam", "localizer", "track"}) {
+  for (const char* kernel : {"depth_to_points", "octomap", "swept_cylinder", "rrt", "rrt_connect",
+                             "rrt_star", "prm", "bit_star", "lawnmower", "minimum_snap",
+                             "minimum_jerk", "visual_slam", "localizer", "track"}) {
     EXPECT_TRUE(platform.knows(kernel)) << kernel;
   }
 }

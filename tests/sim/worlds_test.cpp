@@ -50,7 +50,10 @@ TEST_P(SeededWorlds, leave_room_to_take_off_and_land) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SeededWorlds, testing::Values("forest", "outdoor_to_indoor"));
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    SeededWorlds,
+    testing::Values("farm", "forest", "outdoor_to_indoor", "congestion", "mixed", "office"));
 
 TEST(Empty, has_a_goal_at_the_distance_that_was_asked_for) {
   const auto world = made_world("empty", 1, {{"goal_distance_m", 70.0}});
@@ -76,6 +79,55 @@ TEST(Forest, says_so_when_the_trunks_do_not_fit) {
   ASSERT_FALSE(world);
   EXPECT_EQ(world.error().code, ErrorCode::invalid_input);
   EXPECT_NE(world.error().message.find("min_gap_m"), std::string::npos);
+}
+
+TEST(Forest, has_walkers_who_meet_no_trunk_and_leaves_its_trunks_as_they_were) {
+  const auto empty = made_world("forest", 4);
+  const auto world = made_world("forest", 4, {{"walkers", 5.0}});
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->movers.size(), 5U);
+  EXPECT_EQ(corners(*empty), corners(*world));
+  const Clearance clearance{*world};
+  for (const Mover& walker : world->movers) {
+    for (int t_s = 0; t_s < 40; ++t_s) {
+      const Aabb box = box_at(walker, MissionTime{std::chrono::seconds{t_s}});
+      const Vec3 middle = 0.5 * (box.min + box.max);
+      EXPECT_GT(clearance.distance_m(middle, {0.36, 0.8}, 1.0, true), 0.0);
+    }
+  }
+}
+
+TEST(Farm, has_nothing_above_the_height_that_it_names_and_a_yard_that_is_open_to_the_sky) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto world = made_world("farm", seed, {{"trees", 200.0}, {"tree_height_m", 12.0}});
+    ASSERT_TRUE(world) << world.error().message;
+    ASSERT_TRUE(world->open_above_m);
+    for (const Vec3& corner : corners(*world)) {
+      EXPECT_LE(corner.z(), *world->open_above_m);
+    }
+    for (const Pillar& trunk : world->pillars) {
+      EXPECT_LE(trunk.foot_W.z() + trunk.height_m, *world->open_above_m);
+    }
+    const Clearance clearance{*world};
+    EXPECT_GE(clearance.distance_m(world->start_W + Vec3{0.0, 0.0, 10.0}, {1.0, 10.0}, 10.0, true),
+              4.0);
+  }
+}
+
+TEST(Farm, has_its_fields_in_the_middle_and_a_gate_in_each_fence) {
+  const auto world = made_world(
+      "farm", 1, {{"length_m", 80.0}, {"width_m", 60.0}, {"fields", 3.0}, {"trees", 0.0}});
+  ASSERT_TRUE(world) << world.error().message;
+  const Vec3 centre = 0.5 * (world->bounds_W.min + world->bounds_W.max);
+  EXPECT_TRUE(centre.head<2>().isApprox(Eigen::Vector2d{40.0, 30.0}));
+  for (const double fence_y_m : {20.0, 40.0}) {
+    double fence_m = 0.0;
+    for (const Aabb& box : world->boxes) {
+      fence_m +=
+          box.min.y() < fence_y_m && box.max.y() > fence_y_m ? box.max.x() - box.min.x() : 0.0;
+    }
+    EXPECT_NEAR(fence_m, 76.0, 1e-9) << fence_y_m;  // 80 m less a gate of 4.
+  }
 }
 
 TEST(OctomapFile, says_what_is_wrong_with_a_file) {

@@ -59,6 +59,7 @@ class BrickMap {
   explicit BrickMap(double finest_m, Simd simd = widest_simd());
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
+  [[nodiscard]] const InnerLoops& loops() const { return *loops_; }
   /// Makes room, so that mapping so many more chunks allocates nothing.
   void reserve(std::size_t chunks);
   void apply(const std::vector<BrickMasks>& changes);

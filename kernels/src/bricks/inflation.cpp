@@ -84,7 +84,7 @@ void Inflation::grow(const Aabb& box_W, const Cylinder& body, InflatedWindow& wi
     for (int across = reach.across(); across >= 0; --across) {  // wider and wider
       for (const int to = reach.half_width[static_cast<std::size_t>(across)]; width < to;) {
         const int more = std::min(to - width, 2 * width + 1);
-        widen(static_cast<std::size_t>(more));
+        widen(static_cast<unsigned>(more));
         width += more;
       }
       join_rows(static_cast<std::size_t>(across), plane, window);
@@ -145,28 +145,20 @@ void Inflation::join_planes(std::size_t plane, int up) {
   const std::size_t middle = plane + 4 * static_cast<std::size_t>(margin_.z);
   std::copy_n(seen_.column(middle, 0), size, plane_.bits.data());
   for (std::size_t away = 1; away <= static_cast<std::size_t>(up); ++away) {
-    const std::uint64_t* above = seen_.column(middle + away, 0);
-    const std::uint64_t* below = seen_.column(middle - away, 0);
-    for (std::size_t i = 0; i < size; ++i) {
-      plane_.bits[i] |= above[i] | below[i];
-    }
+    source_.map.loops().join_words(plane_.bits.data(), seen_.column(middle + away, 0),
+                                   seen_.column(middle - away, 0), size);
   }
 }
 
 /// @param cells  1 to 63, to either side.
-void Inflation::widen(std::size_t cells) {
+void Inflation::widen(unsigned cells) {
   std::swap(plane_.bits, before_.bits);
-  const std::size_t rest = 64 - cells;
   for (std::size_t word = 0; word < plane_.words; ++word) {
-    std::uint64_t* out = plane_.column(0, word);
     const std::uint64_t* at = before_.column(0, word);
     // The outermost words are margins: what would come from beyond them is too far to be reached.
     const std::uint64_t* left = word > 0 ? before_.column(0, word - 1) : at;
     const std::uint64_t* right = word + 1 < plane_.words ? before_.column(0, word + 1) : at;
-    for (std::size_t row = 0; row < plane_.rows; ++row) {
-      out[row] =
-          at[row] | at[row] << cells | left[row] >> rest | at[row] >> cells | right[row] << rest;
-    }
+    source_.map.loops().widen_words({at, left, right, plane_.rows}, cells, plane_.column(0, word));
   }
 }
 
@@ -178,9 +170,7 @@ void Inflation::join_rows(std::size_t across, std::size_t plane, InflatedWindow&
   for (std::size_t word = 0; word < words; ++word) {
     const std::uint64_t* from = plane_.column(0, word + 1) + middle;
     std::uint64_t* out = window.words() + (plane * words + word) * rows;
-    for (std::size_t row = 0; row < rows; ++row) {
-      out[row] |= from[row + across] | *(from + row - across);
-    }
+    source_.map.loops().join_words(out, from + across, from - across, rows);
   }
 }
 

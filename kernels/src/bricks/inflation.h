@@ -60,7 +60,7 @@ class Inflation {
   void read_sixteen(const CellKey& first, const CellKey& at);
   [[nodiscard]] std::uint64_t obstructed(const CellKey& brick) const;
   void join_planes(std::size_t plane, int up);
-  void widen(std::size_t cells);
+  void widen(unsigned cells);
   void join_rows(std::size_t across, std::size_t plane, InflatedWindow& window);
 
   Source source_;

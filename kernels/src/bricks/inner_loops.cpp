@@ -126,13 +126,16 @@ Simd widest_simd() {
 const InnerLoops& inner_loops(Simd simd) {
   static constexpr InnerLoops of_portable{
       portable::update_brick, portable::locate_hits,    portable::cut_rays,   portable::aim_rays,
-      portable::walk_rays,    portable::project_points, portable::halve_rows, portable::seen_cells};
+      portable::walk_rays,    portable::project_points, portable::halve_rows, portable::join_words,
+      portable::widen_words,  portable::seen_cells};
   static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::locate_hits, avx2::cut_rays,
                                       avx2::aim_rays,     avx2::walk_rays,   avx2::project_points,
-                                      avx2::halve_rows,   avx2::seen_cells};
+                                      avx2::halve_rows,   avx2::join_words,  avx2::widen_words,
+                                      avx2::seen_cells};
   static constexpr InnerLoops of_avx512{
       avx512::update_brick, avx512::locate_hits,    avx512::cut_rays,   avx512::aim_rays,
-      avx512::walk_rays,    avx512::project_points, avx512::halve_rows, avx512::seen_cells};
+      avx512::walk_rays,    avx512::project_points, avx512::halve_rows, avx512::join_words,
+      avx512::widen_words,  avx512::seen_cells};
   return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
 }
 

@@ -121,6 +121,14 @@ struct alignas(64) CellProbe {
   const float* depth_m;
 };
 
+/// Words, those that stand before them and those that stand after them.
+struct WordColumns {
+  const std::uint64_t* words;
+  const std::uint64_t* before;
+  const std::uint64_t* after;
+  std::size_t count;
+};
+
 struct InnerLoops {
   /// Frees and hits the cells of two masks that have no bit in common. Returns all its cells.
   CellMasks (*update_brick)(Brick& brick, std::uint64_t free, std::uint64_t hit);
@@ -145,6 +153,13 @@ struct InnerLoops {
                          Lanes<float>& depths_m);
   /// Least and greatest depths of 2 x 2 blocks: `blocks` of them, each from two texels of a row.
   void (*halve_rows)(const DepthRows& rows, std::size_t blocks, float* least, float* most);
+  /// Adds the bits of two rows of words to a third.
+  void (*join_words)(std::uint64_t* out,
+                     const std::uint64_t* a,
+                     const std::uint64_t* b,
+                     std::size_t count);
+  /// Spreads the bits of words by `cells` (1 to 63) to either side, also out of the neighbours.
+  void (*widen_words)(const WordColumns& from, unsigned cells, std::uint64_t* out);
   /// Which cells of the brick around `centre_C` are in view, in range, and nearer by half a cell
   /// than the depth of the pixel in which their centre is.
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);

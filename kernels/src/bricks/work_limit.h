@@ -4,7 +4,7 @@
 /// @file
 /// A limit on the work of one scan, kept by looking less far: what is near is always mapped.
 
-#include "../scan_update.h"
+#include "scan.h"
 
 namespace flyball {
 

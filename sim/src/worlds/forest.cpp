@@ -14,6 +14,7 @@ namespace {
 
 using flyball::Pillar;
 using flyball::Vec3;
+using flyball::World;
 
 constexpr double trunk_height_m = 8.0;  // Above the flight ceiling: nothing is overflown.
 
@@ -25,7 +26,9 @@ class Forest final : public flyball::WorldGenerator {
             {"density_1_m2", 0.02, 0.0, 0.08, "Trunks per square metre."},
             {"min_gap_m", 2.2, 0.0, 10.0, "Least distance between the surfaces of two trunks."},
             {"trunk_radius_m", 0.25, 0.05, 1.0, "Mean; each trunk's is within 40 % of it."},
-            {"clear_radius_m", 3.0, 1.0, 20.0, "Free of trunks around start and goal."}};
+            {"clear_radius_m", 3.0, 1.0, 20.0, "Free of trunks around start and goal."},
+            {"walkers", 0.0, 0.0, 100.0, "Who go to and fro across the way, between the trunks."},
+            {"walker_speed_m_s", 0.8, 0.0, 3.0, "Of each of them."}};
   }
 
   [[nodiscard]] flyball::Result<flyball::World> make(const flyball::Parameters& given,
@@ -43,10 +46,42 @@ class Forest final : public flyball::WorldGenerator {
               " leaves no room for min_gap_m = " + std::to_string(given.number("min_gap_m")) +
               "; lower one of them"};
     }
+    add_walkers(world, given, seed);
     return world;
   }
 
  private:
+  // A person's size. They go where no trunk stands in their way, so that nobody walks through one.
+  static void add_walkers(World& world, const flyball::Parameters& given, std::uint64_t seed) {
+    flyball::RandomStream random{seed, "world/forest/walkers"};
+    const double wanted = given.number("walkers");
+    const double half_m = 0.5 * given.number("width_m");
+    const double shoulder_m = 0.25;
+    for (int tries = 0; tries < 2000 && static_cast<double>(world.movers.size()) < wanted;
+         ++tries) {
+      const double x_m = random.uniform(8.0, world.goal_W.x() - 8.0);
+      const double y_m = random.uniform(-0.5, 0.5) * half_m;
+      flyball::Mover walker;
+      walker.size_m = {2.0 * shoulder_m, 2.0 * shoulder_m, 1.8};
+      walker.speed_m_s = given.number("walker_speed_m_s");
+      walker.from_W = {x_m, std::max(-half_m, y_m - 6.0), 0.0};
+      walker.to_W = {x_m, std::min(half_m, y_m + 6.0), 0.0};
+      walker.ahead_m = random.uniform(0.0, 20.0);
+      if (is_open(world, walker, 2.0 * shoulder_m)) {
+        world.movers.push_back(walker);
+      }
+    }
+  }
+
+  static bool is_open(const World& world, const flyball::Mover& walker, double room_m) {
+    return std::none_of(world.pillars.begin(), world.pillars.end(), [&](const Pillar& trunk) {
+      const double along_m = trunk.foot_W.y() - walker.from_W.y();
+      const double past_m =
+          std::max({0.0, -along_m, along_m - (walker.to_W - walker.from_W).norm()});
+      return std::hypot(trunk.foot_W.x() - walker.from_W.x(), past_m) < trunk.radius_m + room_m;
+    });
+  }
+
   struct Spacing {
     double clear_m;
     double gap_m;

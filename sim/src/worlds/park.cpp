@@ -44,6 +44,7 @@ class Park final : public flyball::WorldGenerator {
     world.bounds_W = {{-half_m, -half_m, 0.9}, {half_m, half_m, 12.0}};
     world.goal_W = {person_ahead_m, 0.0, 0.0};
     world.cruise_height_m = 4.5;
+    world.open_above_m = 3.2;
     // Beside the start: the body would touch even 5 mm of it.
     add_box(world, {{-half_m, 3.0, 0.0}, {half_m, 5.4, 0.005}}, Material::gravel);
     flyball::RandomStream random{seed, "world/park"};

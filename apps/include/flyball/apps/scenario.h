@@ -4,6 +4,7 @@
 /// @file
 /// One mission, completely described: what `flyball run` reads, and what each record begins with.
 
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
@@ -44,6 +45,7 @@ struct VehicleSettings {
       0.70};  ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
   double wind_east_m_s{};
   double wind_north_m_s{};
+  double gust_wind_m_s{};  ///< Wind at 20 ft whose gusts (Dryden, MIL-F-8785C) blow; 0: none.
 };
 
 struct KernelSettings {
@@ -58,6 +60,8 @@ struct KernelSettings {
   std::string detector{"hog"};
   std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
   std::string tracker{"kcf"};
+  std::string coverage{"lawnmower"};
+  std::string explorer{"nbvp"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -72,6 +76,18 @@ struct PlannerSettings {
   /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
   /// the newest map, is worth more.
   int budget{4000};
+  /// A farther goal is approached through places on the way; 0: it is planned to at once.
+  double horizon_m{};
+};
+
+/// What the workload `scanning` surveys: a rectangle in the middle of the world's bounds.
+struct ScanSettings {
+  double length_m{100.0};  ///< Eastwards, along the lanes. MAVBench: 100 x 100 m, 5 lanes.
+  double width_m{100.0};   ///< Northwards, across them.
+  int lanes{5};
+  double height_m{15.0};          ///< Of flight, above the ground.
+  double picture_rate_hz{2.0};    ///< Of the camera that looks down.
+  double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
 };
 
 struct DetectorSettings {
@@ -114,6 +130,8 @@ struct Scenario {
   PlannerSettings planner{};
   DetectorSettings detector{};
   PhotographySettings photography{};
+  ScanSettings scan{};
+  ExploreSettings explore{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

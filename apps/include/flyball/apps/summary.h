@@ -57,6 +57,11 @@ struct Summary {
   double latency_p50_s{};  ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
+  std::uint64_t maps{};            ///< Published; each was expected within a bound.
+  std::uint64_t bound_overruns{};  ///< Maps that came later than bounded.
+  double budget_use_p50{};         ///< Latency over its bound.
+  double decision_host_us_p50{};   ///< One decision of the governor, on the host.
+  double decision_host_us_p99{};
   double min_clearance_m{};
   std::map<std::string, KernelStatistics> kernels{};
   /// The workload's own quality of flight; the unit is the name's ending.

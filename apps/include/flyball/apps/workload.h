@@ -6,6 +6,7 @@
 
 #include "flyball/apps/mission_frame.h"
 #include "flyball/runtime/graph.h"
+#include "flyball/runtime/result.h"
 
 #include <map>
 #include <memory>
@@ -14,7 +15,9 @@
 
 namespace flyball {
 
+struct Scenario;
 class MissionContext;  // see apps/src/mission_context.h, navigator.h
+struct MissionBrief;
 struct VehicleTopics;
 class Navigator;
 
@@ -25,6 +28,13 @@ class Workload {
   Workload& operator=(const Workload&) = delete;
   virtual ~Workload() = default;
 
+  /// Whether it can be flown at all.
+  ///
+  /// @error `invalid_input`: one sentence with the key, its value and the way out.
+  [[nodiscard]] virtual Status check([[maybe_unused]] const Scenario& scenario,
+                                     [[maybe_unused]] const MissionBrief& brief) const {
+    return Done{};
+  }
   /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
   /// the workload outlives the graph's jobs.
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;

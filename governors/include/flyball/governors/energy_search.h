@@ -38,7 +38,7 @@ struct EnergySearchSettings {
 };
 
 /// A resolution that the map may have, and what is known of its cost before the first flight.
-struct MapLevel {
+struct SearchLevel {
   double resolution_m{};
   double latency_s{};    ///< From capture to the published map at `range_m` and `clock_hz`.
   double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
@@ -50,7 +50,9 @@ struct MapLevel {
 /// What limits speed besides latency.
 struct Surroundings {
   double speed_limit_m_s{};
-  double most_range_m{1e9};  ///< Of the map; the shortest range is always allowed.
+  double least_range_m{};      ///< Of the map; the longest that a level allows counts as enough.
+  double most_range_m{1e9};    ///< Of the map; the shortest range is always allowed.
+  double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   double sight_m{};        ///< Beyond this the world, not the range, ends what is known to be free.
   double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
@@ -69,15 +71,15 @@ struct EnergyEstimate {
 ///
 ///     J = (P_rotor(v) + P_computer) / v + switching / horizon
 ///
-/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that differ by
-/// less than a thousandth, the one that responds sooner. Latency and rotor power are learned from
-/// observations. Nothing allocates after `make`.
+/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that take
+/// less than a thousandth more than the best, the one that responds soonest. Latency and rotor
+/// power are learned from observations. Nothing allocates after `make`.
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
   /// @error `invalid_input` when a knob does not exist or cannot be one of the values.
   static Result<EnergySearch> make(const EnergySearchSettings& settings,
-                                   const std::vector<MapLevel>& levels,
+                                   const std::vector<SearchLevel>& levels,
                                    const std::vector<double>& ranges_m,
                                    const KnobSettings& knobs);
 
@@ -93,13 +95,17 @@ class EnergySearch {
 
  private:
   EnergySearch(const EnergySearchSettings& settings,
-               const std::vector<MapLevel>& levels,
+               const std::vector<SearchLevel>& levels,
                OperatingPoints points);
   [[nodiscard]] MapSetting setting(std::size_t point) const;
   [[nodiscard]] std::size_t level(double resolution_m) const;
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
   void learn_latency(const Observation& seen);
+  [[nodiscard]] bool is_allowed(const MapSetting& candidate,
+                                const Surroundings& around,
+                                double least_range_m) const;
+  [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m);
 
   EnergySearchSettings settings_;
   OperatingPoints points_;
@@ -107,6 +113,7 @@ class EnergySearch {
   LatencyBound bound_;
   RotorPower rotors_{};
   ComputerPower computer_{};
+  std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
   MapSetting in_force_{};
   MissionTime in_force_since_{};
   std::uint64_t revision_{};

@@ -6,6 +6,9 @@
 ///     policy = "density"
 ///     [parameters]
 ///     fine_m = 0.15
+/// or two presets that fly together, one for the application and one for the clock:
+///     application = "two_level"
+///     clock = "schedutil_10ms"
 
 #include "flyball/runtime/parameters.h"
 
@@ -15,9 +18,13 @@
 namespace flyball {
 
 struct Preset {
-  std::string policy;
+  std::string policy;  ///< Empty in a combination.
   std::map<std::string, ParameterValue> parameters{};
   std::string description{};
+  std::string application{};  ///< A preset or policy; empty but in a combination.
+  std::string clock{};        ///< Another one, whose clock is taken.
+
+  [[nodiscard]] bool is_combination() const { return !application.empty(); }
 };
 
 /// @error `not_found`, `invalid_input` with the file's name and line.

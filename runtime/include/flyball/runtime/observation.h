@@ -41,6 +41,11 @@ struct Observation {
   Watts computer_power{};
   Watts rotor_power{};
   double battery_percent{};
+  double max_deceleration_m_s2{};  ///< What the mission's safe speed counts on; a in eq. 2.
+  double narrowest_gap_m{};  ///< Least width of the way on the next 24 m towards the goal: the
+                             ///< widest opening in the map there, at most 24.
+  double gap_distance_m{};   ///< How far ahead that is.
+  double mean_gap_m{};       ///< Mean of the widest openings over the same stretch.
 };
 
 }  // namespace flyball

@@ -7,9 +7,11 @@
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/movers.h"
 #include "flyball/sim/person.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,10 +43,15 @@ struct World {
   std::vector<Person> people{};
   Material ground_material{Material::grass};
   std::vector<Material> box_materials{};  ///< By index; plaster for boxes beyond its end.
+  std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
   double cruise_height_m{1.5};  ///< Above ground.
+  /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
+  /// that is not so.
+  std::optional<double> open_above_m{};
+  Aabb volume_W{};              ///< To be explored; empty where there is nothing to explore.
 };
 
 /// Makes a world from a seed and parameters.

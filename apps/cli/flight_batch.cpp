@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flight_batch.h"
+
+#include "children.h"
+#include <algorithm>
+#include <set>
+
+namespace flyball {
+namespace {
+
+/// What a process that left no record said, or how it ended.
+Error failure_of(const PlannedFlight& flight, const ChildEnd& end) {
+  const bool by_signal = end.exit_code > 128;
+  std::string why = by_signal ? "ended by signal " + std::to_string(end.exit_code - 128)
+                              : "no record, exit code " + std::to_string(end.exit_code);
+  if (!end.errors.empty()) {
+    why += "; " + end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
+  }
+  return {ErrorCode::failed, name_of(flight) + ": " + why};
+}
+
+/// A mission without record. What is wrong with the input is wrong for many: it is said once.
+void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown) {
+  Error error = failure_of(flight, end);
+  if (end.exit_code == exit_bad_input) {
+    const std::string program =
+        "flyball: ";  // Each line begins with it, and `refuse` adds it again.
+    const std::size_t last = end.errors.find_last_not_of('\n');
+    error.message = end.errors.substr(std::min(program.size(), end.errors.size()),
+                                      last == std::string::npos ? 0 : last + 1 - program.size());
+  }
+  const auto is_same = [&error](const Error& other) { return other.message == error.message; };
+  if (std::none_of(flown.errors.begin(), flown.errors.end(), is_same)) {
+    flown.errors.push_back(std::move(error));
+  }
+  flown.exit_code = end.exit_code == exit_bad_input
+                        ? exit_bad_input
+                        : std::max(flown.exit_code, exit_mission_failed);
+}
+
+}  // namespace
+
+std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions& options,
+                                                            const std::string& policy,
+                                                            std::uint64_t seed,
+                                                            const std::string& folder) {
+  std::vector<std::string> settings = options.settings;
+  settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
+  auto loaded = load_scenario(options.scenario, settings);
+  if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+    return std::move(*errors);
+  }
+  PlannedFlight flight;
+  flight.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
+  flight.folder = run_folder(folder.empty() ? comparison_folder(options, flight.scenario) : folder,
+                             policy, seed);
+  flight.arguments = {
+      "run",        options.scenario,     "--policy", flight.scenario.governor.policy,
+      "--seed",     std::to_string(seed), "--json",   "--out",
+      flight.folder};
+  for (const std::string& setting : options.settings) {
+    flight.arguments.insert(flight.arguments.end(), {"--set", setting});
+  }
+  return flight;
+}
+
+std::string name_of(const PlannedFlight& flight) {
+  return flight.scenario.governor.policy + " seed " + std::to_string(flight.scenario.seed);
+}
+
+Flown fly_all(const std::vector<const PlannedFlight*>& flights,
+              std::size_t jobs,
+              const std::function<bool(std::size_t)>& took) {
+  std::vector<std::vector<std::string>> arguments;
+  arguments.reserve(flights.size());
+  for (const PlannedFlight* flight : flights) {
+    arguments.push_back(flight->arguments);
+  }
+  Flown flown;
+  flown.interrupted = run_children(arguments, jobs, [&](const ChildEnd& end) {
+    if (!took(end.index)) {
+      add_failure(*flights[end.index], end, flown);
+    }
+  });
+  return flown;
+}
+
+Status check_distinct(const std::vector<std::string>& policies) {
+  std::set<std::string> folders;
+  for (const std::string& policy : policies) {
+    if (!folders.insert(run_folder("", policy, 0)).second) {
+      return Error{ErrorCode::invalid_input,
+                   "--policies has two that are called \"" + policy + "\"; name each once"};
+    }
+  }
+  return Done{};
+}
+
+}  // namespace flyball

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Many missions, each a process of its own: planned before the first one flies, flown a few at a
+/// time, and what went wrong said once.
+
+#include "flyball/apps/scenario.h"
+
+#include "console.h"
+#include "flight_options.h"
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flyball {
+
+/// One mission that is to fly.
+struct PlannedFlight {
+  Scenario scenario{};
+  std::string folder{};  ///< Its record goes there.
+  std::vector<std::string> arguments{};
+};
+
+/// Reads and checks the scenario with this policy and seed; nothing flies yet.
+[[nodiscard]] std::variant<PlannedFlight, std::vector<Error>> plan_flight(
+    const FlightOptions& options,
+    const std::string& policy,
+    std::uint64_t seed,
+    const std::string& folder);
+
+/// `two_level seed 7`
+[[nodiscard]] std::string name_of(const PlannedFlight& flight);
+
+struct Flown {
+  bool interrupted{};
+  int exit_code{exit_success};
+  std::vector<Error> errors{};  ///< Of missions that left no record.
+};
+
+/// @param took  Called for each one that has ended; false when it left no record.
+[[nodiscard]] Flown fly_all(const std::vector<const PlannedFlight*>& flights,
+                            std::size_t jobs,
+                            const std::function<bool(std::size_t)>& took);
+
+/// Two policies of one name (files in different folders) would write over each other's flights.
+[[nodiscard]] Status check_distinct(const std::vector<std::string>& policies);
+
+}  // namespace flyball

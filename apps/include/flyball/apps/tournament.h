@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Policies against each other over several worlds: who is better, by how much, and how sure that
+/// is.
+
+#include "flyball/apps/comparison.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// A policy less the first one, seed by seed, over the seeds where both succeed. Negative is
+/// better.
+struct PairedDifference {
+  std::string policy;
+  int pairs{};
+  int wins{};  ///< Pairs in which it took less energy.
+  std::optional<MedianInterval> time_s{};
+  std::optional<MedianInterval> energy_j{};
+  std::optional<MedianInterval> battery_percent{};
+  std::optional<MedianInterval> energy_percent{};  ///< Of the first one's energy.
+};
+
+/// How a policy decided; medians over its succeeded flights.
+struct DecisionFigures {
+  std::string policy;
+  std::optional<MedianInterval> overrun_percent{};  ///< Maps later than their bound.
+  std::optional<MedianInterval> budget_use{};       ///< Latency over its bound.
+  std::optional<MedianInterval> decision_us{};      ///< 99th percentile, on the host.
+};
+
+struct WorldResult {
+  Comparison comparison{};
+  std::vector<PairedDifference> differences{};  ///< Without the first policy.
+  std::vector<DecisionFigures> decisions{};     ///< In the order of the comparison's rows.
+};
+
+/// @param flights  World by world, as `compare_flights` wants them; a world is a scenario's name.
+[[nodiscard]] std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights);
+
+/// An array with one object for each world: that of `compare`, and `differences` beside `rows`.
+[[nodiscard]] std::string to_json(const std::vector<WorldResult>& worlds);
+[[nodiscard]] std::string to_text(const std::vector<WorldResult>& worlds);
+/// One file without network: for each world its tables, one plot per quantity and energy over time.
+[[nodiscard]] std::string tournament_page(const std::string& title,
+                                          const std::vector<WorldResult>& worlds);
+
+}  // namespace flyball

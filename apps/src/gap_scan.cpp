@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gap_scan.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+constexpr double line_spacing_m = 1.0;
+// A wall that is thinner than the spacing is still as near as this to one of two lines.
+constexpr double near_m = 0.5 * line_spacing_m;
+constexpr double least_step_m = 0.25;
+constexpr double sight_m = 3.0;  // A farther obstacle need not be found: the next step finds it.
+
+/// The widest opening on one line, by steps as long as the obstacles are far.
+double widest_m(const OccupancyView& map,
+                const Vec3& centre_W,
+                const Vec3& aside_W,
+                const GapScan& scan) {
+  double widest = 0.0;
+  double closest = 0.0;  // The largest distance where none reaches `near_m`.
+  double run_from = 0.0;
+  bool is_open = false;
+  for (double u = -scan.aside_m; u <= scan.aside_m;) {
+    const Vec3 p_W = centre_W + u * aside_W;
+    const bool inside = p_W.x() >= scan.bounds_W.min.x() && p_W.x() <= scan.bounds_W.max.x() &&
+                        p_W.y() >= scan.bounds_W.min.y() && p_W.y() <= scan.bounds_W.max.y();
+    const double clear_m = inside ? map.nearest_obstacle_m(p_W, sight_m, scan.half_band_m) : 0.0;
+    closest = std::max(closest, clear_m);
+    if (clear_m >= near_m) {
+      run_from = is_open ? run_from : u - clear_m;
+      widest = std::max(widest, u + clear_m - run_from);
+    }
+    is_open = clear_m >= near_m;
+    u += std::max(least_step_m, clear_m);
+  }
+  return widest > 0.0 ? std::min(widest, 2.0 * scan.aside_m) : 2.0 * closest;
+}
+
+}  // namespace
+
+GapsAhead gaps_ahead(const OccupancyView& map,
+                     const Vec3& from_W,
+                     const Vec3& towards_W,
+                     const GapScan& scan) {
+  Vec3 ahead_W = towards_W - from_W;
+  ahead_W.z() = 0.0;
+  const double distance_m = ahead_W.norm();
+  GapsAhead gaps{2.0 * scan.aside_m, scan.reach_m, 2.0 * scan.aside_m};
+  if (!(distance_m > 0.0)) {
+    return gaps;
+  }
+  ahead_W /= distance_m;
+  const Vec3 aside_W{-ahead_W.y(), ahead_W.x(), 0.0};
+  const double reach_m = std::min(scan.reach_m, distance_m);
+  double sum_m = 0.0;
+  int lines = 0;
+  for (double s = 0.0; s <= reach_m; s += line_spacing_m) {
+    const double width_m = widest_m(map, from_W + s * ahead_W, aside_W, scan);
+    if (width_m < gaps.narrowest_m) {
+      gaps.narrowest_m = width_m;
+      gaps.narrowest_at_m = s;
+    }
+    sum_m += width_m;
+    ++lines;
+  }
+  gaps.mean_m = sum_m / lines;
+  return gaps;
+}
+
+}  // namespace flyball

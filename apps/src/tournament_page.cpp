@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: tournament
+
+#include "flyball/apps/text_table.h"
+#include "flyball/apps/tournament.h"
+
+#include "dot_plot.h"
+
+namespace flyball {
+namespace {
+
+// The look of viewer/report.html.
+constexpr const char* page_head = R"(<!doctype html>
+<!-- SPDX-License-Identifier: BSD-3-Clause -->
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+  body { font: 14px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #22303c;
+         background: #f5f7f9; margin: 0 auto; padding: 28px 24px 40px; max-width: 1120px; }
+  h1 { font-size: 22px; font-weight: 600; } h2 { font-size: 18px; font-weight: 600; }
+  h3 { font-size: 14px; font-weight: 600; margin: 14px 0 2px; }
+  .panel { background: #fff; border: 1px solid #dfe5ea; border-radius: 8px; padding: 14px 18px;
+           margin: 0 0 16px; overflow-x: auto; }
+  .plots { display: flex; flex-wrap: wrap; gap: 18px 28px; }
+  svg text { font-size: 12px; fill: #22303c; }
+  table { border-collapse: collapse; white-space: nowrap; width: 100%; }
+  th, td { text-align: right; padding: 5px 10px; border-bottom: 1px solid #dfe5ea;
+           vertical-align: top; font-variant-numeric: tabular-nums; }
+  td small { display: block; color: #6b7a88; font-size: 12px; }
+  th { color: #6b7a88; font-weight: 500; }
+  th:first-child, td:first-child { text-align: left; padding-left: 0; }
+  .note, footer { color: #6b7a88; font-size: 12.5px; margin: 10px 0 0; }
+</style>
+)";
+
+std::optional<MedianInterval> scaled(const std::optional<MedianInterval>& value, double by) {
+  if (!value) {
+    return std::nullopt;
+  }
+  return MedianInterval{value->median * by, value->lo * by, value->hi * by};
+}
+
+std::string cell(const std::optional<MedianInterval>& value, double scale, int digits) {
+  if (!value) {
+    return "<td>-</td>";
+  }
+  const auto show = [&](double x) { return rounded(x * scale, digits); };
+  return "<td>" + show(value->median) + "<small>[" + show(value->lo) + ", " + show(value->hi) +
+         "]</small></td>";
+}
+
+std::string differences_html(const WorldResult& world) {
+  if (world.differences.empty()) {
+    return {};
+  }
+  std::string table =
+      "<h3>Less " + html_text(world.comparison.rows.front().policy) +
+      ", seed by seed</h3><table><tr><th>policy</th><th>pairs</th><th>less energy in</th><th>time "
+      "s</th><th>energy kJ</th><th>energy %</th><th>battery %</th></tr>\n";
+  for (const PairedDifference& d : world.differences) {
+    table += "<tr><td>" + html_text(d.policy) + "</td><td>" + std::to_string(d.pairs) +
+             "</td><td>" + std::to_string(d.wins) + "</td>" + cell(d.time_s, 1.0, 1) +
+             cell(d.energy_j, 1e-3, 1) + cell(d.energy_percent, 1.0, 1) +
+             cell(d.battery_percent, 1.0, 1) + "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+std::string decisions_html(const WorldResult& world) {
+  std::string table =
+      "<h3>Decisions</h3><table><tr><th>policy</th><th>maps later than bounded %</th><th>budget "
+      "use</th><th>99 % within us, on the host</th></tr>\n";
+  for (const DecisionFigures& d : world.decisions) {
+    table += "<tr><td>" + html_text(d.policy) + "</td>" + cell(d.overrun_percent, 1.0, 2) +
+             cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) + "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+/// A count is exact: its interval is the count itself.
+MedianInterval exactly(double value) {
+  return {value, value, value};
+}
+
+std::string plots_of(const WorldResult& world) {
+  const auto& rows = world.comparison.rows;
+  const auto plot = [&](const std::string& title, const auto& value_of) {
+    std::vector<PlottedValue> values;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      values.push_back({rows[i].policy, value_of(i)});
+    }
+    return dot_plot_svg(title, values);
+  };
+  return plot("mission time, s", [&](std::size_t i) { return rows[i].mission_time_s; }) +
+         plot("energy, kJ", [&](std::size_t i) { return scaled(rows[i].energy_total_j, 1e-3); }) +
+         plot("battery, %", [&](std::size_t i) { return rows[i].battery_used_percent; }) +
+         plot("maps later than bounded, %",
+              [&](std::size_t i) { return world.decisions[i].overrun_percent; }) +
+         plot("latency over its bound",
+              [&](std::size_t i) { return world.decisions[i].budget_use; }) +
+         plot("decision time on the host, 99 % within, us",
+              [&](std::size_t i) { return world.decisions[i].decision_us; }) +
+         plot("collisions",
+              [&](std::size_t i) {
+                return std::optional{exactly(static_cast<double>(rows[i].collisions))};
+              }) +
+         plot("flights that failed", [&](std::size_t i) {
+           return std::optional{exactly(static_cast<double>(rows[i].n - rows[i].succeeded))};
+         });
+}
+
+std::string pareto_of(const WorldResult& world) {
+  std::vector<PlottedPoint> points;
+  for (const ComparisonRow& row : world.comparison.rows) {
+    if (row.mission_time_s && row.energy_total_j) {
+      points.push_back({row.policy, *row.mission_time_s, *scaled(row.energy_total_j, 1e-3)});
+    }
+  }
+  return pareto_plot_svg("mission time, s", "energy, kJ", std::move(points));
+}
+
+std::string world_html(const WorldResult& world) {
+  return "<h2>" + html_text(world.comparison.scenario) + "</h2>\n<div class=\"panel\">" +
+         to_html(world.comparison) + differences_html(world) + decisions_html(world) +
+         "</div>\n<div class=\"panel\"><h3>Energy over time; dashed: what nothing beats in "
+         "both</h3>" +
+         pareto_of(world) + "</div>\n<div class=\"panel plots\">" + plots_of(world) + "</div>\n";
+}
+
+}  // namespace
+
+std::string tournament_page(const std::string& title, const std::vector<WorldResult>& worlds) {
+  std::string page = page_head + std::string{"<title>"} + html_text(title) +
+                     " - Flyball</title></head><body>\n<h1>" + html_text(title) + "</h1>\n";
+  for (const WorldResult& world : worlds) {
+    page += world_html(world);
+  }
+  return page +
+         "<footer>Medians with 95 % bootstrap intervals over succeeded flights. Flights are "
+         "simulated in closed loop on a modeled computer. That nothing is hit is promised as long "
+         "as obstacles stand still, the map is sound and the brake model holds.</footer>\n"
+         "</body></html>\n";
+}
+
+}  // namespace flyball

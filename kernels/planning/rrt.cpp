@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flyball-link: flyball_ompl
+//
+// RRT (LaValle 1998, technical report TR 98-11): one tree from the start, that now and then grows
+// straight towards the goal. The first path that is found is taken.
+
+#include "flyball/kernels/path_planner.h"
+#include "flyball/runtime/registry.h"
+
+#include "ompl_search.h"
+#include "staged_search.h"
+#include <algorithm>
+
+#include <ompl/geometric/planners/rrt/RRT.h>
+
+namespace {
+
+constexpr double range_m = 4.0;     // As rrt_connect.
+constexpr double goal_bias = 0.05;  // Share of the iterations that aim at the goal: OMPL's default.
+
+flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+  using Planner = ompl::geometric::RRT;
+  // An iteration that aims at the goal draws no sample, so the questions are counted: one for each.
+  int asked = 0;
+  return flyball::search_with_ompl<Planner>(
+      stage, checker,
+      [](Planner& planner) {
+        planner.setRange(range_m);
+        planner.setGoalBias(goal_bias);
+      },
+      [&](const Planner&, const flyball::PlanSampler&) { return asked++ >= stage.max_iterations; },
+      [&](const Planner&, const flyball::PlanSampler&) {
+        return std::min(asked, stage.max_iterations);
+      });
+}
+
+class Rrt final : public flyball::PathPlanner {
+ public:
+  flyball::Plan plan(const flyball::PlanRequest& request,
+                     const flyball::OccupancyView& map) override {
+    return flyball::staged_plan(request, map, search);
+  }
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(rrt) {
+  registry.add<flyball::PathPlanner>("rrt", [] { return std::make_unique<Rrt>(); });
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/tournament.h"
+
+#include "made_flights.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+Summary flight(const std::string& world, const std::string& policy, std::uint64_t seed, double kj) {
+  Summary summary = made_summary(policy, seed);
+  summary.scenario = world;
+  summary.energy_rotor_j = 1e3 * kj;
+  summary.energy_computer_j = 0.0;
+  summary.mission_time_s = 2.0 * kj;
+  return summary;
+}
+
+std::vector<Summary> two_worlds() {
+  std::vector<Summary> flights{flight("hills", "first", 1, 100), flight("hills", "first", 2, 200),
+                               flight("hills", "first", 3, 300), flight("hills", "other", 1, 80),
+                               flight("hills", "other", 2, 150), flight("hills", "other", 3, 330)};
+  flights[2].status = MissionStatus::failed;
+  flights[2].failure = MissionFailure::collision;
+  flights.push_back(flight("<plains>", "first", 1, 50));
+  return flights;
+}
+
+TEST(Tournament, pairs_flights_seed_by_seed_where_both_succeed) {
+  const std::vector<WorldResult> worlds = tournament_of(two_worlds());
+  ASSERT_EQ(worlds.size(), 2U);
+  ASSERT_EQ(worlds[0].differences.size(), 1U);
+  const PairedDifference& other = worlds[0].differences[0];
+  EXPECT_EQ(other.policy, "other");
+  EXPECT_EQ(other.pairs, 2) << "the third seed has no flight to compare with";
+  EXPECT_EQ(other.wins, 2);
+  EXPECT_DOUBLE_EQ(other.energy_j->median, -35e3);
+  EXPECT_DOUBLE_EQ(other.energy_percent->median, -22.5);
+  EXPECT_DOUBLE_EQ(other.time_s->median, -70.0);
+  EXPECT_TRUE(worlds[1].differences.empty());
+}
+
+TEST(Tournament, counts_what_came_later_than_bounded) {
+  const std::vector<WorldResult> worlds = tournament_of(two_worlds());
+  ASSERT_EQ(worlds[0].decisions.size(), 2U);
+  EXPECT_DOUBLE_EQ(worlds[0].decisions[0].overrun_percent->median, 100.0 * 3.0 / 55.0);
+  EXPECT_DOUBLE_EQ(worlds[0].decisions[0].budget_use->median, 0.66);
+  EXPECT_DOUBLE_EQ(worlds[0].decisions[0].decision_us->median, 2.75);
+}
+
+TEST(Tournament, prints_an_object_for_each_world_in_the_shape_of_a_comparison) {
+  const auto json = nlohmann::json::parse(to_json(tournament_of(two_worlds())));
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_EQ(json[0]["scenario"], "hills");
+  EXPECT_EQ(json[0]["rows"][0]["collisions"], 1);
+  EXPECT_EQ(json[0]["rows"][1]["energy_total_j"]["median"], 150e3);
+  EXPECT_EQ(json[0]["differences"][0]["to"], "first");
+  EXPECT_EQ(json[0]["differences"][0]["energy_total_j"]["median"], -35e3);
+  EXPECT_EQ(json[1]["scenario"], "<plains>");
+}
+
+TEST(Tournament, shows_each_world_in_its_page_without_a_network) {
+  const std::string page = tournament_page("Tournament", tournament_of(two_worlds()));
+  EXPECT_NE(page.find("&lt;plains&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("<plains>"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  for (const char* plot : {"mission time, s", "energy, kJ", "battery, %", "collisions",
+                           "latency over its bound", "decision time"}) {
+    EXPECT_NE(page.find(plot), std::string::npos) << plot;
+  }
+}
+
+TEST(Tournament, says_in_words_who_took_how_much_less) {
+  const std::string text = to_text(tournament_of(two_worlds()));
+  EXPECT_NE(text.find("less first"), std::string::npos);
+  EXPECT_NE(text.find("-35.0 [-50.0, -20.0]"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace flyball

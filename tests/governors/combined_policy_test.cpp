@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/combined_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Wishes for a map, a range and a clock; counts how often it is asked.
+class Wisher final : public Policy {
+ public:
+  Wisher(double value, std::optional<Duration> period, int* asked)
+      : value_{value}, period_{period}, asked_{asked} {}
+  [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
+  Status start(const Parameters& /*given*/, const KnobSettings& /*knobs*/) override {
+    return Done{};
+  }
+  [[nodiscard]] std::optional<Duration> period() const override { return period_; }
+  [[nodiscard]] Decision decide(const Observation& /*seen*/) noexcept override {
+    ++*asked_;
+    Decision wish;
+    wish.reason = value_ > 5.0 ? Reason::load : Reason::energy;
+    wish.set("map.resolution_m", value_);
+    wish.set("cpu.frequency_hz", 1e9 * value_);
+    return wish;
+  }
+
+ private:
+  double value_;
+  std::optional<Duration> period_;
+  int* asked_;
+};
+
+struct Fixture {
+  explicit Fixture(std::optional<Duration> clock_period)
+      : policy{std::make_unique<Wisher>(1.0, std::nullopt, &application_asked),
+               std::make_unique<Wisher>(9.0, clock_period, &clock_asked), 250ms} {}
+  Decision at(Duration t) {
+    Observation seen;
+    seen.now = MissionTime{t};
+    return policy.decide(seen);
+  }
+  int application_asked{};
+  int clock_asked{};
+  CombinedPolicy policy;
+};
+
+TEST(CombinedPolicy, takes_the_clock_from_the_one_and_all_else_from_the_other) {
+  Fixture both{10ms};
+  const Decision wish = both.at(0ms);
+  ASSERT_EQ(wish.size(), 2U);
+  EXPECT_EQ(wish.begin()[0].knob, "map.resolution_m");
+  EXPECT_EQ(wish.begin()[0].value, 1.0);
+  EXPECT_EQ(wish.begin()[1].knob, "cpu.frequency_hz");
+  EXPECT_EQ(wish.begin()[1].value, 9e9);
+  EXPECT_EQ(wish.reason, Reason::energy);
+}
+
+TEST(CombinedPolicy, asks_each_at_its_own_pace) {
+  Fixture both{10ms};
+  EXPECT_EQ(both.policy.period(), Duration{10ms});
+  for (int i = 0; i < 100; ++i) {  // A second.
+    (void)both.at(10ms * i);
+  }
+  EXPECT_EQ(both.clock_asked, 100);
+  EXPECT_EQ(both.application_asked, 4);
+}
+
+TEST(CombinedPolicy, has_the_applications_pace_beside_a_rule_that_looks_at_nothing) {
+  Fixture both{std::nullopt};
+  EXPECT_EQ(both.policy.period(), Duration{250ms});
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/passability.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+Passability four_levels() {
+  PassabilitySettings settings;
+  settings.body_m = 0.7;
+  settings.least = 2s;
+  settings.patience = 3s;
+  return {settings, {0.15, 0.30, 0.60, 1.20}};
+}
+
+Observation seen(double t_s, double gap_m, double resolution_m) {
+  Observation seen;
+  seen.now = MissionTime{from_seconds(t_s)};
+  seen.phase = MissionPhase::cruise;
+  seen.speed_m_s = 5.0;
+  seen.narrowest_gap_m = gap_m;
+  seen.gap_distance_m = 12.0;
+  seen.nearest_obstacle_m = 20.0;
+  seen.map_resolution_m = resolution_m;
+  return seen;
+}
+
+TEST(Passability, is_coarsest_in_the_open) {
+  EXPECT_EQ(four_levels().judge(seen(0.0, 24.0, 0.15)).coarsest_level, 3U);
+}
+
+TEST(Passability, asks_for_the_finest_cells_for_a_gap_that_is_shut) {
+  EXPECT_EQ(four_levels().judge(seen(0.0, 0.3, 1.20)).coarsest_level, 0U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 0.3, 0.15)).coarsest_level, 0U);
+}
+
+TEST(Passability, counts_on_what_coarser_cells_take_from_a_gap) {
+  // 1.6 m in cells of .15 m: 1.3 m in .30, .7 m in .60, shut in 1.20.
+  EXPECT_EQ(four_levels().judge(seen(0.0, 1.6, 0.15)).coarsest_level, 2U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 1.59, 0.15)).coarsest_level, 1U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 0.9, 0.15)).coarsest_level, 0U);
+}
+
+TEST(Passability, does_not_flutter_where_the_chosen_cells_narrow_the_gap) {
+  Passability passability = four_levels();
+  const double gap_m = 1.75;  // True width.
+  double resolution_m = 0.15;
+  const double levels_m[] = {0.15, 0.30, 0.60, 1.20};
+  std::size_t before = passability.judge(seen(0.0, gap_m - 2.0 * 0.15, 0.15)).coarsest_level;
+  for (double t_s = 5.0; t_s < 60.0; t_s += 5.0) {
+    resolution_m = levels_m[before];
+    const auto now = passability.judge(seen(t_s, gap_m - 2.0 * resolution_m, resolution_m));
+    EXPECT_EQ(now.coarsest_level, before) << t_s;
+    before = now.coarsest_level;
+  }
+  EXPECT_EQ(before, 1U);
+}
+
+TEST(Passability, becomes_finer_at_once_and_coarser_after_a_while) {
+  Passability passability = four_levels();
+  EXPECT_EQ(passability.judge(seen(0.0, 24.0, 1.20)).coarsest_level, 3U);
+  EXPECT_EQ(passability.judge(seen(0.1, 0.0, 1.20)).coarsest_level, 0U);
+  EXPECT_EQ(passability.judge(seen(2.0, 24.0, 0.15)).coarsest_level, 0U);
+  EXPECT_EQ(passability.judge(seen(2.2, 24.0, 0.15)).coarsest_level, 3U);
+}
+
+TEST(Passability, becomes_coarser_only_when_obstacles_are_some_cells_away) {
+  Passability passability = four_levels();
+  (void)passability.judge(seen(0.0, 0.0, 1.20));
+  Observation beside_a_wall = seen(10.0, 24.0, 0.15);
+  beside_a_wall.nearest_obstacle_m = 2.7;
+  EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 0U);
+  beside_a_wall.nearest_obstacle_m = 2.8;
+  EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 3U);
+}
+
+TEST(Passability, asks_for_the_finest_cells_after_a_failed_plan) {
+  Passability passability = four_levels();
+  Observation failed = seen(0.0, 24.0, 0.60);
+  failed.planner_failures = 1;
+  EXPECT_EQ(passability.judge(failed).coarsest_level, 0U);
+}
+
+TEST(Passability, looks_farther_before_it_would_stand_for_ever) {
+  Passability passability = four_levels();
+  Observation standing = seen(0.0, 24.0, 0.60);
+  standing.speed_m_s = 0.0;
+  EXPECT_EQ(passability.judge(standing).coarsest_level, 2U + 1U);
+  standing.now += 3s;
+  EXPECT_EQ(passability.judge(standing).coarsest_level, 0U);
+  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
+  standing.now += 3s;
+  EXPECT_EQ(passability.judge(standing).look_m, 15.0);
+  standing.speed_m_s = 1.0;
+  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
+}
+
+TEST(Passability, stands_without_haste_where_the_mission_waits) {
+  Passability passability = four_levels();
+  Observation waiting = seen(0.0, 24.0, 0.15);
+  waiting.phase = MissionPhase::land;
+  waiting.speed_m_s = 0.0;
+  EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
+  waiting.now += 60s;
+  EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
+}
+
+TEST(Passability, takes_what_is_no_number_for_a_narrow_gap) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(four_levels().judge(seen(0.0, nothing, 0.15)).coarsest_level, 0U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 24.0, nothing)).coarsest_level, 0U);
+}
+
+}  // namespace
+}  // namespace flyball
