@@ -26,18 +26,22 @@ using flyball::Detection;
 constexpr double level_step = 1.1;  // OpenCV's default.
 constexpr double most_overlap = 0.4;
 
+/// Where the person's box lies in the window of a cascade.
 struct Part {
   const char* file;
-  double width;  ///< Of the person's box over the window's.
+  double left;  ///< As shares of the window's width
+  double width;
+  double top;  ///< and height.
   double height;
 };
-// The upper body's window ends at the chest: a standing adult is about three of them tall.
-constexpr std::array<Part, 2> parts{
-    {{"haarcascade_fullbody.xml", 1.0, 1.0}, {"haarcascade_upperbody.xml", 0.8, 3.0}}};
+// The full body's window has a margin around the person, read off opencv-doc's vtest.avi. The upper
+// body's ends at the chest: a standing adult is about three of them tall.
+constexpr std::array<Part, 2> parts{{{"haarcascade_fullbody.xml", 0.2, 0.6, 0.14, 0.8},
+                                     {"haarcascade_upperbody.xml", 0.1, 0.8, 0.0, 3.0}}};
 
 flyball::ImageBox person_box(const cv::Rect& window, const Part& part, double scale) {
-  const double width = part.width * window.width / scale;
-  return {window.x / scale + 0.5 * (window.width / scale - width), window.y / scale, width,
+  return {(window.x + part.left * window.width) / scale,
+          (window.y + part.top * window.height) / scale, part.width * window.width / scale,
           part.height * window.height / scale};
 }
 

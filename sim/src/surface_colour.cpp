@@ -39,17 +39,23 @@ struct Place {
   float v;
 };
 
+/// The whole number below; `std::floor` is a call of a library on the oldest x86.
+std::int32_t floor_of(float x) {
+  const auto towards_zero = static_cast<std::int32_t>(x);
+  return towards_zero - (x < static_cast<float>(towards_zero) ? 1 : 0);
+}
+
 /// Value noise, -1..1: random numbers on a grid of cells, blended between.
 float noise(const std::vector<float>& table, Place at) {
-  const float u0 = std::floor(at.u);
-  const float v0 = std::floor(at.v);
-  const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(u0));
-  const auto j = static_cast<std::uint32_t>(static_cast<std::int32_t>(v0));
+  const std::int32_t u0 = floor_of(at.u);
+  const std::int32_t v0 = floor_of(at.v);
+  const auto i = static_cast<std::uint32_t>(u0);
+  const auto j = static_cast<std::uint32_t>(v0);
   const auto cell = [&table](std::uint32_t x, std::uint32_t y) {
     return table[((y & (noise_size - 1U)) << noise_bits) | (x & (noise_size - 1U))];
   };
-  const float a = at.u - u0;
-  const float b = at.v - v0;
+  const float a = at.u - static_cast<float>(u0);
+  const float b = at.v - static_cast<float>(v0);
   return (1.0F - b) * ((1.0F - a) * cell(i, j) + a * cell(i + 1U, j)) +
          b * ((1.0F - a) * cell(i, j + 1U) + a * cell(i + 1U, j + 1U));
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr double degree_rad = 3.14159265358979323846 / 180.0;
 constexpr std::array<double, 6> distances_m{4.0, 6.0, 8.0, 10.0, 12.0, 15.0};
 constexpr std::array<double, 4> downs_deg{0.0, 15.0, 30.0, 45.0};
-constexpr std::array<double, 4> headings_deg{20.0, 110.0, 200.0, 290.0};
+constexpr std::array<double, 3> headings_deg{20.0, 140.0, 260.0};
 constexpr std::array<Material, 3> grounds{Material::grass, Material::gravel, Material::asphalt};
 constexpr double least_overlap = 0.25;  // With the upright cylinder around the person.
 
@@ -39,7 +39,7 @@ std::vector<Subject> subjects() {
   std::vector<Subject> all;
   all.push_back({"hog, scale 1.5", "hog", Given{}, 1.5});
   all.push_back({"hog, scale 2", "hog", Given{}, 2.0});
-  all.push_back({"haar, scale 2", "haar", Given{}, 2.0});
+  all.push_back({"haar, scale 1.5", "haar", Given{}, 1.5});
   all.push_back({"yolo (yolo-fastest-1.1), scale 1", "yolo", Given{}, 1.0});
   all.push_back({"yolo (yolo-fastest-1.1-xl), scale 1", "yolo",
                  Given{{"model", std::string{"yolo-fastest-1.1-xl"}}}, 1.0});
