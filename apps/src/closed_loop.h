@@ -54,6 +54,7 @@ class ClosedLoop {
   void check_step();
   void publish_navigation();
   void publish_depth();
+  void publish_colour();
   void obey(const FlightCommand& command);
   [[nodiscard]] bool is_airborne() const;
 
@@ -74,6 +75,9 @@ class ClosedLoop {
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};
   std::uint64_t frame_count_{};
+  Gimbal gimbal_{};
+  std::uint64_t colour_count_{};
+  const std::vector<Person> people_;  ///< Of the true world.
 };
 
 }  // namespace flyball
