@@ -5,6 +5,7 @@
 
 #include "seeing_setup.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -51,6 +52,36 @@ std::vector<float> depths_near(const DepthImage& depth,
     }
   }
   return depths;
+}
+
+Sightings look(JobContext& job,
+               const VehicleTopics& vehicle,
+               const PoseHistory& history,
+               MissionContext& context,
+               Work& work) {
+  const auto frame = job.latest(vehicle.colour);
+  const auto depth = job.latest(vehicle.depth);
+  if (!frame || !depth || context.phase != MissionPhase::cruise) {
+    return {};
+  }
+  const auto pose = history.at(frame->captured);
+  const Duration apart = depth->captured - frame->captured;
+  if (!pose || apart > same_time || -apart > same_time) {
+    return {};
+  }
+  const auto people = context.kernels.detector->detect(frame->image.value(),
+                                                       context.knobs.value("detector.scale"), work);
+  if (!people) {
+    context.event(job.now(), "not looked at: " + people.error().message);
+    return {};
+  }
+  Sightings seen{*frame, {}};
+  for (const Detection& person : *people) {
+    if (const auto p_W = place_of(person.box, *frame, depth->image.value(), pose->X_WB)) {
+      seen.people.push_back({person.box, person.score, *p_W});
+    }
+  }
+  return seen;
 }
 
 }  // namespace
@@ -103,26 +134,7 @@ Topic<Sightings> add_person_search(Graph& graph,
   spec.writes = {sightings.index};
   graph.node(std::move(spec), [vehicle, sightings, history, &context](JobContext& job) {
     Work work;
-    const auto frame = job.latest(vehicle.colour);
-    const auto depth = job.latest(vehicle.depth);
-    const auto pose = frame ? history->at(frame->captured) : std::nullopt;
-    const bool is_usable = frame && depth && pose && context.phase == MissionPhase::cruise;
-    if (!is_usable || std::max(depth->captured - frame->captured,
-                               frame->captured - depth->captured) > same_time) {
-      return work;
-    }
-    auto people = context.kernels.detector->detect(frame->image.value(),
-                                                   context.knobs.value("detector.scale"), work);
-    if (!people) {
-      context.event(job.now(), "not looked at: " + people.error().message);
-      return work;
-    }
-    Sightings seen{*frame, {}};
-    for (const Detection& person : *people) {
-      if (const auto p_W = place_of(person.box, *frame, depth->image.value(), pose->X_WB)) {
-        seen.people.push_back({person.box, person.score, *p_W});
-      }
-    }
+    Sightings seen = look(job, vehicle, *history, context, work);
     if (!seen.people.empty()) {
       job.publish(sightings, std::move(seen));
     }

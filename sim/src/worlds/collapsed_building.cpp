@@ -2,7 +2,7 @@
 //
 // A storey of a building after an earthquake: cross walls with holes broken through them, slabs
 // that lean from the floor or hang from the ceiling, rubble, and one person behind the last wall.
-// The vehicle stands in the breach of the west wall.
+// The vehicle stands inside, by the west wall.
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
@@ -20,7 +20,7 @@ using flyball::BuildingPlan;
 using flyball::RandomStream;
 using flyball::Vec3;
 
-constexpr double start_m = 1.5;            // Inside the breach.
+constexpr double start_m = 1.5;            // From the west wall.
 constexpr double lowest_m = 0.5;           // Of the body's centre.
 constexpr double below_ceiling_m = 0.675;  // The body, its tube, and a hand's breadth of air.
 constexpr double sill_z_m = 0.375;         // Of a hole; in the middle of a voxel, as its top.
@@ -59,7 +59,7 @@ struct Ruin {
 class CollapsedBuilding final : public flyball::WorldGenerator {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    return {{"length_m", 15.0, 9.0, 60.0, "From the breach to the far wall."},
+    return {{"length_m", 15.0, 9.0, 60.0, "From the west wall to the east one."},
             {"width_m", 10.5, 6.0, 60.0, "Of the storey."},
             {"walls", 2.0, 1.0, 8.0, "Cross walls, each with a hole."},
             {"hole_m", 1.1, 0.75, 3.0, "Width of a hole."},
