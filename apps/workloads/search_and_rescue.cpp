@@ -102,12 +102,12 @@ class SearchAndRescue final : public Workload {
     const double error_m = distance_to_person_m(frame.captured, sighting.p_W);
     const bool is_real = error_m <= found_within_m;
     context_->recorder.record(now, "sighting",
-                              {{"frame", static_cast<std::int64_t>(frame.sequence)},
-                               {"real", static_cast<std::int64_t>(is_real)},
+                              {{"x_m", sighting.p_W.x()},
+                               {"y_m", sighting.p_W.y()},
+                               {"real", is_real ? 1.0 : 0.0},
                                {"score", sighting.score},
                                {"error_m", error_m},
-                               {"x_m", sighting.p_W.x()},
-                               {"y_m", sighting.p_W.y()}});
+                               {"captured_s", to_seconds(frame.captured)}});
     if (found_s_) {
       return;
     }
