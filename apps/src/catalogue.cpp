@@ -35,10 +35,10 @@ std::vector<KernelFamily> kernel_families() {
       {"smoother", plugins.names<Smoother>()},
       {"path_tracker", plugins.names<PathTracker>()},
       {"localizer", plugins.names<Localizer>()},
-      {"detector", plugins.names<Detector>()},
-      {"tracker", plugins.names<Tracker>()},
       {"coverage", plugins.names<CoveragePlanner>()},
       {"explorer", plugins.names<Explorer>()},
+      {"detector", plugins.names<Detector>()},
+      {"tracker", plugins.names<Tracker>()},
   };
 }
 

@@ -80,11 +80,11 @@ struct MissionKernels {
   std::unique_ptr<Smoother> smoother;
   std::unique_ptr<PathTracker> path_tracker;
   std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<CoveragePlanner> coverage;
+  std::unique_ptr<Explorer> explorer;
   std::unique_ptr<Detector> detector;         ///< These three only where the workload
   std::unique_ptr<Tracker> buffered_tracker;  ///< looks for people.
   std::unique_ptr<Tracker> real_time_tracker;
-  std::unique_ptr<CoveragePlanner> coverage;
-  std::unique_ptr<Explorer> explorer;
 };
 
 /// What is on board.

@@ -237,10 +237,10 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, colour_camera_fields());
   append(all, gps_fields());
   append(all, kernel_fields());
-  append(all, detector_fields());
-  append(all, photography_fields());
   append(all, scan_fields());
   append(all, explore_fields());
+  append(all, detector_fields());
+  append(all, photography_fields());
   append(all, computer_fields());
   return all;
 }

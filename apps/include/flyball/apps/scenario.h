@@ -57,11 +57,11 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::string coverage{"lawnmower"};
+  std::string explorer{"nbvp"};
   std::string detector{"hog"};
   std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
   std::string tracker{"kcf"};
-  std::string coverage{"lawnmower"};
-  std::string explorer{"nbvp"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -128,10 +128,10 @@ struct Scenario {
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
-  DetectorSettings detector{};
-  PhotographySettings photography{};
   ScanSettings scan{};
   ExploreSettings explore{};
+  DetectorSettings detector{};
+  PhotographySettings photography{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

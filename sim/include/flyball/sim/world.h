@@ -40,10 +40,10 @@ struct World {
   bool has_ground{true};      ///< A solid plane at `ground_z_m`.
   std::vector<Aabb> boxes{};  ///< Solid; may touch and overlap.
   std::vector<Pillar> pillars{};
+  std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
   std::vector<Person> people{};
   Material ground_material{Material::grass};
   std::vector<Material> box_materials{};  ///< By index; plaster for boxes beyond its end.
-  std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
