@@ -127,14 +127,21 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
+Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
   }
-  if (const Status possible = workload->check(scenario, brief_of(world)); !possible) {
-    return possible.error();
+  return workload;
+}
+
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
+  auto workload = named_workload(scenario);
+  if (workload) {
+    if (const Status possible = (*workload)->check(scenario, brief_of(world)); !possible) {
+      return possible.error();
+    }
   }
   return workload;
 }
@@ -156,7 +163,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario, setup->world);
+  auto workload = named_workload(scenario);  // Drawn even for a world that it cannot fly in.
   if (!workload) {
     return workload.error();
   }

@@ -26,7 +26,7 @@ class Workload {
   Workload& operator=(const Workload&) = delete;
   virtual ~Workload() = default;
 
-  /// Whether it can be flown at all, before `build`.
+  /// Whether it can be flown at all.
   ///
   /// @error `invalid_input`: one sentence with the key, its value and the way out.
   [[nodiscard]] virtual Status check([[maybe_unused]] const Scenario& scenario,
