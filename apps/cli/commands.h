@@ -18,6 +18,8 @@ void add_tune(CLI::App& program, int& exit_code);
 void add_list(CLI::App& program, int& exit_code);
 void add_fit(CLI::App& program, int& exit_code);
 void add_graph(CLI::App& program, int& exit_code);
+void add_detect(CLI::App& program, int& exit_code);
+void add_models(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_config(CLI::App& program, int& exit_code);
 void add_version(CLI::App& program, int& exit_code);

@@ -36,7 +36,8 @@ struct Flight {
         workload{std::move(made)},
         graph{scenario.mission.workload},
         period{setup.governor->period()},
-        topics{add_vehicle_topics(graph)} {
+        topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
+    context.people_truth = setup.world.people;
     context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
@@ -202,6 +203,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   }
   fill_outcome(record.summary, flight, scenario);
   fill_computing(record.summary, flight);
+  record.frames = flight.workload->frames();
   record.summary.trace_hash = record.trace->hash().hex();
   record.summary.numeric_fingerprint = numeric_fingerprint();
   record.summary.version = version();

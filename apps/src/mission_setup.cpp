@@ -12,6 +12,7 @@
 
 #include "scenario_check.h"
 #include "scenario_parameters.h"
+#include "seeing_setup.h"
 
 namespace flyball {
 namespace {
@@ -155,6 +156,10 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
     return kernels.error();
   }
   setup.equipment.kernels = std::move(*kernels);
+  if (const Status seeing = equip_to_see(scenario, *setup.platform, setup.world, setup.equipment);
+      !seeing) {
+    return seeing.error();
+  }
   if (const auto errors = check_map(scenario, {}); !errors.empty()) {
     return joined(errors);
   }
