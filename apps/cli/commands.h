@@ -21,6 +21,8 @@ void add_graph(CLI::App& program, int& exit_code);
 void add_policy(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program, int& exit_code);
+void add_detect(CLI::App& program, int& exit_code);
+void add_models(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_config(CLI::App& program, int& exit_code);
 void add_version(CLI::App& program, int& exit_code);

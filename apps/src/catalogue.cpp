@@ -9,12 +9,15 @@
 #include "flyball/governors/policy.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
+#include "flyball/kernels/detector.h"
+#include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/kernels/smoother.h"
+#include "flyball/kernels/tracker.h"
 #include "flyball/sim/world.h"
 
 #include <algorithm>
@@ -33,6 +36,9 @@ std::vector<KernelFamily> kernel_families() {
       {"path_tracker", plugins.names<PathTracker>()},
       {"localizer", plugins.names<Localizer>()},
       {"coverage", plugins.names<CoveragePlanner>()},
+      {"explorer", plugins.names<Explorer>()},
+      {"detector", plugins.names<Detector>()},
+      {"tracker", plugins.names<Tracker>()},
   };
 }
 

@@ -2,8 +2,8 @@
 // tested-in: platform_fit
 #include "fit_scenes.h"
 
+#include "fit_perception.h"
 #include "mission_setup.h"
-#include "perception_nodes.h"
 #include "plan_with_tubes.h"
 #include <algorithm>
 
@@ -26,59 +26,6 @@ Scenario delivery() {
   scenario.map.range_m = 7.0;
   return scenario;
 }
-
-Pose looking(const Vec3& p_W, double yaw_rad) {
-  Pose X_WB = Pose::Identity();
-  X_WB.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix();
-  X_WB.translation() = p_W;
-  return X_WB;
-}
-
-MissionBrief brief_of(const World& world) {
-  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
-          world.cruise_height_m, world.ground_z_m, world.open_above_m};
-}
-
-/// Camera, point cloud and map: what is done with one view.
-class Perception {
- public:
-  Perception(MissionContext& context, const World& world)
-      : context_{context}, camera_{world, context.scenario.camera, context.scenario.seed} {}
-
-  /// Looks from `X_WB`; the frame is in the map afterwards.
-  Status look(const Pose& X_WB, KernelLoads& loads) {
-    Work points;
-    X_WC_ = camera_pose(X_WB);
-    view_ = context_.kernels.point_cloud->build(camera_.frame(X_WC_, MissionTime{}, frames_++),
-                                                range_m(), points);
-    loads[context_.scenario.kernels.point_cloud].calls.push_back(points);
-    Work slam;
-    slam.add("pixels", points.count("pixels"));
-    loads["visual_slam"].calls.push_back(slam);
-    const auto work = prepare(context_.scenario.map.resolution_m);
-    if (!work) {
-      return work.error();
-    }
-    loads[context_.scenario.kernels.mapper].calls.push_back(*work);
-    context_.kernels.mapper->commit();
-    return Done{};
-  }
-
-  /// The newest view at another resolution; the map stays as it is.
-  Result<Work> prepare(double resolution_m) {
-    return context_.kernels.mapper->prepare(view_.cloud_C.value(), X_WC_,
-                                            {resolution_m, range_m()});
-  }
-
- private:
-  [[nodiscard]] double range_m() const { return context_.scenario.map.range_m; }
-
-  MissionContext& context_;
-  DepthCamera camera_;
-  PointCloudFrame view_{};
-  Pose X_WC_{Pose::Identity()};
-  std::uint64_t frames_{};
-};
 
 class Delivery {
  public:

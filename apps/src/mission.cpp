@@ -21,8 +21,8 @@ constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
 MissionBrief brief_of(const World& world) {
-  return {world.bounds_W,        world.zones,      world.start_W,     world.goal_W,
-          world.cruise_height_m, world.ground_z_m, world.open_above_m};
+  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
+          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -36,7 +36,8 @@ struct Flight {
         workload{std::move(made)},
         graph{scenario.mission.workload},
         period{setup.governor->period()},
-        topics{add_vehicle_topics(graph)} {
+        topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
+    context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, *setup.platform, queue,
@@ -127,14 +128,21 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.quality = flight.workload->quality();
 }
 
-Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
+Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
   auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};
   }
-  if (const Status possible = workload->check(scenario, brief_of(world)); !possible) {
-    return possible.error();
+  return workload;
+}
+
+Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
+  auto workload = named_workload(scenario);
+  if (workload) {
+    if (const Status possible = (*workload)->check(scenario, brief_of(world)); !possible) {
+      return possible.error();
+    }
   }
   return workload;
 }
@@ -156,7 +164,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario, setup->world);
+  auto workload = named_workload(scenario);  // Drawn even for a world that it cannot fly in.
   if (!workload) {
     return workload.error();
   }
@@ -195,6 +203,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   }
   fill_outcome(record.summary, flight, scenario);
   fill_computing(record.summary, flight);
+  record.frames = flight.workload->frames();
   record.summary.trace_hash = record.trace->hash().hex();
   record.summary.numeric_fingerprint = numeric_fingerprint();
   record.summary.version = version();

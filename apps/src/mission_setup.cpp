@@ -12,6 +12,7 @@
 
 #include "scenario_check.h"
 #include "scenario_parameters.h"
+#include "seeing_setup.h"
 
 namespace flyball {
 namespace {
@@ -68,6 +69,7 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
   make(kernels.localizer, "localizer", names.localizer, missing);
   make(kernels.coverage, "coverage planner", names.coverage, missing);
+  make(kernels.explorer, "explorer", names.explorer, missing);
   if (!missing.empty()) {
     return joined(missing);
   }
@@ -134,6 +136,10 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
     return kernels.error();
   }
   setup.equipment.kernels = std::move(*kernels);
+  if (const Status seeing = equip_to_see(scenario, *setup.platform, setup.world, setup.equipment);
+      !seeing) {
+    return seeing.error();
+  }
   if (const auto errors = check_map(scenario, {}); !errors.empty()) {
     return joined(errors);
   }

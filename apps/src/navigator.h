@@ -54,6 +54,8 @@ class Navigator {
   void hover_at(const Vec3& p_W, double yaw_rad);
   void set_goal(MissionTime now, const Vec3& goal_W);
   void clear_goal();
+  /// Where it comes to stand, the camera turns to this heading.
+  void face(std::optional<double> yaw_rad) { follower_.face(yaw_rad); }
   [[nodiscard]] bool has_arrived() const;
 
   /// A map was published: known-free space, latency bound, and whether the path is still good.

@@ -205,6 +205,9 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
     turn(dt_s, now);
   }
+  if (face_yaw_rad_ && stands_still()) {
+    turn_towards(*face_yaw_rad_, dt_s);
+  }
   odometer_.emplace_back(now, travelled_m_);
   while (odometer_.front().first + odometer_memory < now) {
     odometer_.pop_front();
@@ -230,11 +233,15 @@ std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   return yaw_of(direction) + 0.8 * std::sin(stalled_s);
 }
 
+void PathFollower::turn_towards(double yaw_rad, double dt_s) {
+  const double error = wrap_angle(yaw_rad - yaw_rad_);
+  yaw_rad_ =
+      wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+}
+
 void PathFollower::turn(double dt_s, MissionTime now) {
   if (const auto wanted_rad = wanted_yaw_rad(now)) {
-    const double error = wrap_angle(*wanted_rad - yaw_rad_);
-    yaw_rad_ =
-        wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+    turn_towards(*wanted_rad, dt_s);
   }
   const bool stands = speed_m_s_ <= 0.02;
   if (!stands || is_at_end()) {

@@ -33,6 +33,8 @@ class PathFollower {
 
   /// Once the reference stands, turns the camera to both sides of this direction.
   void look_around(double yaw_rad);
+  /// At the path's end, or hovering, the camera turns to this heading.
+  void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
   [[nodiscard]] bool is_looking_around() const { return look_yaw_rad_.has_value(); }
 
   /// Looks up anew how far the path is known to be free. Call after each change of map or path.
@@ -61,6 +63,8 @@ class PathFollower {
   /// a plan is sought.
   [[nodiscard]] double planned_stop_m() const;
   [[nodiscard]] bool is_at_end() const;
+  /// At the end of its path, or without one.
+  [[nodiscard]] bool stands_still() const { return !has_path() || is_at_end(); }
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
   [[nodiscard]] const Guard& guard() const { return guard_; }
@@ -68,6 +72,7 @@ class PathFollower {
   [[nodiscard]] Duration latency_bound() const;
 
  private:
+  void turn_towards(double yaw_rad, double dt_s);
   [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
   [[nodiscard]] double room_m(std::size_t tier) const;
@@ -97,6 +102,7 @@ class PathFollower {
   Duration latency_bound_{};
   MissionTime newest_capture_{};
   std::optional<MissionTime> stalled_since_{};
+  std::optional<double> face_yaw_rad_{};
   std::optional<double> look_yaw_rad_{};
   std::optional<MissionTime> looking_since_{};
   std::deque<std::pair<MissionTime, double>> odometer_{};

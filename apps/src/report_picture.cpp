@@ -166,6 +166,23 @@ Json value_of(const std::vector<Field>& fields, std::string_view name) {
   return nullptr;
 }
 
+/// A figure that a mission judges itself by, as it stood at each time; null before there is one.
+Json judged_json(const MemoryRecorder& trace,
+                 std::string_view channel,
+                 std::string_view field,
+                 const Json& times_s) {
+  Json values = Json::array();
+  Json newest = nullptr;
+  auto row = trace.rows().begin();
+  for (const Json& time : times_s) {
+    for (; row != trace.rows().end() && to_seconds(row->at) <= time.get<double>() + 1e-3; ++row) {
+      newest = row->channel == channel ? value_of(row->fields, field) : newest;
+    }
+    values.push_back(newest);
+  }
+  return values;
+}
+
 Json series_json(const MemoryRecorder& trace) {
   std::vector<const MemoryRecorder::Row*> states;
   for (const MemoryRecorder::Row& row : trace.rows()) {
@@ -186,6 +203,7 @@ Json series_json(const MemoryRecorder& trace) {
       json[series.name].push_back(value_of(states[i]->fields, series.field));
     }
   }
+  json["coverage"] = judged_json(trace, "coverage", "coverage_percent", json["t"]);
   return json;
 }
 
@@ -216,8 +234,9 @@ RunPicture picture_of(const MissionRecord& record) {
             {"failure", to_string(summary.failure)},
             {"world", world_json(record.world)},
             {"series", series_json(*record.trace)}};
-  // What a survey photographed: rectangles to be covered, and footprints of pictures.
-  for (const char* const channel : {"area", "footprint"}) {
+  // What a survey photographed: rectangles to be covered, and footprints of pictures; and whom a
+  // search took for a person.
+  for (const char* const channel : {"area", "footprint", "sighting"}) {
     if (Json rows = rows_json(*record.trace, channel); !rows.empty()) {
       json[channel] = std::move(rows);
     }

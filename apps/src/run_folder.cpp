@@ -6,6 +6,7 @@
 #include "flyball/apps/version.h"
 #include "flyball/governors/policy_file.h"
 
+#include "frame_files.h"
 #include "trace_file.h"
 #include <algorithm>
 #include <filesystem>
@@ -73,9 +74,11 @@ std::string summary_table(const Summary& summary) {
   return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";
 }
 
-std::string run_page(const Scenario& scenario, const RunPicture& picture) {
+std::string run_page(const Scenario& scenario,
+                     const RunPicture& picture,
+                     const std::string& frames_html) {
   return report_page(scenario.name, {picture},
-                     summary_table(picture.summary) + scenario_html(scenario));
+                     summary_table(picture.summary) + frames_html + scenario_html(scenario));
 }
 
 }  // namespace
@@ -142,11 +145,15 @@ Status write_run(const std::string& folder, const Scenario& scenario, const Miss
   fs::create_directories(in, failed);
   fs::remove(in / "mission.toml", failed);  // Whatever stood here is incomplete from now on.
   const RunPicture picture = picture_of(record);
+  const auto frames_html = write_frames(folder, record.frames);
+  if (!frames_html) {
+    return frames_html.error();
+  }
   const bool is_whole = record.summary.status != MissionStatus::interrupted;
   const std::pair<const char*, std::string> files[] = {
       {"trace.jsonl", trace_lines(scenario, *record.trace)},
       {"picture.json", picture.json},
-      {"report.html", run_page(scenario, picture)},
+      {"report.html", run_page(scenario, picture, *frames_html)},
       {"summary.json", to_json(record.summary) + "\n"},
       {"mission.toml",
        (is_whole ? "" : "# Interrupted: the record ends early.\n") + mission_file(scenario)}};

@@ -101,7 +101,8 @@ class Scanning final : public Workload {
       context_->tube.at_rest_m += 3.0 * std::hypot(gps.white_noise_m, gps.wander_m);
     }
     const Aabb& bounds_W = context_->brief.bounds_W;
-    const double floor_m = context_->brief.ground_z_m + *context_->brief.open_above_m;
+    const double floor_m =
+        context_->brief.ground_z_m + context_->brief.open_above_m.value_or(bounds_W.max.z());
     Vec3 centre_W = 0.5 * (bounds_W.min + bounds_W.max);
     centre_W.z() = 0.5 * (floor_m + bounds_W.max.z());
     const double radius_m = 0.5 * (bounds_W.max - bounds_W.min).head<2>().norm();

@@ -15,6 +15,12 @@ liboctomap-dev          1.9.7
 libompl-dev             1.5.2
 libsimbody-dev          3.7
 libembree-dev           3.13.5
+libassimp-dev           5.2.5
+libpng-dev              1.6.39
+libopencv-dev           4.6.0
+libopencv-contrib-dev   4.6.0
+opencv-data             4.6.0
+morse-simulator-data    1.4
 libmrpt-topography-dev  2.5.8
 libmrpt-poses-dev       2.5.8
 libsqlite3-dev          3.40.1

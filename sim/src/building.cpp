@@ -7,51 +7,20 @@
 namespace flyball {
 namespace {
 
-constexpr double voxel_m = 0.15;       // MAVBench's resolution for delivery and mapping.
-constexpr double coarse_m = 0.80;      // MAVBench's coarse resolution.
-constexpr double half_wall_m = 0.075;  // Faces in the middle of voxels.
-constexpr double lintel_z_m = 2.13;    // DIN 18100: door openings are 2.125 to 2.135 m high.
-constexpr double ceiling_z_m = 2.775;  // In the middle of a voxel.
+constexpr double voxel_m = 0.15;     // MAVBench's resolution for delivery and mapping.
+constexpr double coarse_m = 0.80;    // MAVBench's coarse resolution.
+constexpr double lintel_z_m = 2.13;  // DIN 18100: door openings are 2.125 to 2.135 m high.
 constexpr double roof_z_m = 2.925;
 constexpr double furniture_gap_m = 1.3;  // The body passes on both maps' terms.
 constexpr double corner_m = 0.5;         // Between a door's jamb and the wall across.
 
-// A stretch of wall between two crossings. `at` is the coordinate across the wall, [low, high] the
-// stretch along it, both at wall centres.
-struct Stretch {
-  bool along_y;
-  double at_m;
-  double low_m;
-  double high_m;
-};
-
-Aabb upright(const Stretch& s, double low_m, double high_m, double bottom_m, double top_m) {
+Aabb upright(const WallStretch& s, double low_m, double high_m, double bottom_m, double top_m) {
   const double front = s.at_m - half_wall_m;
   const double back = s.at_m + half_wall_m;
   if (s.along_y) {
     return {{front, low_m, bottom_m}, {back, high_m, top_m}};
   }
   return {{low_m, front, bottom_m}, {high_m, back, top_m}};
-}
-
-void add_wall(Building& building, const Stretch& s) {
-  building.boxes.push_back(
-      upright(s, s.low_m - half_wall_m, s.high_m + half_wall_m, 0.0, ceiling_z_m));
-}
-
-void add_wall_with_door(
-    Building& building, const Stretch& s, BuildingPlan plan, double wish_m, RandomStream& random) {
-  if (plan.most_door_width_m > plan.door_width_m) {
-    plan.door_width_m = random.uniform(plan.door_width_m, plan.most_door_width_m);
-  }
-  const double reach_m = 0.5 * plan.door_width_m + half_wall_m + corner_m;
-  const double centre_m = door_centre_m(plan, wish_m, s.low_m + reach_m, s.high_m - reach_m);
-  const double left_m = centre_m - 0.5 * plan.door_width_m;
-  const double right_m = centre_m + 0.5 * plan.door_width_m;
-  building.boxes.push_back(upright(s, s.low_m - half_wall_m, left_m, 0.0, ceiling_z_m));
-  building.boxes.push_back(upright(s, right_m, s.high_m + half_wall_m, 0.0, ceiling_z_m));
-  building.boxes.push_back(upright(s, left_m, right_m, lintel_z_m, ceiling_z_m));
-  building.doors.push_back({upright(s, left_m, right_m, 0.0, lintel_z_m), s.along_y});
 }
 
 double wall_x_m(const BuildingPlan& plan, int row) {
@@ -66,7 +35,8 @@ void add_walls_along_y(Building& building, const BuildingPlan& plan, RandomStrea
   for (int i = 0; i < (plan.rows + 1) * plan.columns; ++i) {
     const int row = i / plan.columns;
     const int column = i % plan.columns;
-    const Stretch s{true, wall_x_m(plan, row), wall_y_m(plan, column), wall_y_m(plan, column + 1)};
+    const WallStretch s{true, wall_x_m(plan, row), wall_y_m(plan, column),
+                        wall_y_m(plan, column + 1)};
     if (row == 0 && column == plan.columns / 2) {
       add_wall_with_door(building, s, plan, plan.entrance_y_m, random);
     } else if (row == 0 || (row == plan.rows && !(plan.has_exit && column == plan.columns / 2))) {
@@ -82,7 +52,8 @@ void add_walls_along_x(Building& building, const BuildingPlan& plan, RandomStrea
   for (int i = 0; i < (plan.columns + 1) * plan.rows; ++i) {
     const int column = i / plan.rows;
     const int row = i % plan.rows;
-    const Stretch s{false, wall_y_m(plan, column), wall_x_m(plan, row), wall_x_m(plan, row + 1)};
+    const WallStretch s{false, wall_y_m(plan, column), wall_x_m(plan, row),
+                        wall_x_m(plan, row + 1)};
     if (column == 0 || column == plan.columns) {
       add_wall(building, s);
     } else {
@@ -119,27 +90,6 @@ Aabb piece_of_furniture(const Aabb& room, RandomStream& random) {
   return {from, from + size};
 }
 
-void furnish(Building& building, const Aabb& room, const BuildingPlan& plan, RandomStream& random) {
-  const std::size_t first = building.boxes.size();
-  const Aabb goal{plan.keep_clear_W, plan.keep_clear_W};
-  const auto fits = [&](const Aabb& piece) {
-    const auto is_far = [&](const Aabb& other) { return apart_m(piece, other) >= furniture_gap_m; };
-    return is_far(goal) &&
-           std::all_of(building.doors.begin(), building.doors.end(),
-                       [&](const Doorway& door) { return is_far(door.opening_W); }) &&
-           std::all_of(building.boxes.begin() + static_cast<std::ptrdiff_t>(first),
-                       building.boxes.end(), is_far);
-  };
-  const auto wanted = first + static_cast<std::size_t>(plan.furniture_per_room);
-  // A full room takes fewer pieces than wished, so tries are bounded.
-  for (int i = 0; i < 30 * plan.furniture_per_room && building.boxes.size() < wanted; ++i) {
-    const Aabb piece = piece_of_furniture(room, random);
-    if (fits(piece)) {
-      building.boxes.push_back(piece);
-    }
-  }
-}
-
 bool holds_coarse_cell(double low_m, double high_m) {
   return (std::ceil(low_m / coarse_m) + 1.0) * coarse_m <= high_m;
 }
@@ -171,6 +121,66 @@ double door_centre_m(const BuildingPlan& plan, double wish_m, double low_m, doub
   return voxel_centre(nearest);
 }
 
+void add_wall(Building& building, const WallStretch& s) {
+  building.boxes.push_back(
+      upright(s, s.low_m - half_wall_m, s.high_m + half_wall_m, 0.0, ceiling_z_m));
+}
+
+void add_wall_with_door(Building& building,
+                        const WallStretch& s,
+                        BuildingPlan plan,
+                        double wish_m,
+                        RandomStream& random) {
+  if (plan.most_door_width_m > plan.door_width_m) {
+    plan.door_width_m =
+        door_width_m(plan.door_width_m, plan.most_door_width_m, plan.fine_doors, random);
+  }
+  const double reach_m = 0.5 * plan.door_width_m + half_wall_m + corner_m;
+  const double centre_m = door_centre_m(plan, wish_m, s.low_m + reach_m, s.high_m - reach_m);
+  const double left_m = centre_m - 0.5 * plan.door_width_m;
+  const double right_m = centre_m + 0.5 * plan.door_width_m;
+  building.boxes.push_back(upright(s, s.low_m - half_wall_m, left_m, 0.0, ceiling_z_m));
+  building.boxes.push_back(upright(s, right_m, s.high_m + half_wall_m, 0.0, ceiling_z_m));
+  building.boxes.push_back(upright(s, left_m, right_m, lintel_z_m, ceiling_z_m));
+  building.doors.push_back({upright(s, left_m, right_m, 0.0, lintel_z_m), s.along_y});
+}
+
+void furnish(Building& building, const Aabb& room, const BuildingPlan& plan, RandomStream& random) {
+  const std::size_t first = building.boxes.size();
+  const Aabb goal{plan.keep_clear_W, plan.keep_clear_W};
+  const auto fits = [&](const Aabb& piece) {
+    const auto is_far = [&](const Aabb& other) { return apart_m(piece, other) >= furniture_gap_m; };
+    return is_far(goal) &&
+           std::all_of(building.doors.begin(), building.doors.end(),
+                       [&](const Doorway& door) { return is_far(door.opening_W); }) &&
+           std::all_of(building.boxes.begin() + static_cast<std::ptrdiff_t>(first),
+                       building.boxes.end(), is_far);
+  };
+  const auto wanted = first + static_cast<std::size_t>(plan.furniture_per_room);
+  // A full room takes fewer pieces than wished, so tries are bounded.
+  for (int i = 0; i < 30 * plan.furniture_per_room && building.boxes.size() < wanted; ++i) {
+    const Aabb piece = piece_of_furniture(room, random);
+    if (fits(piece)) {
+      building.boxes.push_back(piece);
+    }
+  }
+}
+
+void add_ceiling(Building& building) {
+  building.extent_W.max.z() = roof_z_m;
+  Aabb ceiling = building.extent_W;
+  ceiling.min.z() = ceiling_z_m;
+  building.boxes.push_back(ceiling);
+}
+
+double door_width_m(double least_m, double most_m, bool fine, RandomStream& random) {
+  if (!fine) {
+    return random.uniform(least_m, most_m);
+  }
+  const double widths = std::floor((most_m - least_m) / (2.0 * voxel_m) + 1e-9) + 1.0;
+  return least_m + 2.0 * voxel_m * std::floor(random.uniform(0.0, widths));
+}
+
 Building make_building(const BuildingPlan& plan, RandomStream& random) {
   Building building;
   add_walls_along_y(building, plan, random);
@@ -185,10 +195,8 @@ Building make_building(const BuildingPlan& plan, RandomStream& random) {
   }
   building.extent_W.min = {wall_x_m(plan, 0) - half_wall_m, wall_y_m(plan, 0) - half_wall_m, 0.0};
   building.extent_W.max = {wall_x_m(plan, plan.rows) + half_wall_m,
-                           wall_y_m(plan, plan.columns) + half_wall_m, roof_z_m};
-  Aabb ceiling = building.extent_W;
-  ceiling.min.z() = ceiling_z_m;
-  building.boxes.push_back(ceiling);
+                           wall_y_m(plan, plan.columns) + half_wall_m, 0.0};
+  add_ceiling(building);
   return building;
 }
 

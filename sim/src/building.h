@@ -30,6 +30,17 @@ struct BuildingPlan {
   Vec3 keep_clear_W{Vec3::Zero()};  ///< No furniture within 1.3 m.
 };
 
+constexpr double half_wall_m = 0.075;  ///< Faces in the middle of voxels.
+constexpr double ceiling_z_m = 2.775;  ///< In the middle of a voxel.
+
+/// A stretch of wall between two crossings, from wall centre to wall centre.
+struct WallStretch {
+  bool along_y{};
+  double at_m{};   ///< Across the wall.
+  double low_m{};  ///< Along it.
+  double high_m{};
+};
+
 /// Opening in a wall, as seen from above.
 struct Doorway {
   Aabb opening_W{};     ///< Through the wall, from the ground to the lintel.
@@ -52,6 +63,24 @@ struct Building {
                                    double wish_m,
                                    double low_m,
                                    double high_m);
+
+void add_wall(Building& building, const WallStretch& stretch);
+/// The door is kept .5 m away from the corners.
+void add_wall_with_door(Building& building,
+                        const WallStretch& stretch,
+                        BuildingPlan plan,
+                        double wish_m,
+                        RandomStream& random);
+/// Boxes on the room's floor, a passage away from each other, from the building's doors so far and
+/// from what the plan keeps clear.
+void furnish(Building& building, const Aabb& room, const BuildingPlan& plan, RandomStream& random);
+/// Over the building's extent, whose height it sets.
+void add_ceiling(Building& building);
+
+/// From `least_m` up to `most_m`. Fine doors are wider by whole pairs of .15 m voxels, so that
+/// their jambs lie as deep in their voxels as those of the narrowest one: a jamb just beyond a
+/// voxel's face is seen only from within the door, when the vehicle is there.
+[[nodiscard]] double door_width_m(double least_m, double most_m, bool fine, RandomStream& random);
 
 /// @pre The plan's rooms are larger than a door and 2 m.
 [[nodiscard]] Building make_building(const BuildingPlan& plan, RandomStream& random);

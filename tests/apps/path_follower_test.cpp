@@ -41,6 +41,20 @@ TEST(PathFollower, stops_before_the_first_place_that_is_not_known_free) {
   EXPECT_LT(ride.follower.speed_m_s(), 0.1);
 }
 
+TEST(PathFollower, faces_a_heading_where_it_comes_to_stand_and_where_it_hovers) {
+  Ride ride{60.0};
+  ride.follower.face(2.0);
+  ride.tick(200);
+  EXPECT_NEAR(ride.follower.yaw_rad(), 0.0, 0.01) << "on the way it looks ahead";
+  ride.tick(3000);
+  ASSERT_TRUE(ride.follower.stands_still());
+  EXPECT_NEAR(ride.follower.yaw_rad(), 2.0, 0.01);
+  ride.follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
+  ride.follower.face(-1.0);
+  ride.tick(200);
+  EXPECT_NEAR(ride.follower.yaw_rad(), -1.0, 0.01);
+}
+
 TEST(PathFollower, looks_to_both_sides_where_it_stands_and_then_ahead_again) {
   Ride ride{60.0};
   ride.tick(100);

@@ -76,6 +76,9 @@ TEST(Scanning, plans_by_a_service_and_has_no_map_in_its_graph) {
   }
   EXPECT_EQ(graph->find("map"), std::string::npos) << *graph;
   EXPECT_EQ(graph->find("cloud"), std::string::npos) << *graph;
+  Scenario elsewhere = small_farm();
+  elsewhere.world = {};
+  EXPECT_EQ(*describe_graph(elsewhere, false), *graph);
 }
 
 TEST(Scanning, is_refused_where_nothing_is_known_to_be_clear) {

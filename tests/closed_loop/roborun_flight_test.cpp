@@ -2,6 +2,8 @@
 //
 // A rule that fills its time budget must not lock itself at a crawl.
 
+#include "flyball/governors/policy.h"
+
 #include "../apps/short_delivery.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: platform_fit
+#include "fit_exploration.h"
+
+#include "exploration_flight.h"
+#include "fit_perception.h"
+#include "mission_setup.h"
+#include "plan_with_tubes.h"
+
+namespace flyball {
+namespace {
+
+constexpr double look_every_m = 1.0;  // A map a second at indoor speed.
+
+class Exploration {
+ public:
+  Exploration(const ExplorationScene& scene, MissionContext& context, const World& world)
+      : scene_{scene},
+        context_{context},
+        perception_{context, world},
+        judge_{make_judge(context)},
+        here_{world.start_W + Vec3::UnitZ() * world.cruise_height_m,
+              yaw_of(world.goal_W - world.start_W)} {
+    context.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
+  }
+
+  Result<ExplorationLoads> go() {
+    if (const Status seen = look(here_); !seen) {
+      return seen.error();
+    }
+    while (loads_.views < scene_.most_views && !is_done()) {
+      const auto next = ask();
+      if (!next) {
+        break;
+      }
+      if (const Status seen = move_to(*next); !seen) {
+        return seen.error();
+      }
+      ++loads_.views;
+    }
+    return std::move(loads_);
+  }
+
+ private:
+  Status look(const Viewpoint& from) {
+    return perception_.look(looking(from.p_W, from.yaw_rad), loads_.kernels);
+  }
+
+  bool is_done() {
+    loads_.coverage_percent = judge_->coverage_percent(context_.map());
+    return loads_.coverage_percent >= scene_.scenario.explore.coverage_percent;
+  }
+
+  std::optional<Viewpoint> ask() {
+    ExploreRequest request = explore_request(context_, here_);
+    request.taken = taken_;
+    request.unreachable_W = unreachable_W_;
+    request.seed = scene_.scenario.seed + static_cast<std::uint64_t>(++asked_);
+    ExploreStep step = context_.kernels.explorer->explore(request, context_.map());
+    loads_.kernels[scene_.scenario.kernels.explorer].calls.push_back(step.work);
+    return step.next;
+  }
+
+  /// Along a plan, with looks on the way.
+  Status move_to(const Viewpoint& next) {
+    PlanQuery query;
+    query.start_W = here_.p_W;
+    query.goal_W = next.p_W;
+    query.id = static_cast<std::uint64_t>(asked_);
+    query.may_be_tight = true;
+    Cylinder body;
+    const Plan plan = plan_with_tubes(context_, query, body);
+    if (plan.waypoints_W.empty()) {
+      unreachable_W_.push_back(next.p_W);
+      return Done{};
+    }
+    const Path path = Path::polyline(plan.waypoints_W);
+    for (double s_m = look_every_m; s_m < path.length_m(); s_m += look_every_m) {
+      const Path::Sample on_way = path.at(s_m);
+      if (const Status seen = look({on_way.p_W, yaw_of(on_way.tangent_W)}); !seen) {
+        return seen;
+      }
+    }
+    here_ = next;
+    taken_.push_back(next);
+    return look(here_);
+  }
+
+  const ExplorationScene& scene_;
+  MissionContext& context_;
+  Perception perception_;
+  std::unique_ptr<ExplorationJudge> judge_;
+  Viewpoint here_{};
+  std::vector<Viewpoint> taken_{};
+  std::vector<Vec3> unreachable_W_{};
+  ExplorationLoads loads_{};
+  int asked_{};
+};
+
+}  // namespace
+
+ExplorationScene scene_c() {
+  Scenario scenario;
+  scenario.name = "platform_fit";
+  scenario.seed = 1;
+  scenario.world.generator = "office";
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
+  return {scenario, 100};
+}
+
+Result<ExplorationLoads> record(const ExplorationScene& scene) {
+  auto setup = set_up(scene.scenario);
+  if (!setup) {
+    return setup.error();
+  }
+  MemoryRecorder events;
+  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+                         std::move(setup->equipment)};
+  context.truth = &setup->world;
+  return Exploration{scene, context, setup->world}.go();
+}
+
+}  // namespace flyball

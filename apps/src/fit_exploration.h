@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// An exploration without dynamics, to record what its kernels do: look, ask for the next view, be
+/// there.
+
+#include "fit_scenes.h"
+
+namespace flyball {
+
+/// From the world's start, until so much of what can be seen is known.
+struct ExplorationScene {
+  Scenario scenario{};
+  int most_views{};
+};
+
+/// The shipped mapping_office, seed 1.
+[[nodiscard]] ExplorationScene scene_c();
+
+struct ExplorationLoads {
+  KernelLoads kernels{};
+  int views{};
+  double coverage_percent{};
+};
+
+/// @error `not_found`, `invalid_input` (the scenario), `failed` (a kernel).
+[[nodiscard]] Result<ExplorationLoads> record(const ExplorationScene& scene);
+
+}  // namespace flyball

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Receding-horizon next-best view (Bircher et al. 2016, doi:10.1109/ICRA.2016.7487281): a random
+// tree of poses in known-free space; each node counts the unknown space that it would show, less
+// the farther it is; the first edge towards the best node is flown, and the rest of that branch
+// begins the next tree. When the tree finds little, the best view of any frontier is next, to be
+// flown to by a planner.
+
+#include "flyball/kernels/explorer.h"
+#include "flyball/runtime/random.h"
+#include "flyball/runtime/registry.h"
+
+#include "frontier_views.h"
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using flyball::CellState;
+using flyball::ExploreRequest;
+using flyball::ExploreStep;
+using flyball::Vec3;
+using flyball::Viewpoint;
+
+constexpr double two_pi = 6.283185307179586;
+constexpr double pose_step_m = 0.075;   // Half a fine cell: nothing slips between two poses.
+constexpr int tries_per_node = 25;      // In a corner hardly any sample is free.
+constexpr double branch_slack_m = 0.5;  // The vehicle is where the last step led.
+// A tree whose best node shows less than this is left for the frontiers: a step costs seconds,
+// whatever it shows. A frontier's view that shows less is noise.
+constexpr double worthwhile_m3 = 1.0;
+constexpr double least_m3 = 0.1;
+
+struct Node {
+  Viewpoint view{};
+  int parent{-1};
+  double way_m{};
+  double own_m3{};
+  double score_m3{};  ///< Eq. 3: along the branch, discounted.
+};
+
+class Tree {
+ public:
+  Tree(const ExploreRequest& request,
+       const flyball::OccupancyView& map,
+       const flyball::StateGrid& grid)
+      : request_{request},
+        map_{map},
+        gain_{grid, request.volume_W, request.field},
+        random_{request.seed, "nbvp"} {
+    nodes_.push_back({request.from});
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      low_W_[i] = std::max(request.bounds_W.min[i], request.volume_W.min[i]);
+      high_W_[i] = std::min(request.bounds_W.max[i], request.volume_W.max[i]);
+    }
+  }
+
+  /// Begins with what is left of a branch.
+  void keep(const std::vector<Viewpoint>& branch) {
+    int parent = 0;
+    for (const Viewpoint& view : branch) {
+      if (!is_free(node(parent).view.p_W, view.p_W)) {
+        return;
+      }
+      parent = add(view, parent);
+    }
+  }
+
+  void grow() {
+    const flyball::ExploreSettings& settings = request_.settings;
+    const int most_tries = tries_per_node * settings.most_iterations;
+    for (int tries = 0; tries < most_tries; ++tries) {
+      const int nodes = static_cast<int>(nodes_.size()) - 1;
+      if (nodes >= settings.most_iterations ||
+          (nodes >= settings.iterations && node(best_).score_m3 > 0.0)) {
+        return;
+      }
+      extend();
+    }
+  }
+
+  /// From the first node behind the root to the best one; empty without any gain.
+  [[nodiscard]] std::vector<Viewpoint> best_branch() const {
+    std::vector<Viewpoint> branch;
+    for (int i = best_; i > 0; i = node(i).parent) {
+      branch.insert(branch.begin(), node(i).view);
+    }
+    return branch;
+  }
+  /// Undiscounted, of the best node's branch.
+  [[nodiscard]] double best_m3() const {
+    double most_m3 = 0.0;
+    for (int i = best_; i > 0; i = node(i).parent) {
+      most_m3 = std::max(most_m3, node(i).own_m3);
+    }
+    return most_m3;
+  }
+  [[nodiscard]] flyball::ViewGain& gain() { return gain_; }
+  void count(flyball::Work& work) const {
+    work.add("iterations", static_cast<double>(nodes_.size()) - 1.0);
+    work.add("collision_queries", queries_);
+    work.add("cells", gain_.cells());
+    work.add("ray_cells", gain_.ray_cells());
+  }
+
+ private:
+  [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+
+  void extend() {
+    Vec3 sample_W;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      sample_W[i] = random_.uniform(low_W_[i], high_W_[i]);
+    }
+    const double yaw_rad = random_.uniform(-0.5 * two_pi, 0.5 * two_pi);
+    const int from = nearest(sample_W);
+    const Vec3 to_W = steered(node(from).view.p_W, sample_W);
+    if (is_free(node(from).view.p_W, to_W)) {
+      add({to_W, yaw_rad}, from);
+    }
+  }
+
+  [[nodiscard]] int nearest(const Vec3& p_W) const {
+    int best = 0;
+    for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
+      const double apart = (node(i).view.p_W - p_W).squaredNorm();
+      best = apart < (node(best).view.p_W - p_W).squaredNorm() ? i : best;
+    }
+    return best;
+  }
+
+  /// Towards the sample, no farther than an edge is long and no steeper than may be flown.
+  [[nodiscard]] Vec3 steered(const Vec3& from_W, const Vec3& sample_W) const {
+    Vec3 step = sample_W - from_W;
+    const double rise_m = std::tan(request_.max_slope_rad) * step.head<2>().norm();
+    step.z() = std::clamp(step.z(), -rise_m, rise_m);
+    return from_W + step * std::min(1.0, request_.settings.extension_m / step.norm());
+  }
+
+  bool is_free(const Vec3& from_W, const Vec3& to_W) {
+    const double length_m = (to_W - from_W).norm();
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / pose_step_m)));
+    // The root is where the vehicle stands, free or not.
+    for (int i = 1; i <= steps; ++i) {
+      queries_ += 1.0;
+      const Vec3 p_W = from_W + (to_W - from_W) * i / steps;
+      if (map_.body_state(p_W, request_.body) != CellState::free) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  int add(const Viewpoint& view, int parent) {
+    Node added;
+    added.view = view;
+    added.parent = parent;
+    added.way_m = node(parent).way_m + (view.p_W - node(parent).view.p_W).norm();
+    added.own_m3 = flyball::is_spent(request_, view) ? 0.0 : gain_.gain_m3(view);
+    const double discount = std::exp(-request_.settings.discount_1_m * added.way_m);
+    added.score_m3 = node(parent).score_m3 + added.own_m3 * discount;  // eq. 3
+    nodes_.push_back(added);
+    const int index = static_cast<int>(nodes_.size()) - 1;
+    best_ = added.score_m3 > node(best_).score_m3 ? index : best_;
+    return index;
+  }
+
+  const ExploreRequest& request_;
+  const flyball::OccupancyView& map_;
+  flyball::ViewGain gain_;
+  flyball::RandomStream random_;
+  Vec3 low_W_{Vec3::Zero()};
+  Vec3 high_W_{Vec3::Zero()};
+  std::vector<Node> nodes_{};
+  int best_{};
+  double queries_{};
+};
+
+/// The volume, and where the body may be to look at it.
+flyball::Aabb explored_box(const ExploreRequest& request) {
+  constexpr double around_m = 5.0;
+  const Vec3 around = Vec3::Constant(around_m);
+  flyball::Aabb box = request.bounds_W;
+  box.min = box.min.cwiseMax(request.volume_W.min - around).cwiseMin(request.volume_W.min);
+  box.max = box.max.cwiseMin(request.volume_W.max + around).cwiseMax(request.volume_W.max);
+  return box;
+}
+
+class Nbvp final : public flyball::Explorer {
+ public:
+  ExploreStep explore(const ExploreRequest& request, const flyball::OccupancyView& map) override {
+    const flyball::StateGrid grid{map, explored_box(request)};
+    Tree tree{request, map, grid};
+    if (!branch_.empty() && (branch_.front().p_W - request.from.p_W).norm() < branch_slack_m) {
+      tree.keep({branch_.begin() + 1, branch_.end()});
+    }
+    tree.grow();
+    ExploreStep step;
+    branch_ = tree.best_branch();
+    step.gain_m3 = tree.best_m3();
+    if (step.gain_m3 >= worthwhile_m3) {
+      step.next = branch_.front();
+    } else {
+      look_far(request, grid, tree.gain(), step);
+    }
+    tree.count(step.work);
+    return step;
+  }
+
+ private:
+  void look_far(const ExploreRequest& request,
+                const flyball::StateGrid& grid,
+                flyball::ViewGain& gain,
+                ExploreStep& step) {
+    const flyball::StandingPlaces places{grid, request.body, request.bounds_W, request.from.p_W};
+    double ray_cells = 0.0;
+    const auto found =
+        flyball::best_frontier_view(request, grid, places, gain, least_m3, ray_cells);
+    step.work.add("cells", places.cells() + static_cast<double>(grid.size()));
+    step.work.add("ray_cells", ray_cells);
+    branch_.clear();
+    step.gain_m3 = found ? found->gain_m3 : 0.0;
+    step.is_far = found.has_value();
+    if (found) {
+      step.next = found->view;
+    }
+  }
+
+  std::vector<Viewpoint> branch_{};  ///< The last step's, from its first node on.
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(nbvp) {
+  registry.add<flyball::Explorer>("nbvp", [] { return std::make_unique<Nbvp>(); });
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The cells of a cubic lattice that lie between two points.
+
+#include "flyball/runtime/geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace flyball {
+
+/// Cell (i, j, k) is [i c, (i + 1) c) along x, and so on, from W's origin.
+using GridCell = std::array<int, 3>;
+
+[[nodiscard]] inline GridCell grid_cell_of(const Vec3& p_W, double cell_m) {
+  const auto index = [cell_m](double x_m) { return static_cast<int>(std::floor(x_m / cell_m)); };
+  return {index(p_W.x()), index(p_W.y()), index(p_W.z())};
+}
+
+[[nodiscard]] inline Vec3 centre_of(const GridCell& cell, double cell_m) {
+  return cell_m * (Vec3{static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                        static_cast<double>(cell[2])} +
+                   Vec3::Constant(0.5));
+}
+
+/// Visits the cells that the straight line crosses, in order, those of both ends included, until
+/// `visit(cell)` returns false. Amanatides & Woo 1987; the number of steps along each axis is known
+/// beforehand, so rounding never carries the walk past its end.
+///
+/// @return  Whether the end was reached.
+/// @pre     The points are finite and less than 2^30 cells from the origin.
+template <class Visit>
+bool walk_cells(const Vec3& from_W, const Vec3& to_W, double cell_m, Visit&& visit) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  GridCell cell = grid_cell_of(from_W, cell_m);
+  const GridCell end = grid_cell_of(to_W, cell_m);
+  const Vec3 along = to_W - from_W;
+  std::array<double, 3> next{};
+  std::array<double, 3> delta{};
+  std::array<int, 3> left{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    left[i] = std::abs(end[i] - cell[i]);
+    delta[i] = cell_m / std::abs(along[axis]);
+    const double border_m = (cell[i] + (end[i] > cell[i] ? 1 : 0)) * cell_m;
+    next[i] = left[i] > 0 ? (border_m - from_W[axis]) / along[axis] : never;
+  }
+  while (true) {
+    if (!visit(static_cast<const GridCell&>(cell))) {
+      return false;
+    }
+    const std::size_t i =
+        next[0] < next[1] ? (next[0] < next[2] ? 0U : 2U) : (next[1] < next[2] ? 1U : 2U);
+    if (left[i] == 0) {
+      return true;
+    }
+    cell[i] += end[i] > cell[i] ? 1 : -1;
+    next[i] = --left[i] > 0 ? next[i] + delta[i] : never;
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/observable_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace flyball {
+namespace {
+
+constexpr std::array<GridCell, 6> neighbours{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+constexpr double between_views_m = 0.9;
+constexpr double between_heights_m = 0.6;
+constexpr double two_pi = 6.283185307179586;
+
+/// A box of cells, each with a number.
+class Lattice {
+ public:
+  Lattice(const Aabb& box_W, double cell_m)
+      : cell_m_{cell_m},
+        first_{grid_cell_of(box_W.min, cell_m)},
+        last_{grid_cell_of(box_W.max - Vec3::Constant(1e-6), cell_m)} {}
+
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(extent(0)) * static_cast<std::size_t>(extent(1)) *
+           static_cast<std::size_t>(extent(2));
+  }
+  [[nodiscard]] bool contains(const GridCell& cell) const {
+    return cell[0] >= first_[0] && cell[0] <= last_[0] && cell[1] >= first_[1] &&
+           cell[1] <= last_[1] && cell[2] >= first_[2] && cell[2] <= last_[2];
+  }
+  [[nodiscard]] std::size_t index(const GridCell& cell) const {
+    return static_cast<std::size_t>(((cell[2] - first_[2]) * extent(1) + cell[1] - first_[1]) *
+                                        extent(0) +
+                                    cell[0] - first_[0]);
+  }
+  [[nodiscard]] GridCell cell_at(std::size_t index) const {
+    const auto wide = static_cast<std::size_t>(extent(0));
+    const auto deep = static_cast<std::size_t>(extent(1));
+    return {first_[0] + static_cast<int>(index % wide),
+            first_[1] + static_cast<int>(index / wide % deep),
+            first_[2] + static_cast<int>(index / (wide * deep))};
+  }
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+
+ private:
+  [[nodiscard]] int extent(std::size_t axis) const { return last_[axis] - first_[axis] + 1; }
+
+  double cell_m_;
+  GridCell first_;
+  GridCell last_;
+};
+
+/// Cells in whose centres the body can stand, as far as it gets.
+std::vector<GridCell> reached(const World& world,
+                              const ObservableRequest& request,
+                              const Lattice& lattice) {
+  const Clearance clearance{world};
+  constexpr double touch_m = 0.01;
+  const auto is_open = [&](const GridCell& cell) {
+    const Vec3 p_W = centre_of(cell, lattice.cell_m());
+    return world.bounds_W.contains(p_W) &&
+           clearance.distance_m(p_W, request.body, touch_m, true) > 0.0;
+  };
+  std::vector<bool> seen(lattice.size(), false);
+  std::vector<GridCell> queue;
+  const auto enter = [&](const GridCell& cell) {
+    if (lattice.contains(cell) && !seen[lattice.index(cell)]) {
+      seen[lattice.index(cell)] = true;
+      if (is_open(cell)) {
+        queue.push_back(cell);
+      }
+    }
+  };
+  enter(grid_cell_of(request.start_W, lattice.cell_m()));
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const GridCell& step : neighbours) {
+      const GridCell cell = queue[i];
+      enter({cell[0] + step[0], cell[1] + step[1], cell[2] + step[2]});
+    }
+  }
+  return queue;
+}
+
+/// One place in each block of the given size: that which the flood reached first.
+std::vector<Vec3> views(const std::vector<GridCell>& reached, const Lattice& lattice) {
+  const int across = std::max(1, static_cast<int>(std::lround(between_views_m / lattice.cell_m())));
+  const int up = std::max(1, static_cast<int>(std::lround(between_heights_m / lattice.cell_m())));
+  const auto block = [](int i, int size) {
+    return static_cast<int>(std::floor(static_cast<double>(i) / size));
+  };
+  std::vector<GridCell> blocks;
+  std::vector<std::pair<GridCell, std::size_t>> sorted;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const GridCell& cell = reached[i];
+    sorted.push_back({{block(cell[0], across), block(cell[1], across), block(cell[2], up)}, i});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Vec3> places_W;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i].first != sorted[i - 1].first) {
+      places_W.push_back(centre_of(reached[sorted[i].second], lattice.cell_m()));
+    }
+  }
+  return places_W;
+}
+
+/// The camera of the request, with as many pixels as the cells need, and no noise.
+DepthCameraSpec coarse_camera(const ObservableRequest& request) {
+  DepthCameraSpec camera = request.camera;
+  const double tan_across = std::tan(0.5 * camera.horizontal_field_rad);
+  const double ratio = static_cast<double>(camera.height_px) / camera.width_px;
+  camera.width_px =
+      static_cast<int>(std::ceil(2.0 * tan_across * request.range_m / request.cell_m));
+  camera.height_px = std::max(8, static_cast<int>(std::lround(ratio * camera.width_px)));
+  camera.rgbd_noise = false;
+  camera.extra_noise_m = 0.0;
+  camera.max_range_m = 1.1 * request.range_m * std::hypot(1.0, tan_across * std::hypot(1.0, ratio));
+  return camera;
+}
+
+Pose level_camera(const Vec3& p_W, double yaw_rad) {
+  Eigen::Matrix3d R_BC;  // clang-format off
+  R_BC << 0, 0, 1,
+         -1, 0, 0,
+          0, -1, 0;  // clang-format on
+  Pose X_WC = Pose::Identity();
+  X_WC.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix() * R_BC;
+  X_WC.translation() = p_W;
+  return X_WC;
+}
+
+class Observer {
+ public:
+  Observer(const World& world, const ObservableRequest& request, const Lattice& lattice)
+      : lattice_{lattice},
+        range_m_{request.range_m},
+        camera_{world, coarse_camera(request), 0},
+        headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
+        seen_(lattice.size(), unseen) {}
+
+  void look_around(const Vec3& p_W) {
+    for (int i = 0; i < headings_; ++i) {
+      const Pose X_WC = level_camera(p_W, two_pi * i / headings_);
+      const DepthImage image = camera_.capture(X_WC, MissionTime{}, 0);
+      for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+        follow(image, pixel, X_WC);
+      }
+    }
+  }
+
+  [[nodiscard]] ObservableSpace space() const {
+    ObservableSpace space;
+    space.cell_m = lattice_.cell_m();
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      if (seen_[i] != unseen) {
+        space.cells.push_back(lattice_.cell_at(i));
+      }
+      if (seen_[i] == surface) {
+        space.surfaces.push_back(lattice_.cell_at(i));
+      }
+    }
+    return space;
+  }
+
+ private:
+  static constexpr std::uint8_t unseen = 0;
+  static constexpr std::uint8_t open = 1;
+  static constexpr std::uint8_t surface = 2;
+
+  void follow(const DepthImage& image, std::size_t pixel, const Pose& X_WC) {
+    const Intrinsics& camera = image.camera;
+    const int u = static_cast<int>(pixel) % camera.width_px;
+    const int v = static_cast<int>(pixel) / camera.width_px;
+    const Vec3 ray_C{(u - camera.centre_x_px) / camera.focal_px,
+                     (v - camera.centre_y_px) / camera.focal_px, 1.0};
+    const double farthest_m = range_m_ / ray_C.norm();
+    const double depth_m = static_cast<double>(image.depth_m[pixel]);
+    const bool hits = depth_m <= farthest_m;
+    const Vec3 end_W = X_WC * (ray_C * (hits ? depth_m : farthest_m));
+    walk_cells(X_WC.translation(), end_W, lattice_.cell_m(), [&](const GridCell& cell) {
+      if (lattice_.contains(cell)) {
+        auto& seen = seen_[lattice_.index(cell)];
+        seen = std::max(seen, open);
+      }
+      return true;
+    });
+    const GridCell end = grid_cell_of(end_W, lattice_.cell_m());
+    if (hits && lattice_.contains(end)) {
+      seen_[lattice_.index(end)] = surface;
+    }
+  }
+
+  const Lattice& lattice_;
+  double range_m_;
+  DepthCamera camera_;
+  int headings_;
+  std::vector<std::uint8_t> seen_;
+};
+
+}  // namespace
+
+ObservableSpace observable_space(const World& world, const ObservableRequest& request) {
+  Aabb box = world.bounds_W;
+  box.min = box.min.cwiseMin(request.start_W);
+  box.max = box.max.cwiseMax(request.start_W);
+  const Lattice places{box, request.cell_m};
+  const Lattice volume{world.volume_W, request.cell_m};
+  Observer observer{world, request, volume};
+  for (const Vec3& p_W : views(reached(world, request, places), places)) {
+    observer.look_around(p_W);
+  }
+  return observer.space();
+}
+
+}  // namespace flyball

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+#include "flyball/apps/mission.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+/// Two rooms on a corridor of 5 m.
+Scenario small_office() {
+  Scenario scenario;
+  scenario.name = "small_office";
+  scenario.mission.workload = "mapping";
+  scenario.world.generator = "office";
+  scenario.world.parameters["rooms_per_side"] = 1.0;
+  scenario.vehicle.payload_kg = 0.0;
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters["cost_of"] = std::string{"octomap"};
+  scenario.mission.time_limit_s = 600.0;
+  return scenario;
+}
+
+TEST(Mapping, covers_both_rooms_comes_home_and_its_map_fits_the_world) {
+  const auto record = fly(small_office(), {});
+  ASSERT_TRUE(record) << record.error().message;
+  const Summary& summary = record->summary;
+  EXPECT_EQ(summary.status, MissionStatus::succeeded) << to_string(summary.failure);
+  EXPECT_GE(summary.quality.at("coverage_percent"), 85.0);
+  EXPECT_GE(summary.quality.at("map_precision"), 0.9);
+  EXPECT_GT(summary.kernels.at("explore").calls, 3U);
+}
+
+TEST(Mapping, of_more_than_there_is_to_see_is_incomplete) {
+  Scenario scenario = small_office();
+  scenario.world.parameters["furniture_per_room"] = 0.0;
+  scenario.explore.coverage_percent = 100.0;
+  const auto record = fly(scenario, {});
+  ASSERT_TRUE(record) << record.error().message;
+  EXPECT_EQ(record->summary.failure, MissionFailure::incomplete);
+  EXPECT_GE(record->summary.quality.at("coverage_percent"), 85.0);
+}
+
+TEST(Mapping, is_refused_where_there_is_no_volume) {
+  Scenario scenario;
+  scenario.mission.workload = "mapping";
+  const auto record = fly(scenario, {});
+  ASSERT_FALSE(record);
+  EXPECT_NE(record.error().message.find("volume"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/kernels/explorer.h"
+#include "flyball/kernels/kernels.h"
+#include "flyball/runtime/registry.h"
+
+#include "explore_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::unique_ptr<Explorer> nbvp() {
+  Registry registry;
+  register_kernels(registry);
+  return registry.make<Explorer>("nbvp");
+}
+
+/// A hall of which only the first metres are known.
+kit::GridMap hall() {
+  kit::GridMap map{{{0, 0, 0}, {12, 6, 3}}, 0.15, CellState::unknown};
+  map.fill({{0, 0, 0}, {4, 6, 3}}, CellState::free);
+  return map;
+}
+
+TEST(Nbvp, goes_by_an_edge_through_known_free_space_towards_the_unknown) {
+  const kit::GridMap map = hall();
+  const ExploreRequest request = kit::request_from({1.0, 3.0, 1.2}, 0.0);
+  const ExploreStep step = nbvp()->explore(request, map);
+  ASSERT_TRUE(step.next);
+  EXPECT_FALSE(step.is_far);
+  EXPECT_GT(step.gain_m3, 1.0);
+  const Vec3 edge = step.next->p_W - request.from.p_W;
+  EXPECT_LE(edge.norm(), request.settings.extension_m + 1e-9);
+  EXPECT_LE(std::abs(edge.z()), std::tan(request.max_slope_rad) * edge.head<2>().norm() + 1e-9);
+  for (double share = 0.05; share <= 1.0; share += 0.05) {
+    EXPECT_EQ(map.body_state(request.from.p_W + share * edge, request.body), CellState::free);
+  }
+}
+
+TEST(Nbvp, stops_at_its_number_of_nodes_and_counts_its_work) {
+  const ExploreStep step = nbvp()->explore(kit::request_from({1.0, 3.0, 1.2}, 0.0), hall());
+  EXPECT_GE(step.work.count("iterations"), 15.0);
+  EXPECT_LE(step.work.count("iterations"), 80.0);
+  EXPECT_GE(step.work.count("collision_queries"), step.work.count("iterations"));
+  EXPECT_GT(step.work.count("cells"), 0.0);
+  EXPECT_GT(step.work.count("ray_cells"), 0.0);
+}
+
+TEST(Nbvp, answers_the_same_to_the_same_and_otherwise_for_another_seed) {
+  const auto ask = [](std::uint64_t seed) {
+    ExploreRequest request = kit::request_from({1.0, 3.0, 1.2}, 0.0);
+    request.seed = seed;
+    return nbvp()->explore(request, hall());
+  };
+  const ExploreStep first = ask(1);
+  const ExploreStep again = ask(1);
+  EXPECT_EQ(first.next->p_W, again.next->p_W);
+  EXPECT_EQ(first.next->yaw_rad, again.next->yaw_rad);
+  EXPECT_EQ(first.gain_m3, again.gain_m3);
+  EXPECT_NE(first.next->p_W, ask(2).next->p_W);
+}
+
+TEST(Nbvp, keeps_the_best_branch_for_its_next_tree) {
+  const kit::GridMap map = hall();
+  ExploreRequest request = kit::request_from({1.0, 3.0, 1.2}, 0.0);
+  // Long branches: a short edge, and a gain that does not fade.
+  request.settings.extension_m = 0.7;
+  request.settings.discount_1_m = 0.0;
+  const auto explorer = nbvp();
+  const ExploreStep first = explorer->explore(request, map);
+  ASSERT_TRUE(first.next);
+  request.from = *first.next;
+  request.settings.iterations = 1;
+  request.settings.most_iterations = 1;
+  const ExploreStep second = explorer->explore(request, map);
+  ASSERT_TRUE(second.next);
+  const ExploreStep fresh = nbvp()->explore(request, map);
+  EXPECT_GT(second.work.count("iterations"), fresh.work.count("iterations"));
+  EXPECT_GT(second.gain_m3, 0.0);
+}
+
+TEST(Nbvp, goes_far_when_nothing_is_left_nearby) {
+  // The first room is known, and its door is out of a short tree's reach.
+  ExploreRequest request = kit::request_from({1.0, 1.0, 1.2}, 0.0);
+  request.settings.extension_m = 0.5;
+  request.settings.iterations = 1;
+  request.settings.most_iterations = 1;
+  const ExploreStep step = nbvp()->explore(request, kit::two_rooms());
+  ASSERT_TRUE(step.next);
+  EXPECT_TRUE(step.is_far);
+  EXPECT_GT(step.gain_m3, 1.0);
+}
+
+TEST(Nbvp, knows_when_nothing_is_left_to_see) {
+  const kit::GridMap map{{{0, 0, 0}, {12, 6, 3}}, 0.15, CellState::free};
+  const ExploreStep step = nbvp()->explore(kit::request_from({3.0, 3.0, 1.2}, 0.0), map);
+  EXPECT_FALSE(step.next);
+  EXPECT_EQ(step.gain_m3, 0.0);
+  EXPECT_GT(step.work.count("iterations"), 0.0);
+}
+
+}  // namespace
+}  // namespace flyball
