@@ -56,8 +56,9 @@ std::string options_text(const std::vector<PolicyOption>& options) {
 
 std::string worth_text(const Explanation& e) {
   if (e.watts_per_second == 0.0) {
-    return "A second of latency is worth nothing here: the mission's limit of speed, not latency, "
-           "holds the vehicle.\n";
+    return "A second of latency is worth nothing here: a manoeuvre or the mission's limit of "
+           "speed, not "
+           "latency, holds the vehicle.\n";
   }
   return "A second of latency is worth " + rounded(e.watts_per_second, 1) +
          " W here: P / (delta + v / a), delta = " + rounded(e.response_s, 3) + " s.\n";

@@ -149,7 +149,8 @@ Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& pol
     const std::string ours = where_they_differ(now, recorded);
     result.different += theirs.empty() ? 0 : 1;
     if (!theirs.empty() || !result.differences.empty()) {
-      note(result, decisions.seen().now, theirs.empty() ? "the same" : theirs, ours);
+      note(result, decisions.seen().now, theirs.empty() ? "the same" : theirs,
+           ours.empty() ? "the same" : ours);
     }
   }
   return result;
@@ -183,7 +184,7 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
   explanation.response_s = to_seconds(seen.latency_bound + Guard{GuardSettings{}}.reaction_time());
   const double power_w = seen.rotor_power.value() + seen.computer_power.value();
   constexpr double nearly = 0.98;
-  if (seen.speed_m_s < nearly * seen.speed_limit_m_s) {
+  if (seen.phase == MissionPhase::cruise && seen.speed_m_s < nearly * seen.speed_limit_m_s) {
     explanation.watts_per_second =
         power_w / (explanation.response_s + seen.speed_m_s / deceleration_m_s2);
   }

@@ -58,8 +58,8 @@ struct Explanation {
   Observation seen{};
   std::string choice{};
   std::vector<PolicyOption> options{};  ///< The policy's own, best first; often empty.
-  /// P / (delta + v / a) [W]: what one second of latency is worth; 0 where the mission's limit of
-  /// speed, not latency, is what limits.
+  /// P / (delta + v / a) [W]: what one second of latency is worth; 0 where a manoeuvre or the
+  /// mission's limit of speed, not latency, is what limits.
   double watts_per_second{};
   double response_s{};  ///< delta: bound on latency and the guard's reaction.
 };
