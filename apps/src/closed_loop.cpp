@@ -49,8 +49,8 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
       clearance_{world},
       movers_{world.movers},
-      wind_{wind_spec(context.scenario.vehicle), context.scenario.seed},
-      people_{world.people} {
+      people_{world.people},
+      wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
   log_.min_clearance_m = clearance_limit_m;
 }
 

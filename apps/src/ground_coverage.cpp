@@ -106,18 +106,24 @@ void GroundCoverage::add(const Footprint& footprint) {
   const auto [first_column, end_column] = cells_between(low.x(), high.x(), cell_m_, columns_);
   const auto [first_row, end_row] = cells_between(low.y(), high.y(), cell_m_, rows_);
   for (int row = first_row; row < end_row; ++row) {
-    for (int column = first_column; column < end_column; ++column) {
-      const Vec3 centre_W =
-          area_W_.min + Vec3{(column + 0.5) * cell_m_, (row + 0.5) * cell_m_, 0.0};
-      if (!holds(footprint, centre_W)) {
-        continue;
-      }
-      Cell& cell = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(column)];
-      const bool stayed_in_view = cell.last_picture != 0 && cell.last_picture == pictures_ - 1;
-      cell.visits += stayed_in_view ? 0 : 1;
-      cell.last_picture = pictures_;
+    look_along(row, first_column, end_column, footprint);
+  }
+}
+
+void GroundCoverage::look_along(int row,
+                                int first_column,
+                                int end_column,
+                                const Footprint& footprint) {
+  for (int column = first_column; column < end_column; ++column) {
+    const Vec3 centre_W = area_W_.min + Vec3{(column + 0.5) * cell_m_, (row + 0.5) * cell_m_, 0.0};
+    if (!holds(footprint, centre_W)) {
+      continue;
     }
+    Cell& cell = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(column)];
+    const bool stayed_in_view = cell.last_picture != 0 && cell.last_picture == pictures_ - 1;
+    cell.visits += stayed_in_view ? 0 : 1;
+    cell.last_picture = pictures_;
   }
 }
 

@@ -52,6 +52,7 @@ class GroundCoverage {
     int last_picture{};  ///< The first picture is 1; 0: never seen.
     int visits{};
   };
+  void look_along(int row, int first_column, int end_column, const Footprint& footprint);
   [[nodiscard]] double percent(int least_visits, std::size_t of) const;
 
   Aabb area_W_{};

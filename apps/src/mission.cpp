@@ -37,7 +37,6 @@ struct Flight {
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
-    context.people_truth = setup.world.people;
     context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace flyball {
 namespace {
@@ -43,27 +44,27 @@ Window window_of(const Aabb& box, const Pose& X_CW, const Intrinsics& camera) {
           pixel(std::floor(seen.max().y()) + 1.0, camera.height_px)};
 }
 
+void draw_box(const Aabb& box, const Window& window, const Pose& X_WC, DepthImage& image) {
+  const Intrinsics& camera = image.camera;
+  for (int y = window.y; y < window.end_y; ++y) {
+    float* row = image.depth_m.data() + static_cast<std::ptrdiff_t>(y) * camera.width_px;
+    for (int x = window.x; x < window.end_x; ++x) {
+      const Vec3 ray_C{(x - camera.centre_x_px) / camera.focal_px,
+                       (y - camera.centre_y_px) / camera.focal_px, 1.0};
+      const double depth_m = ray_enters(box, X_WC.translation(), X_WC.linear() * ray_C);
+      const bool is_nearest = depth_m <= image.max_range_m && depth_m < static_cast<double>(row[x]);
+      row[x] = is_nearest ? static_cast<float>(depth_m) : row[x];
+    }
+  }
+}
+
 }  // namespace
 
 void draw(const std::vector<Mover>& movers, const Pose& X_WC, DepthImage& image) {
-  const Intrinsics& camera = image.camera;
   const Pose X_CW = X_WC.inverse();
   for (const Mover& mover : movers) {
     const Aabb box = box_at(mover, image.captured);
-    const Window window = window_of(box, X_CW, camera);
-    for (int y = window.y; y < window.end_y; ++y) {
-      for (int x = window.x; x < window.end_x; ++x) {
-        const Vec3 ray_C{(x - camera.centre_x_px) / camera.focal_px,
-                         (y - camera.centre_y_px) / camera.focal_px, 1.0};
-        const double depth_m = ray_enters(box, X_WC.translation(), X_WC.linear() * ray_C);
-        float& shown =
-            image.depth_m[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                          static_cast<std::size_t>(x)];
-        if (depth_m <= image.max_range_m && depth_m < static_cast<double>(shown)) {
-          shown = static_cast<float>(depth_m);
-        }
-      }
-    }
+    draw_box(box, window_of(box, X_CW, image.camera), X_WC, image);
   }
 }
 

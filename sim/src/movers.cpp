@@ -4,8 +4,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace flyball {
+namespace {
+
+/// When a ray passes the two faces of one axis: first, last. One that runs along them is between
+/// them always or never.
+std::pair<double, double> between_faces(double to_min, double to_max, double direction) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (direction == 0.0) {
+    const bool is_between = to_min <= 0.0 && to_max >= 0.0;
+    return is_between ? std::pair{-infinity, infinity} : std::pair{infinity, -infinity};
+  }
+  return std::minmax({to_min / direction, to_max / direction});
+}
+
+}  // namespace
 
 Aabb box_at(const Mover& mover, MissionTime now) {
   const Vec3 way = mover.to_W - mover.from_W;
@@ -40,18 +55,10 @@ double ray_enters(const Aabb& box, const Vec3& from_W, const Vec3& direction_W) 
   double enter = 0.0;
   double leave = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    const double to_min = box.min[axis] - from_W[axis];
-    const double to_max = box.max[axis] - from_W[axis];
-    if (direction_W[axis] == 0.0) {
-      if (to_min > 0.0 || to_max < 0.0) {
-        return std::numeric_limits<double>::infinity();
-      }
-      continue;
-    }
-    const double a = to_min / direction_W[axis];
-    const double b = to_max / direction_W[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+    const auto [in, out] = between_faces(box.min[axis] - from_W[axis], box.max[axis] - from_W[axis],
+                                         direction_W[axis]);
+    enter = std::max(enter, in);
+    leave = std::min(leave, out);
   }
   return enter <= leave ? enter : std::numeric_limits<double>::infinity();
 }
