@@ -4,6 +4,7 @@
 #include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
 #include "flyball/apps/workload.h"
+#include "flyball/governors/combined_policy.h"
 #include "flyball/governors/preset.h"
 #include "flyball/kernels/kernels.h"
 #include "flyball/policies/policies.h"
@@ -89,27 +90,64 @@ Result<Preset> find_policy(const std::string& name) {
   return unknown("policy", name, "policies");
 }
 
+Result<std::unique_ptr<Policy>> started(const Preset& preset, const KnobSettings& knobs) {
+  auto policy = all_plugins().make<Policy>(preset.policy);
+  if (!policy) {
+    return unknown("policy", preset.policy, "policies");
+  }
+  const auto parameters =
+      resolved("policy \"" + preset.policy + "\"", policy->parameters(), preset.parameters);
+  if (!parameters) {
+    return parameters.error();
+  }
+  if (const Status ready = policy->start(*parameters, knobs); !ready) {
+    return ready.error();
+  }
+  return policy;
+}
+
+/// One half of a combination.
+Result<std::unique_ptr<Policy>> started_half(const std::string& name, const KnobSettings& knobs) {
+  const auto preset = find_policy(name);
+  if (!preset) {
+    return preset.error();
+  }
+  if (preset->is_combination()) {
+    return Error{ErrorCode::invalid_input,
+                 "policy \"" + name + "\" is a combination itself; name one policy"};
+  }
+  return started(*preset, knobs);
+}
+
+Result<std::unique_ptr<Policy>> started_both(const Preset& preset,
+                                             const Scenario& scenario,
+                                             const KnobSettings& knobs) {
+  auto application = started_half(preset.application, knobs);
+  if (!application) {
+    return application.error();
+  }
+  auto clock = started_half(preset.clock, knobs);
+  if (!clock) {
+    return clock.error();
+  }
+  return std::unique_ptr<Policy>{std::make_unique<CombinedPolicy>(
+      std::move(*application), std::move(*clock), from_seconds(scenario.governor.period_s))};
+}
+
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs) {
   const auto preset = find_policy(scenario.governor.policy);
   if (!preset) {
     return preset.error();
   }
-  auto policy = all_plugins().make<Policy>(preset->policy);
+  auto policy =
+      preset->is_combination() ? started_both(*preset, scenario, knobs) : started(*preset, knobs);
   if (!policy) {
-    return unknown("policy", preset->policy, "policies");
-  }
-  const auto parameters =
-      resolved("policy \"" + preset->policy + "\"", policy->parameters(), preset->parameters);
-  if (!parameters) {
-    return parameters.error();
-  }
-  if (const Status started = policy->start(*parameters, knobs); !started) {
-    return started.error();
+    return policy.error();
   }
   // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
   // it.
-  return std::make_unique<PolicyGovernor>(std::move(policy), knobs, PolicyGovernorSettings{},
+  return std::make_unique<PolicyGovernor>(std::move(*policy), knobs, PolicyGovernorSettings{},
                                           nullptr);
 }
 
