@@ -46,7 +46,8 @@ TEST(CollapsedBuilding, has_slabs_and_rubble_but_keeps_the_start_clear) {
 }
 
 TEST(CollapsedBuilding, lets_the_body_come_within_sight_of_the_person) {
-  const auto world = made_world("collapsed_building", 1);
+  const auto world =
+      made_world("collapsed_building", 1, {{"length_m", 9.0}, {"width_m", 6.0}, {"walls", 1.0}});
   ASSERT_TRUE(world);
   const ObservableSpace space = observable_space(*world, request_in(*world));
   const GridCell beside = grid_cell_of(
