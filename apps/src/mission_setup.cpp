@@ -3,9 +3,8 @@
 
 #include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
+#include "flyball/apps/policy_choice.h"
 #include "flyball/apps/workload.h"
-#include "flyball/governors/combined_policy.h"
-#include "flyball/governors/preset.h"
 #include "flyball/kernels/kernels.h"
 #include "flyball/policies/policies.h"
 #include "flyball/sim/platform_file.h"
@@ -78,70 +77,10 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   return kernels;
 }
 
-/// A preset by this name or path, or a bare policy with its default parameters.
-Result<Preset> find_policy(const std::string& name) {
-  const auto file = find_shipped("presets", name);
-  if (file) {
-    return load_preset(*file);
-  }
-  if (all_plugins().make<Policy>(name)) {
-    return Preset{name, {}, {}};
-  }
-  return unknown("policy", name, "policies");
-}
-
-Result<std::unique_ptr<Policy>> started(const Preset& preset, const KnobSettings& knobs) {
-  auto policy = all_plugins().make<Policy>(preset.policy);
-  if (!policy) {
-    return unknown("policy", preset.policy, "policies");
-  }
-  const auto parameters =
-      resolved("policy \"" + preset.policy + "\"", policy->parameters(), preset.parameters);
-  if (!parameters) {
-    return parameters.error();
-  }
-  if (const Status ready = policy->start(*parameters, knobs); !ready) {
-    return ready.error();
-  }
-  return policy;
-}
-
-/// One half of a combination.
-Result<std::unique_ptr<Policy>> started_half(const std::string& name, const KnobSettings& knobs) {
-  const auto preset = find_policy(name);
-  if (!preset) {
-    return preset.error();
-  }
-  if (preset->is_combination()) {
-    return Error{ErrorCode::invalid_input,
-                 "policy \"" + name + "\" is a combination itself; name one policy"};
-  }
-  return started(*preset, knobs);
-}
-
-Result<std::unique_ptr<Policy>> started_both(const Preset& preset,
-                                             const Scenario& scenario,
-                                             const KnobSettings& knobs) {
-  auto application = started_half(preset.application, knobs);
-  if (!application) {
-    return application.error();
-  }
-  auto clock = started_half(preset.clock, knobs);
-  if (!clock) {
-    return clock.error();
-  }
-  return std::unique_ptr<Policy>{std::make_unique<CombinedPolicy>(
-      std::move(*application), std::move(*clock), from_seconds(scenario.governor.period_s))};
-}
-
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs) {
-  const auto preset = find_policy(scenario.governor.policy);
-  if (!preset) {
-    return preset.error();
-  }
-  auto policy =
-      preset->is_combination() ? started_both(*preset, scenario, knobs) : started(*preset, knobs);
+  auto policy = start_policy(scenario.governor.policy, scenario.seed,
+                             from_seconds(scenario.governor.period_s), knobs);
   if (!policy) {
     return policy.error();
   }
