@@ -79,11 +79,8 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
 
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs) {
-  const auto choice = choose_policy(scenario.governor.policy, scenario.seed);
-  if (!choice) {
-    return choice.error();
-  }
-  auto policy = choice->started(knobs);
+  auto policy = start_policy(scenario.governor.policy, scenario.seed,
+                             from_seconds(scenario.governor.period_s), knobs);
   if (!policy) {
     return policy.error();
   }

@@ -59,7 +59,7 @@ Result<PolicyChoice> load_named(const std::string& path,
                                 const Registry& known) {
   if (preset.is_combination()) {
     return Error{ErrorCode::invalid_input,
-                 path + ": names two presets, which are found by name and not beside a file"};
+                 path + ": is a combination; name one policy here"};
   }
   if (known.make<Policy>(preset.policy) == nullptr) {
     return Error{ErrorCode::not_found,

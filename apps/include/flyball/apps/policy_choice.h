@@ -14,4 +14,11 @@ namespace flyball {
 /// @error `not_found` with the way out; those of `load_policy`.
 [[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed);
 
+/// One that is ready to decide; also a preset that combines two others (combined_policy.h), whose
+/// application is asked once per `application_period`.
+[[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
+                                                           std::uint64_t seed,
+                                                           Duration application_period,
+                                                           const KnobSettings& knobs);
+
 }  // namespace flyball
