@@ -121,8 +121,8 @@ std::string ChildProcess::end() {
   id_ = 0;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    how_ = "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) +
-           ")";  // NOLINT(concurrency-mt-unsafe): one thread forks policies
+    const char* name = strsignal(signal);  // NOLINT(concurrency-mt-unsafe): one thread forks
+    how_ = "was ended by signal " + std::to_string(signal) + " (" + name + ")";
   } else {
     how_ = "ended by itself with exit code " + std::to_string(WEXITSTATUS(status));
   }
