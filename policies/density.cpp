@@ -44,14 +44,14 @@ class Density final : public flyball::Policy {
       return refused("leave_density = " + std::to_string(leave_) +
                      " must not be above enter_density = " + std::to_string(enter_));
     }
+    const bool sets_range = fine_range_m_ > 0.0 || coarse_range_m_ > 0.0;
     for (const char* name : {knob, range_knob}) {
-      if (knobs.spec(name) == nullptr) {
+      if (knobs.spec(name) == nullptr && (sets_range || name == knob)) {
         return refused("there is no knob " + std::string{name} + "; try: flyball list knobs");
       }
     }
-    // With one range given and the other not, that one must come back.
-    const double usual_m = knobs.value(range_knob);
-    if (fine_range_m_ > 0.0 || coarse_range_m_ > 0.0) {
+    if (sets_range) {  // With one of them given, the other one must come back.
+      const double usual_m = knobs.value(range_knob);
       fine_range_m_ = fine_range_m_ > 0.0 ? fine_range_m_ : usual_m;
       coarse_range_m_ = coarse_range_m_ > 0.0 ? coarse_range_m_ : usual_m;
     }

@@ -38,7 +38,8 @@ class MissionEnergy final : public flyball::Policy {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     return {{"fine_m", 0.15, 0.05, 2.0, "Resolution that passes every gap of the mission."},
-            {"coarse_m", 0.80, 0.05, 2.0, "Resolution for the open."},
+            {"coarse_m", 0.0, 0.0, 2.0,
+             "For the open; 0: the mapper's coarsest, .8 without a lattice."},
             {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map."},
             {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: the mission's own, 12 at least."},
             {"narrow_m_s", 2.0, 0.0, 50.0, "A limit of speed, 20 m ahead, that means narrow gaps."},
@@ -99,6 +100,26 @@ class MissionEnergy final : public flyball::Policy {
     return wish;
   }
 
+  [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
+    std::vector<flyball::PolicyOption> all;
+    for (const flyball::EnergyEstimate& one : search_->weighed()) {
+      if (std::isfinite(one.joules_per_m)) {
+        flyball::PolicyOption option;
+        option.setting.set("map.resolution_m", one.setting.resolution_m);
+        option.setting.set("map.range_m", one.setting.range_m);
+        option.setting.set("cpu.frequency_hz", one.setting.clock_hz);
+        option.speed_m_s = one.speed_m_s;
+        option.joules_per_m = one.joules_per_m;
+        option.response_s = one.response_s;
+        option.watts_per_second = one.watts_per_second;
+        all.push_back(option);
+      }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
+    return all;
+  }
+
  private:
   static flyball::Error refused(const std::string& why) {
     return {flyball::ErrorCode::invalid_input, "policy \"mission_energy\": " + why};
@@ -112,15 +133,18 @@ class MissionEnergy final : public flyball::Policy {
 
   /// All cells of a lattice between the finest and the coarsest one; else these two.
   flyball::Status set_levels(const flyball::Parameters& given, const flyball::KnobSettings& knobs) {
+    const flyball::KnobSpec* spec = knobs.spec("map.resolution_m");
+    is_lattice_ = spec != nullptr && !spec->legal.empty();
+    constexpr double usual_m = 0.8;  // MAVBench's coarse cells.
+    const double given_m = given.number("coarse_m");
+    const double coarsest_m = is_lattice_ ? spec->legal.back() : usual_m;
     const double fine_m = nearest_level(given.number("fine_m"), knobs);
-    const double coarse_m = nearest_level(given.number("coarse_m"), knobs);
+    const double coarse_m = nearest_level(given_m > 0.0 ? given_m : coarsest_m, knobs);
     if (fine_m >= coarse_m) {
       return refused("fine_m = " + std::to_string(fine_m) +
                      " must be below coarse_m = " + std::to_string(coarse_m));
     }
     levels_m_ = {fine_m, coarse_m};
-    const flyball::KnobSpec* spec = knobs.spec("map.resolution_m");
-    is_lattice_ = spec != nullptr && !spec->legal.empty();
     if (is_lattice_) {
       levels_m_.clear();
       std::copy_if(spec->legal.begin(), spec->legal.end(), std::back_inserter(levels_m_),

@@ -9,6 +9,7 @@
 #include "flyball/governors/policy.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
+#include "flyball/kernels/detector.h"
 #include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
@@ -16,6 +17,7 @@
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/kernels/smoother.h"
+#include "flyball/kernels/tracker.h"
 #include "flyball/sim/world.h"
 
 #include <algorithm>
@@ -35,6 +37,8 @@ std::vector<KernelFamily> kernel_families() {
       {"localizer", plugins.names<Localizer>()},
       {"coverage", plugins.names<CoveragePlanner>()},
       {"explorer", plugins.names<Explorer>()},
+      {"detector", plugins.names<Detector>()},
+      {"tracker", plugins.names<Tracker>()},
   };
 }
 

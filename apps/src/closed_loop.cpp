@@ -49,6 +49,7 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
       clearance_{world},
       movers_{world.movers},
+      people_{world.people},
       wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
   log_.min_clearance_m = clearance_limit_m;
 }
@@ -71,6 +72,12 @@ void ClosedLoop::start() {
                [this] { publish_navigation(); });
   const Duration frame = from_seconds(1.0 / context_.scenario.camera.rate_hz);
   queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
+  if (context_.colour_camera) {
+    executor_.subscribe<GimbalAngles>(topics_.gimbal,
+                                      [this](const GimbalAngles& angles) { gimbal_.aim(angles); });
+    const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
+    queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
+  }
 }
 
 void ClosedLoop::physics_step() {
@@ -112,7 +119,8 @@ void ClosedLoop::check_step() {
   const Vec3& p_WB = vehicle_.state().X_WB.translation();
   const Cylinder body = context_.airframe.body();
   const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
-  const double distance_m = clearance_m(movers_, now, p_WB, body, still_m);
+  const double moving_m = clearance_m(movers_, now, p_WB, body, still_m);
+  const double distance_m = distance_to_people_m(people_, now, p_WB, body, moving_m);
   if (is_airborne()) {
     log_.min_clearance_m = std::min(log_.min_clearance_m, distance_m);
   }
@@ -140,6 +148,16 @@ void ClosedLoop::publish_navigation() {
 void ClosedLoop::publish_depth() {
   executor_.publish(topics_.depth, camera_.frame(camera_pose(vehicle_.state().X_WB), queue_.now(),
                                                  frame_count_++));
+}
+
+void ClosedLoop::publish_colour() {
+  gimbal_.step(1.0 / context_.scenario.colour_camera.rate_hz);
+  const Pose X_LC = camera_in_level_frame(gimbal_.angles());
+  const Pose X_WC = level_frame(vehicle_.state().X_WB) * X_LC;
+  const ColourFrame frame =
+      context_.colour_camera->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  executor_.publish(topics_.colour, frame);
+  executor_.publish(topics_.colour_buffer, frame);
 }
 
 void ClosedLoop::obey(const FlightCommand& command) {

@@ -54,6 +54,7 @@ class ClosedLoop {
   void check_step();
   void publish_navigation();
   void publish_depth();
+  void publish_colour();
   void obey(const FlightCommand& command);
   [[nodiscard]] bool is_airborne() const;
 
@@ -69,11 +70,14 @@ class ClosedLoop {
   Gps gps_;
   Clearance clearance_;
   std::vector<Mover> movers_;
+  std::vector<Person> people_;
   Wind wind_;
   FlightLog log_{};
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};
   std::uint64_t frame_count_{};
+  Gimbal gimbal_{};
+  std::uint64_t colour_count_{};
 };
 
 }  // namespace flyball

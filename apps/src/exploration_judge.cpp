@@ -117,8 +117,8 @@ MapAgreement ExplorationJudge::agreement(const Mapper& mapper) const {
   GridCell last = first;
   for (const GridCell& cell : space_.surfaces) {
     for (std::size_t i = 0; i < 3; ++i) {
-      first[i] = std::min(first[i], cell[i]);
-      last[i] = std::max(last[i], cell[i]);
+      first[i] = std::min(first[i], cell[i] - 1);
+      last[i] = std::max(last[i], cell[i] + 1);
     }
   }
   CellSet surfaces{first, last};

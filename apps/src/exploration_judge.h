@@ -24,7 +24,7 @@ class ExplorationJudge {
   /// Share of the cells which can be seen that the map knows, as free or occupied.
   /// @cost In proportion to what is still unknown: what was known once is not asked for again.
   [[nodiscard]] double coverage_percent(const OccupancyView& map);
-  /// Within the box that the surfaces span.
+  /// Within the box that the surfaces span, and a cell around it.
   [[nodiscard]] MapAgreement agreement(const Mapper& mapper) const;
 
  private:

@@ -36,7 +36,7 @@ struct Flight {
         workload{std::move(made)},
         graph{scenario.mission.workload},
         period{setup.governor->period()},
-        topics{add_vehicle_topics(graph)} {
+        topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
     context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
@@ -70,6 +70,7 @@ void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks
     }
   });
   const Duration period = flight.period.value_or(from_seconds(scenario.governor.period_s));
+  flight.context.recorder.record(MissionTime{}, "governor", {{"period_s", to_seconds(period)}});
   queue.every(MissionTime{}, period, EventOrder::governor,
               [&flight] { flight.governor->tick(flight.queue.now()); });
   queue.every(MissionTime{}, state_period, EventOrder::observer,
@@ -202,6 +203,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   }
   fill_outcome(record.summary, flight, scenario);
   fill_computing(record.summary, flight);
+  record.frames = flight.workload->frames();
   record.summary.trace_hash = record.trace->hash().hex();
   record.summary.numeric_fingerprint = numeric_fingerprint();
   record.summary.version = version();

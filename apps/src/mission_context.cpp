@@ -16,6 +16,7 @@ MissionContext::MissionContext(const Scenario& scenario_in,
       airframe{std::move(equipment.airframe)},
       knobs{std::move(equipment.knobs)},
       kernels{std::move(equipment.kernels)},
+      colour_camera{std::move(equipment.colour_camera)},
       recorder{recorder_in} {}
 
 double MissionContext::speed_limit_m_s(const Vec3& p_W) const {
@@ -48,13 +49,19 @@ void MissionContext::finish(MissionTime at, MissionStatus status, MissionFailure
                 (failure == MissionFailure::none ? "" : std::string{" by "} + to_string(failure)));
 }
 
-VehicleTopics add_vehicle_topics(Graph& graph) {
+VehicleTopics add_vehicle_topics(Graph& graph, bool with_colour_camera) {
   VehicleTopics topics;
   topics.depth = graph.topic<DepthFrame>("depth");
   topics.navigation = graph.topic<NavigationSample>("navigation");
   topics.status = graph.topic<FlightStatus>("flight_status");
   topics.setpoint = graph.topic<Setpoint>("setpoint");
   topics.command = graph.topic<FlightCommand>("flight_command", 8);
+  if (with_colour_camera) {
+    constexpr std::size_t longest_detection = 128;  // Frames: 6 s of a 20 Hz camera.
+    topics.colour = graph.topic<ColourFrame>("colour");
+    topics.colour_buffer = graph.topic<ColourFrame>("colour_buffer", longest_detection);
+    topics.gimbal = graph.topic<GimbalAngles>("gimbal_command");
+  }
   return topics;
 }
 

@@ -8,6 +8,7 @@
 #include "flyball/apps/summary.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
+#include "flyball/kernels/detector.h"
 #include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
@@ -15,6 +16,7 @@
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/kernels/smoother.h"
+#include "flyball/kernels/tracker.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/knob.h"
@@ -23,6 +25,8 @@
 #include "flyball/runtime/recorder.h"
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/airframe.h"
+#include "flyball/sim/colour_camera.h"
+#include "flyball/sim/gimbal.h"
 #include "flyball/sim/world.h"
 
 #include <memory>
@@ -41,7 +45,7 @@ struct MissionBrief {
   double cruise_height_m{};
   double ground_z_m{};
   std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
-  Aabb volume_W{};  ///< To be explored, if anything is.
+  Aabb volume_W{};                       ///< To be explored, if anything is.
 };
 
 struct FlightCommand {
@@ -63,6 +67,9 @@ struct VehicleTopics {
   Topic<FlightStatus> status;
   Topic<Setpoint> setpoint;
   Topic<FlightCommand> command;
+  Topic<ColourFrame> colour{};         ///< These three only where the workload looks for people.
+  Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until somebody takes them.
+  Topic<GimbalAngles> gimbal{};        ///< What the gimbal is told.
 };
 
 struct MissionKernels {
@@ -75,6 +82,9 @@ struct MissionKernels {
   std::unique_ptr<Localizer> localizer;
   std::unique_ptr<CoveragePlanner> coverage;
   std::unique_ptr<Explorer> explorer;
+  std::unique_ptr<Detector> detector;         ///< These three only where the workload
+  std::unique_ptr<Tracker> buffered_tracker;  ///< looks for people.
+  std::unique_ptr<Tracker> real_time_tracker;
 };
 
 /// What is on board.
@@ -82,6 +92,7 @@ struct MissionEquipment {
   Airframe airframe{};
   KnobSettings knobs{};
   MissionKernels kernels{};
+  std::unique_ptr<ColourCamera> colour_camera{};  ///< Null where nobody looks for people.
 };
 
 /// A map as it was published.
@@ -98,7 +109,13 @@ struct MissionCounters {
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
   std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
-  std::vector<double> latency_s{};  ///< Sensor to command, one per map revision that was used.
+  std::vector<double> latency_s{};   ///< Sensor to command, one per map revision that was used.
+};
+
+/// What the governor's fallback asks of the path follower.
+struct FlightRestraint {
+  double bound_factor{1.0};  ///< Of the bound on latency.
+  bool must_hover{};
 };
 
 class MissionContext {
@@ -134,11 +151,13 @@ class MissionContext {
   bool maps_obstacles{true};
   KnobSettings knobs;
   MissionKernels kernels;
+  std::unique_ptr<ColourCamera> colour_camera;
   Recorder& recorder;
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
   const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+  FlightRestraint restraint{};
 
  private:
   std::optional<MissionStatus> status_{};
@@ -146,6 +165,6 @@ class MissionContext {
 };
 
 /// Topics that the closed loop serves.
-[[nodiscard]] VehicleTopics add_vehicle_topics(Graph& graph);
+[[nodiscard]] VehicleTopics add_vehicle_topics(Graph& graph, bool with_colour_camera = false);
 
 }  // namespace flyball

@@ -187,7 +187,9 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     planning_s_.pop_front();
   }
   const Path path{planned.trajectory};
-  const double rest_m = (path.at(path.length_m()).p_W - *goal_W_).norm();
+  // A leg's end is not the goal.
+  const bool has_legs = context_.scenario.planner.horizon_m > 0.0;
+  const double rest_m = has_legs ? (path.at(path.length_m()).p_W - *goal_W_).norm() : 0.0;
   const double total_m =
       follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m() + rest_m;
   expected_m_ = expected_m_.value_or(total_m);

@@ -234,8 +234,9 @@ RunPicture picture_of(const MissionRecord& record) {
             {"failure", to_string(summary.failure)},
             {"world", world_json(record.world)},
             {"series", series_json(*record.trace)}};
-  // What a survey photographed: rectangles to be covered, and footprints of pictures.
-  for (const char* const channel : {"area", "footprint"}) {
+  // What a survey photographed: rectangles to be covered, and footprints of pictures; and whom a
+  // search took for a person.
+  for (const char* const channel : {"area", "footprint", "sighting"}) {
     if (Json rows = rows_json(*record.trace, channel); !rows.empty()) {
       json[channel] = std::move(rows);
     }

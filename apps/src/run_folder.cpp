@@ -4,7 +4,9 @@
 #include "flyball/apps/report.h"
 #include "flyball/apps/text_table.h"
 #include "flyball/apps/version.h"
+#include "flyball/governors/policy_file.h"
 
+#include "frame_files.h"
 #include "trace_file.h"
 #include <algorithm>
 #include <filesystem>
@@ -33,11 +35,15 @@ Error cannot_write(const std::string& path, const std::string& why) {
 std::string data_fingerprint(const Scenario& scenario) {
   TraceHash hash;
   const std::pair<const char*, std::string> files[] = {{"airframes", scenario.vehicle.airframe},
-                                                       {"platforms", scenario.platform.name},
-                                                       {"presets", scenario.governor.policy}};
+                                                       {"platforms", scenario.platform.name}};
   for (const auto& [kind, name] : files) {
     const Result<std::string> file = find_shipped(kind, name);
     hash.add(file ? content_of(*file) : std::string{});
+  }
+  // A preset may stand for a program in another file.
+  const Result<std::string> policy = find_shipped("presets", scenario.governor.policy);
+  for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
+    hash.add(content_of(file));
   }
   return hash.hex();
 }
@@ -68,9 +74,11 @@ std::string summary_table(const Summary& summary) {
   return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";
 }
 
-std::string run_page(const Scenario& scenario, const RunPicture& picture) {
+std::string run_page(const Scenario& scenario,
+                     const RunPicture& picture,
+                     const std::string& frames_html) {
   return report_page(scenario.name, {picture},
-                     summary_table(picture.summary) + scenario_html(scenario));
+                     summary_table(picture.summary) + frames_html + scenario_html(scenario));
 }
 
 }  // namespace
@@ -137,11 +145,15 @@ Status write_run(const std::string& folder, const Scenario& scenario, const Miss
   fs::create_directories(in, failed);
   fs::remove(in / "mission.toml", failed);  // Whatever stood here is incomplete from now on.
   const RunPicture picture = picture_of(record);
+  const auto frames_html = write_frames(folder, record.frames);
+  if (!frames_html) {
+    return frames_html.error();
+  }
   const bool is_whole = record.summary.status != MissionStatus::interrupted;
   const std::pair<const char*, std::string> files[] = {
       {"trace.jsonl", trace_lines(scenario, *record.trace)},
       {"picture.json", picture.json},
-      {"report.html", run_page(scenario, picture)},
+      {"report.html", run_page(scenario, picture, *frames_html)},
       {"summary.json", to_json(record.summary) + "\n"},
       {"mission.toml",
        (is_whole ? "" : "# Interrupted: the record ends early.\n") + mission_file(scenario)}};

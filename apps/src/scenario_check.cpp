@@ -52,7 +52,7 @@ std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {
   const std::vector<std::string> names{
       kernels.point_cloud, kernels.mapper,       kernels.collision_check, kernels.planner,
       kernels.smoother,    kernels.path_tracker, kernels.localizer,       kernels.coverage,
-      kernels.explorer};
+      kernels.explorer,    kernels.detector,     kernels.tracker};
   const std::vector<KernelFamily> families = kernel_families();  // In the order of `names`.
   for (std::size_t i = 0; i < families.size(); ++i) {
     things.push_back({"kernels." + families[i].name, families[i].name, names[i],

@@ -80,6 +80,52 @@ Fields camera_fields() {
   };
 }
 
+Fields colour_camera_fields() {
+  constexpr auto in = &Scenario::colour_camera;
+  using C = ColourCameraSpec;
+  return {
+      {"colour_camera.width_px", &at<in, &C::width_px>, 8, 4096, "columns of the colour image"},
+      {"colour_camera.height_px", &at<in, &C::height_px>, 8, 4096, "rows of the colour image"},
+      {"colour_camera.horizontal_field_rad", &at<in, &C::horizontal_field_rad>, 0.1, 3,
+       "field of view"},
+      {"colour_camera.rate_hz", &at<in, &C::rate_hz>, 0.1, 240, "frames a second"},
+      {"colour_camera.sun_azimuth_rad", &at<in, &C::sun_azimuth_rad>, -7, 7,
+       "where the sun stands, from east towards north"},
+      {"colour_camera.sun_elevation_rad", &at<in, &C::sun_elevation_rad>, 0.05, 1.57,
+       "above the horizon"},
+      {"colour_camera.people_folder", &at<in, &C::people_folder>, 0, 0,
+       "of the people's meshes: package morse-simulator-data"},
+  };
+}
+
+Fields detector_fields() {
+  constexpr auto in = &Scenario::detector;
+  using D = DetectorSettings;
+  return {
+      {"detector.scale", &at<in, &D::scale>, 0.25, 4, "image size until a policy sets it"},
+      {"detector.cost_of", &at<in, &D::cost_of>, 0, 0,
+       "whose price a detection has: own, or a kernel of the platform"},
+      {"detector.models_folder", &at<in, &D::models_folder>, 0, 0,
+       "looked in first for weights; shipped: only where flyball models looks"},
+  };
+}
+
+Fields photography_fields() {
+  constexpr auto in = &Scenario::photography;
+  using P = PhotographySettings;
+  return {
+      {"photography.distance_m", &at<in, &P::distance_m>, 2, 50,
+       "kept to the person, along the ground"},
+      {"photography.person_height_m", &at<in, &P::person_height_m>, 0.5, 2.5,
+       "from which the distance is told"},
+      {"photography.lost_after_detections", &at<in, &P::lost_after_detections>, 1, 1000,
+       "detections in a row without the person end the mission"},
+      {"photography.success_s", &at<in, &P::success_s>, 1, 3600, "tracked for less is a failure"},
+      {"photography.limit_s", &at<in, &P::limit_s>, 1, 3600,
+       "tracked for so long ends the mission, with success"},
+  };
+}
+
 Fields gps_fields() {
   constexpr auto in = &Scenario::gps;
   using G = GpsSpec;
@@ -109,6 +155,8 @@ Fields kernel_fields() {
       {"kernels.explorer", &at<in, &K::explorer>, 0, 0, "where to look next"},
       {"kernels.slam_load", &at<in, &K::slam_load>, 0, 0,
        "charge the SLAM time per frame beside a localizer that needs none"},
+      {"kernels.detector", &at<in, &K::detector>, 0, 0, "people in colour images"},
+      {"kernels.tracker", &at<in, &K::tracker>, 0, 0, "where what was detected goes"},
   };
 }
 
@@ -186,10 +234,13 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, mission_fields());
   append(all, vehicle_fields());
   append(all, camera_fields());
+  append(all, colour_camera_fields());
   append(all, gps_fields());
   append(all, kernel_fields());
   append(all, scan_fields());
   append(all, explore_fields());
+  append(all, detector_fields());
+  append(all, photography_fields());
   append(all, computer_fields());
   return all;
 }

@@ -3,15 +3,18 @@
 #include "scenario_parameters.h"
 
 #include "flyball/apps/mission.h"
+#include "flyball/kernels/detector.h"
 #include "flyball/sim/world.h"
 
 #include "scenario_keys.h"
+#include <utility>
 
 namespace flyball {
 namespace {
 
 constexpr const char* world_prefix = "world.";
 constexpr const char* mapper_prefix = "kernels.mapper_parameters.";
+constexpr const char* detector_prefix = "kernels.detector_parameters.";
 
 template <class Plugin>
 ParameterGroup group_of(const std::string& family, const std::string& name) {
@@ -73,17 +76,23 @@ std::vector<ParameterGroup> parameter_groups(const Scenario& scenario) {
   ParameterGroup mapper = group_of<Mapper>("mapper", scenario.kernels.mapper);
   mapper.selector = "kernels.mapper";
   mapper.prefix = mapper_prefix;
-  return {std::move(world), std::move(mapper)};
+  ParameterGroup detector = group_of<Detector>("detector", scenario.kernels.detector);
+  detector.selector = "kernels.detector";
+  detector.prefix = detector_prefix;
+  return {std::move(world), std::move(mapper), std::move(detector)};
 }
 
 const ParameterValues& values_of(const Scenario& scenario, const ParameterGroup& group) {
-  return group.prefix == world_prefix ? scenario.world.parameters
-                                      : scenario.kernels.mapper_parameters;
+  if (group.prefix == world_prefix) {
+    return scenario.world.parameters;
+  }
+  return group.prefix == mapper_prefix ? scenario.kernels.mapper_parameters
+                                       : scenario.kernels.detector_parameters;
 }
 
 ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group) {
-  return group.prefix == world_prefix ? scenario.world.parameters
-                                      : scenario.kernels.mapper_parameters;
+  return const_cast<ParameterValues&>(  // NOLINT(*-const-cast): the scenario is not constant
+      values_of(std::as_const(scenario), group));
 }
 
 std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given) {

@@ -174,6 +174,17 @@ function drawPath(pen, run, X, Y) {
     pen.beginPath(); pen.arc(X(x[i]), Y(y[i]), 5, 0, 2 * Math.PI); pen.fill();
   }
 }
+/* Whom a search took for a person: ring or cross, a real one or not. */
+function drawSightings(pen, run, X, Y) {
+  const seen = (run.sighting || []).filter(s => state.time === null || s[6] <= state.time);
+  for (const [x, y, real] of seen) {
+    if (!real) { cross(pen, X(x), Y(y), '#b00020'); continue; }
+    pen.strokeStyle = '#009e73'; pen.lineWidth = 3;
+    pen.beginPath(); pen.arc(X(x), Y(y), 9, 0, 2 * Math.PI); pen.stroke();
+  }
+  const found = seen.find(s => s[2]);
+  if (found) label(pen, X(found[0]), Y(found[1]) - 18, `found at ${found[6].toFixed(0)} s`, '#00694d');
+}
 function drawScale(pen, width, height) {
   const most = width / view.scale / 4, power = 10 ** Math.floor(Math.log10(most));
   const metres = [5, 2, 1].map(m => m * power).find(m => m <= most), x = width - 16 - metres * view.scale, y = height - 14;
@@ -192,6 +203,7 @@ function drawMap() {
   drawSolid(pen, world, X, Y);
   for (const run of runs) drawCovered(pen, run, X, Y);
   for (const run of runs) drawPath(pen, run, X, Y);
+  for (const run of runs) drawSightings(pen, run, X, Y);
   drawPlace(pen, X(world.start[0]), Y(world.start[1]), 'start');
   if (String(world.goal) !== String(world.start)) drawPlace(pen, X(world.goal[0]), Y(world.goal[1]), 'goal');
   runs.filter(failed).forEach(run => {

@@ -49,8 +49,19 @@ StandingPlaces::StandingPlaces(const StateGrid& grid,
   }
 }
 
+// What lies outside the grid is not known: where the body would reach out of it is no place.
+bool StandingPlaces::reaches_out(const GridCell& cell) const {
+  const GridCell low{cell[0] - reach_[0], cell[1] - reach_[1], cell[2] - reach_[2]};
+  return !grid_.contains(low) || !grid_.contains(sum(cell, reach_));
+}
+
 void StandingPlaces::block_near_obstacles(const Cylinder& body) {
   const std::vector<GridCell> reach = reach_of(body, grid_.cell_m());
+  for (const GridCell& step : reach) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      reach_[i] = std::max(reach_[i], step[i]);
+    }
+  }
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const GridCell cell = grid_.cell_at(i);
     if (grid_.at(cell) == CellState::free) {
@@ -77,7 +88,7 @@ void StandingPlaces::block(const GridCell& cell, const std::vector<GridCell>& re
 }
 
 bool StandingPlaces::is_open(const GridCell& cell, const Aabb& bounds_W) const {
-  return grid_.contains(cell) && !blocked_[grid_.index(cell)] &&
+  return grid_.contains(cell) && !blocked_[grid_.index(cell)] && !reaches_out(cell) &&
          bounds_W.contains(grid_.centre(cell));
 }
 

@@ -37,12 +37,14 @@ class StandingPlaces {
   static constexpr std::uint32_t far = 0xffffffff;
 
   void block_near_obstacles(const Cylinder& body);
+  [[nodiscard]] bool reaches_out(const GridCell& cell) const;
   void block(const GridCell& cell, const std::vector<GridCell>& reach);
   [[nodiscard]] bool is_open(const GridCell& cell, const Aabb& bounds_W) const;
   [[nodiscard]] bool find_start(const Aabb& bounds_W, const Vec3& from_W, GridCell& start) const;
   void flood(const GridCell& start, const Aabb& bounds_W);
 
   const StateGrid& grid_;
+  GridCell reach_{};  ///< Of the body, along each axis.
   std::vector<bool> blocked_{};
   std::vector<std::uint32_t> way_{};  ///< In cells.
   std::vector<Place> thinned_{};

@@ -4,6 +4,9 @@ function(flyball_compile_options target)
   target_compile_options(${target} PRIVATE -ffp-contract=off -frounding-math
     -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
     $<$<BOOL:${FLYBALL_WERROR}>:-Werror>)
+  # OpenCV's and MRPT's targets name a hundred libraries that nothing here calls: a second at every
+  # start of a program.
+  target_link_options(${target} PRIVATE LINKER:--as-needed)
 endfunction()
 
 # flyball_data(<name> <folder>): the program finds it in ../share/flyball/<name>, seen from its own

@@ -15,6 +15,12 @@ liboctomap-dev          1.9.7
 libompl-dev             1.5.2
 libsimbody-dev          3.7
 libembree-dev           3.13.5
+libassimp-dev           5.2.5
+libpng-dev              1.6.39
+libopencv-dev           4.6.0
+libopencv-contrib-dev   4.6.0
+opencv-data             4.6.0
+morse-simulator-data    1.4
 libmrpt-topography-dev  2.5.8
 libmrpt-poses-dev       2.5.8
 libsqlite3-dev          3.40.1
@@ -22,6 +28,7 @@ libnlopt-dev            2.7.1
 libtomlplusplus-dev     3.3.0
 libcli11-dev            2.1.2
 nlohmann-json3-dev      3.11.2
+liblua5.4-dev           5.4.4
 libgtest-dev            1.12.1
 libbenchmark-dev        1.7.1
 LIST

@@ -132,7 +132,8 @@ void add_wall_with_door(Building& building,
                         double wish_m,
                         RandomStream& random) {
   if (plan.most_door_width_m > plan.door_width_m) {
-    plan.door_width_m = random.uniform(plan.door_width_m, plan.most_door_width_m);
+    plan.door_width_m =
+        door_width_m(plan.door_width_m, plan.most_door_width_m, plan.fine_doors, random);
   }
   const double reach_m = 0.5 * plan.door_width_m + half_wall_m + corner_m;
   const double centre_m = door_centre_m(plan, wish_m, s.low_m + reach_m, s.high_m - reach_m);
@@ -170,6 +171,14 @@ void add_ceiling(Building& building) {
   Aabb ceiling = building.extent_W;
   ceiling.min.z() = ceiling_z_m;
   building.boxes.push_back(ceiling);
+}
+
+double door_width_m(double least_m, double most_m, bool fine, RandomStream& random) {
+  if (!fine) {
+    return random.uniform(least_m, most_m);
+  }
+  const double widths = std::floor((most_m - least_m) / (2.0 * voxel_m) + 1e-9) + 1.0;
+  return least_m + 2.0 * voxel_m * std::floor(random.uniform(0.0, widths));
 }
 
 Building make_building(const BuildingPlan& plan, RandomStream& random) {

@@ -77,6 +77,11 @@ void furnish(Building& building, const Aabb& room, const BuildingPlan& plan, Ran
 /// Over the building's extent, whose height it sets.
 void add_ceiling(Building& building);
 
+/// From `least_m` up to `most_m`. Fine doors are wider by whole pairs of .15 m voxels, so that
+/// their jambs lie as deep in their voxels as those of the narrowest one: a jamb just beyond a
+/// voxel's face is seen only from within the door, when the vehicle is there.
+[[nodiscard]] double door_width_m(double least_m, double most_m, bool fine, RandomStream& random);
+
 /// @pre The plan's rooms are larger than a door and 2 m.
 [[nodiscard]] Building make_building(const BuildingPlan& plan, RandomStream& random);
 

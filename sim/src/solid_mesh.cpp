@@ -81,16 +81,30 @@ void add_ground(SolidMesh& mesh, const World& world, double margin_m) {
 
 SolidMesh solid_mesh(const World& world, double margin_m) {
   SolidMesh mesh;
-  for (const Aabb& box : world.boxes) {
-    add_box(mesh, box);
+  const auto made_of = [&mesh](Material material) {
+    mesh.materials.resize(mesh.quads.size(), material);
+  };
+  for (std::size_t i = 0; i < world.boxes.size(); ++i) {
+    add_box(mesh, world.boxes[i]);
+    made_of(i < world.box_materials.size() ? world.box_materials[i] : Material::plaster);
   }
   for (const Pillar& pillar : world.pillars) {
     add_pillar(mesh, pillar);
+    made_of(pillar.material);
   }
   if (world.has_ground) {
     add_ground(mesh, world, margin_m);
+    made_of(world.ground_material);
   }
   return mesh;
+}
+
+void add_people_at_rest(SolidMesh& mesh, const World& world) {
+  for (const Person& person : world.people) {
+    if (person.walk.size() == 1) {
+      add_pillar(mesh, {person.walk.front().foot_W, person.radius_m, person.height_m});
+    }
+  }
 }
 
 }  // namespace flyball

@@ -198,4 +198,16 @@ double Clearance::distance_m(const Vec3& p_WB,
   return std::max(best_m, 0.0);
 }
 
+double distance_to_people_m(const std::vector<Person>& people,
+                            MissionTime now,
+                            const Vec3& p_WB,
+                            const Cylinder& body,
+                            double limit_m) {
+  for (const Person& person : people) {
+    const Pillar taken{person.at(now).foot_W, person.radius_m, person.height_m};
+    limit_m = std::min(limit_m, distance(p_WB, body, taken));
+  }
+  return limit_m;
+}
+
 }  // namespace flyball

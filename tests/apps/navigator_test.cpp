@@ -19,6 +19,21 @@ Trajectory straight(const Vec3& from, const Vec3& to) {
   return {{piece}};
 }
 
+/// From corner to corner.
+Trajectory along(const std::vector<Vec3>& corners) {
+  Trajectory whole;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    whole.pieces.push_back(straight(corners[i], corners[i + 1]).pieces.front());
+  }
+  return whole;
+}
+
+/// Goes past the end and comes back, so that the way is longer by `more_m`.
+Trajectory detour(const Vec3& from, const Vec3& to, double more_m) {
+  const Vec3 past_W = to + 0.5 * more_m * (to - from).normalized();
+  return more_m > 0.0 ? along({from, past_W, to}) : straight(from, to);
+}
+
 struct Trip {
   Trip() : map{kit::corridor(60.0)}, rig{map}, navigator{*rig.context} {
     navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
@@ -130,8 +145,8 @@ void replan(Trip& trip, double detour_m) {
   trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
   const auto query = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(query.has_value());
-  const Vec3 end_W = query->goal_W + Vec3{detour_m, 0, 0};
-  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, end_W), ""});
+  trip.navigator.path_planned(trip.now,
+                              {query->id, detour(query->start_W, query->goal_W, detour_m), ""});
 }
 
 struct LongerTrip : Trip {
@@ -187,13 +202,15 @@ TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for
   const auto first = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(first.has_value());
   EXPECT_FALSE(first->lead_in_W.has_value());
-  const Vec3 aside_W = first->start_W + Vec3{0, 5, 0};
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, aside_W), ""});
+  const Vec3 aside_W = first->start_W + Vec3{0, 3, 0};
+  trip.navigator.path_planned(trip.now,
+                              {first->id, along({first->start_W, aside_W, first->goal_W}), ""});
   const auto second = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(second.has_value());
   ASSERT_TRUE(second->lead_in_W.has_value());
   EXPECT_GT(second->start_W.x(), second->lead_in_W->x() + 0.3);
-  trip.navigator.path_planned(trip.now, {second->id, straight(*second->lead_in_W, aside_W), ""});
+  trip.navigator.path_planned(
+      trip.now, {second->id, along({*second->lead_in_W, aside_W, second->goal_W}), ""});
   const auto third = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(third.has_value());
   EXPECT_FALSE(third->lead_in_W.has_value());  // From rest.

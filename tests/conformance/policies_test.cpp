@@ -5,11 +5,11 @@
 
 #include "flyball/policies/policies.h"
 
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/governors/preset.h"
 #include "flyball/runtime/registry.h"
 
 #include "counting_new.h"
-#include "policy_conformance.h"
 #include <filesystem>
 
 #include <gtest/gtest.h>

@@ -103,8 +103,10 @@ TEST(Building, draws_the_widths_of_its_doors_and_has_an_exit_where_that_is_asked
   for (const Doorway& door : building.doors) {
     const int along = door.wall_along_y ? 1 : 0;
     const double width_m = door.opening_W.max[along] - door.opening_W.min[along];
+    const double steps = (width_m - 0.82) / 0.30;
+    EXPECT_NEAR(steps, std::round(steps), 1e-6);
     EXPECT_TRUE(width_m >= 0.82 - 1e-9 && width_m <= 1.6);
-    wide += width_m > 1.21 ? 1 : 0;
+    wide += width_m > 0.9 ? 1 : 0;
     exits += door.wall_along_y && door.opening_W.max.x() > 335.0 ? 1 : 0;
   }
   EXPECT_EQ(exits, 1);

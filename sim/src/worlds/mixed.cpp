@@ -47,14 +47,15 @@ class Mixed final : public flyball::WorldGenerator {
             {"buildings", 0.0, -1.0, 10.0, "0: one or two, by the seed; -1: none."},
             {"crowds", 2.0, 0.0, 10.0, "Of blocks, 80 m deep."},
             {"slits", 0.0, -1.0, 10.0, "Walls with a slit; 0: one or two, by the seed; -1: none."},
-            {"narrowest_m", 0.82, 0.75, 1.6, "Door or slit; widths are drawn up to 1.6 m."},
+            {"narrowest_m", 0.82, 0.75, 1.2,
+             "Door; widths are drawn up to 1.6 m, slits from .3 m more to 1.5 m."},
             {"furniture_per_room", 3.0, 0.0, 10.0, "Boxes wished per room."},
             {"indoor_speed_m_s", 1.0, 0.1, 10.0, "Limit in a building and 1.5 m around it."},
             {"door_alignment",
              std::string{"fine"},
              0.0,
              0.0,
-             "`fine`: open in .15 m voxels; `random`: as it comes.",
+             "`fine`: on .15 m voxels, widths in steps of two; `random`: as it comes.",
              {"fine", "random"}}};
   }
 
@@ -175,7 +176,10 @@ class Mixed final : public flyball::WorldGenerator {
                        const flyball::Parameters& given,
                        RandomStream& random) {
     BuildingPlan plan = plan_of(given, at_m);
-    plan.door_width_m = random.uniform(std::max(0.9, plan.door_width_m), 1.5);
+    // One step wider than a narrow door: a slit is 3 m long.
+    const double least_m =
+        plan.fine_doors ? plan.door_width_m + 0.3 : std::max(0.9, plan.door_width_m);
+    plan.door_width_m = flyball::door_width_m(least_m, 1.5, plan.fine_doors, random);
     const double wish_m = random.uniform(-10.0, 10.0);
     const double centre_m = door_centre_m(plan, wish_m, -12.0, 12.0);
     const double half_slit_m = 0.5 * plan.door_width_m;

@@ -4,6 +4,7 @@
 /// @file
 /// Flies one scenario from take-off to its end, on the virtual executor.
 
+#include "flyball/apps/mission_frame.h"
 #include "flyball/apps/scenario.h"
 #include "flyball/apps/summary.h"
 #include "flyball/runtime/recorder.h"
@@ -12,12 +13,14 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace flyball {
 
 struct MissionRecord {
   Summary summary{};
   World world{};
+  std::vector<MissionFrame> frames{};  ///< What the workload wants to be seen.
   /// Channels and fields: see apps/README.md. `state` has 10 rows a second.
   std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.
 };

@@ -8,6 +8,7 @@
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/colour_camera.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/gps.h"
 
@@ -58,6 +59,9 @@ struct KernelSettings {
   std::string localizer{"truth"};
   std::string coverage{"lawnmower"};
   std::string explorer{"nbvp"};
+  std::string detector{"hog"};
+  std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
+  std::string tracker{"kcf"};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
@@ -86,6 +90,21 @@ struct ScanSettings {
   double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
 };
 
+struct DetectorSettings {
+  double scale{1.0};  ///< Default of the knob; a policy sets it in flight.
+  /// Whose price a detection has on the modeled computer: `own`, or a kernel of the platform file.
+  std::string cost_of{"own"};
+  std::string models_folder{"shipped"};  ///< Looked in first for weights; see `flyball models`.
+};
+
+struct PhotographySettings {
+  double distance_m{7.0};  ///< Kept to the person, along the ground.
+  double person_height_m{1.75};
+  int lost_after_detections{20};  ///< In a row without the person: the target is lost.
+  double success_s{60.0};         ///< Tracked for less is a failure.
+  double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
+};
+
 struct PlatformSettings {
   std::string name{"jetson_tx2"};
   int cores{4};
@@ -104,12 +123,15 @@ struct Scenario {
   WorldSettings world{};
   VehicleSettings vehicle{};
   DepthCameraSpec camera{};
+  ColourCameraSpec colour_camera{};
   GpsSpec gps{};
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};
   ScanSettings scan{};
   ExploreSettings explore{};
+  DetectorSettings detector{};
+  PhotographySettings photography{};
   PlatformSettings platform{};
   GovernorSettings governor{};
 };

@@ -4,12 +4,14 @@
 /// @file
 /// A workload: builds its graph of kernels, and knows when its mission is done.
 
+#include "flyball/apps/mission_frame.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/result.h"
 
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace flyball {
 
@@ -36,11 +38,16 @@ class Workload {
   /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
   /// the workload outlives the graph's jobs.
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
+  /// Whether a colour camera, a detector and trackers are on board: without, nothing is rendered,
+  /// and no detector need be there.
+  [[nodiscard]] virtual bool looks_for_people() const { return false; }
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
   /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is
   /// the name's ending.
   [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
+  /// Pictures for the report: few, for each is kept whole.
+  [[nodiscard]] virtual std::vector<MissionFrame> frames() const { return {}; }
 };
 
 class Registry;

@@ -2,12 +2,13 @@
 #pragma once
 
 /// @file
-/// The true world: solid boxes and pillars, and what a scenario declares about it.
+/// The true world: solid boxes and pillars, people, and what a scenario declares about it.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/sim/movers.h"
+#include "flyball/sim/person.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,11 +17,15 @@
 
 namespace flyball {
 
+/// What a surface looks like to a colour camera.
+enum class Material : std::uint8_t { plaster, brick, wood, bark, leaves, grass, gravel, asphalt };
+
 /// Upright cylinder standing between two heights (a trunk, a lamp post).
 struct Pillar {
   Vec3 foot_W{Vec3::Zero()};
   double radius_m{};
   double height_m{};
+  Material material{Material::bark};
 };
 
 /// Inside the box the vehicle flies no faster than this (a scenario's rule, known on board).
@@ -36,6 +41,9 @@ struct World {
   std::vector<Aabb> boxes{};  ///< Solid; may touch and overlap.
   std::vector<Pillar> pillars{};
   std::vector<Mover> movers{};  ///< `Clearance` leaves them out: `clearance_m` of movers.h.
+  std::vector<Person> people{};
+  Material ground_material{Material::grass};
+  std::vector<Material> box_materials{};  ///< By index; plaster for boxes beyond its end.
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
@@ -61,7 +69,8 @@ class WorldGenerator {
   [[nodiscard]] virtual Result<World> make(const Parameters& given, std::uint64_t seed) const = 0;
 };
 
-/// Distance queries against the true world.
+/// Distance queries against the true world's solids; people are no part of it, see
+/// `distance_to_people_m`.
 class Clearance {
  public:
   explicit Clearance(const World& world);
@@ -95,5 +104,13 @@ class Clearance {
   std::vector<int> boxes_in_{};    ///< Box indices, column by column.
   std::vector<int> pillars_in_{};
 };
+
+/// Distance from the upright cylinder around `p_WB` to the nearest person's, at most `limit_m`;
+/// zero when they touch.
+[[nodiscard]] double distance_to_people_m(const std::vector<Person>& people,
+                                          MissionTime now,
+                                          const Vec3& p_WB,
+                                          const Cylinder& body,
+                                          double limit_m);
 
 }  // namespace flyball

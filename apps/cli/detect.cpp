@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/detection_run.h"
+#include "flyball/apps/text_table.h"
+
+#include "commands.h"
+#include "console.h"
+#include "flight_options.h"
+#include <cstdlib>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+struct DetectOptions {
+  DetectionRun run{};
+  std::vector<std::string> settings{};
+  bool json{};
+};
+
+/// `threshold=0.5` or `model=yolo-fastest-1.1-xl`: the detector itself says what it has.
+Status add_setting(DetectionRun& run, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size()) {
+    return Error{ErrorCode::invalid_input,
+                 "--set " + setting + " is not NAME=VALUE; for example: --set threshold=0.5"};
+  }
+  const std::string text = setting.substr(equals + 1);
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  const bool is_number = *end == '\0';
+  run.parameters[setting.substr(0, equals)] =
+      is_number ? ParameterValue{number} : ParameterValue{text};
+  return Done{};
+}
+
+std::string line_of(const DetectedFrame& frame) {
+  std::string text = frame.file + (frame.frame > 0 ? " frame " + std::to_string(frame.frame) : "") +
+                     ": " + std::to_string(frame.people.size()) +
+                     (frame.people.size() == 1 ? " person, " : " people, ") +
+                     rounded(frame.host_ms, 0) + " ms\n";
+  for (const Detection& person : frame.people) {
+    text += "  at " + rounded(person.box.x_px, 0) + ", " + rounded(person.box.y_px, 0) + ", " +
+            rounded(person.box.width_px, 0) + " x " + rounded(person.box.height_px, 0) +
+            " px, score " + rounded(person.score, 2) + "\n";
+  }
+  return text;
+}
+
+int detect(DetectOptions& options) {
+  for (const std::string& setting : options.settings) {
+    if (const Status added = add_setting(options.run, setting); !added) {
+      return refuse({added.error()});
+    }
+  }
+  catch_interrupt();
+  const Status done = run_detection(options.run, [&options](const DetectedFrame& frame) {
+    print(options.json ? to_json(frame) + "\n" : line_of(frame));
+    return !was_interrupted();
+  });
+  if (!done) {
+    return refuse({done.error()});
+  }
+  return was_interrupted() ? exit_interrupted : exit_success;
+}
+
+}  // namespace
+
+void add_detect(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("detect", "looks for people in pictures or video from files");
+  const auto options = std::make_shared<DetectOptions>();  // Owners: the parser's callbacks.
+  DetectionRun& run = options->run;
+  refuse_empty(
+      *command->add_option("INPUT", run.input, "a picture, a video or a folder of pictures")
+           ->required());
+  refuse_empty(*command->add_option("--detector", run.detector, "one of: flyball list kernels")
+                    ->type_name("NAME"));
+  command->add_option("--scale", run.scale, "size of the picture looked at over the file's")
+      ->check(CLI::Range(0.05, 8.0));
+  refuse_empty(*command->add_option("--set", options->settings, "of the detector, as NAME=VALUE")
+                    ->type_name("NAME=VALUE"));
+  command->add_option("--models", run.models_folder, "looked in first for weights")
+      ->type_name("DIR");
+  command->add_option("--every", run.every, "looks at each Nth frame of a video")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
+  refuse_empty(
+      *command->add_option("--out", run.out, "writes pictures with boxes there")->type_name("DIR"));
+  command->add_flag("--json", options->json, "one JSON object a line");
+  command->callback([options, &exit_code] { exit_code = detect(*options); });
+}
+
+}  // namespace flyball

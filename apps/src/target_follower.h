@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Keeps a person in the middle of the image and at a distance: image error and box size in,
+/// set-points for vehicle and gimbal out.
+
+#include "flyball/runtime/messages.h"
+#include "flyball/sim/gimbal.h"
+
+#include "target_nodes.h"
+
+namespace flyball {
+
+struct FollowSettings {
+  double distance_m{7.0};  ///< Along the ground.
+  double person_height_m{1.75};
+  double height_m{4.5};  ///< Of the vehicle above the person's feet.
+  double max_speed_m_s{6.0};
+  double max_acceleration_m_s2{3.0};
+};
+
+/// Output of a PID controller, clamped; the integral stands still while it is.
+class Pid {
+ public:
+  struct Gains {
+    double proportional{};
+    double integral{};
+    double derivative{};
+    double limit{};
+  };
+  explicit Pid(const Gains& gains) : gains_{gains} {}
+  double update(double error, double dt_s);
+  void reset();
+
+ private:
+  Gains gains_;
+  double integral_{};
+  std::optional<double> last_{};
+};
+
+/// Believes where the person is and goes (alpha-beta filter over what the boxes say), and stays at
+/// its distance from there. While nothing is seen the belief goes on straight ahead: people come
+/// out again behind a tree.
+class TargetFollower {
+ public:
+  explicit TargetFollower(const FollowSettings& settings);
+
+  /// Where the flight goes on from.
+  void start(const PoseEstimate& pose);
+  /// A new measurement; one without a box says nothing. `pose` is that of its capture.
+  void see(const Target& target, const PoseEstimate& pose);
+  /// Without a measurement for 3 s the vehicle brakes and stands.
+  [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
+  [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
+
+ private:
+  void believe(const Vec3& measured_W, MissionTime at);
+  void point_at(const Vec3& person_W);
+  void steer(const Vec3& wish_W, double dt_s, Setpoint& setpoint);
+
+  FollowSettings settings_;
+  Pid distance_pid_;
+  Pid yaw_pid_;
+  GimbalAngles gimbal_{};
+  std::optional<MissionTime> seen_{};  ///< Time of the belief.
+  Vec3 person_W_{Vec3::Zero()};        ///< Belief: the middle of the person.
+  Vec3 v_person_W_{Vec3::Zero()};
+  Vec3 p_W_{Vec3::Zero()};  ///< Of the vehicle, as commanded.
+  Vec3 v_W_{Vec3::Zero()};
+  double yaw_rad_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_files.h"
+
+#include "scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+// The examples of RFC 4648, section 10.
+TEST(Base64, of_the_standards_examples) {
+  EXPECT_EQ(base64_of(""), "");
+  EXPECT_EQ(base64_of("f"), "Zg==");
+  EXPECT_EQ(base64_of("fo"), "Zm8=");
+  EXPECT_EQ(base64_of("foo"), "Zm9v");
+  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64_of("\xff\xfe\xfd"), "//79");
+}
+
+TEST(FrameFiles, are_written_beside_the_record_and_shown_in_its_page) {
+  const ScratchFolder folder;
+  MissionFrame frame{"after 3 s <on the person>", {}};
+  frame.image.camera = {4, 3, 0.0, 0.0, 0.0};
+  frame.image.rgb.assign(36, 128);
+  const auto html = write_frames(folder.path(), {frame, frame});
+  ASSERT_TRUE(html.ok()) << html.error().message;
+  EXPECT_EQ(folder.content("frame_2.png").substr(1, 3), "PNG");
+  EXPECT_NE(html->find(base64_of(folder.content("frame_1.png"))), std::string::npos);
+  EXPECT_NE(html->find("&lt;on the person"), std::string::npos);
+}
+
+TEST(FrameFiles, are_none_for_a_mission_without_pictures) {
+  const ScratchFolder folder;
+  EXPECT_EQ(*write_frames(folder.path(), {}), "");
+  EXPECT_TRUE(folder.is_empty());
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "target_nodes.h"
+
+#include "flyball/runtime/virtual_executor.h"
+
+#include "grid_map.h"
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Pick, takes_the_surest_person_when_nobody_was_followed) {
+  const std::vector<Detection> people{{{50, 0, 10, 20}, 0.9}, {{10, 0, 10, 20}, 0.4}};
+  EXPECT_EQ(pick(people, std::nullopt, 30.0)->box.x_px, 50.0);
+  EXPECT_FALSE(pick({}, std::nullopt, 30.0).has_value());
+}
+
+TEST(Pick, takes_the_person_nearest_to_the_last_place_and_nobody_beyond_reach) {
+  const std::vector<Detection> people{{{50, 0, 10, 20}, 0.9}, {{10, 0, 10, 20}, 0.4}};
+  EXPECT_EQ(pick(people, ImageBox{14, 0, 10, 20}, 30.0)->box.x_px, 10.0);
+  EXPECT_FALSE(pick(people, ImageBox{200, 0, 10, 20}, 30.0).has_value());
+}
+
+/// Finds one person in each frame, where the frame's first byte says.
+class ByteDetector final : public Detector {
+ public:
+  Status start(const Parameters&, const FindModel&) override { return Done{}; }
+  Result<std::vector<Detection>> detect(const ColourImage& image, double, Work& work) override {
+    work.add("images", 1.0);
+    return std::vector<Detection>{{{static_cast<double>(image.rgb.front()), 5, 10, 20}, 1.0}};
+  }
+};
+
+/// Sees the target where the frame's first byte says; remembers which frames it was shown.
+class ByteTracker final : public Tracker {
+ public:
+  explicit ByteTracker(std::vector<std::uint64_t>& shown) : shown_{shown} {}
+  Status begin(const ColourImage& image, const ImageBox&, Work& work) override {
+    work.add("starts", 1.0);
+    shown_.push_back(image.sequence);
+    return Done{};
+  }
+  Result<std::optional<ImageBox>> update(const ColourImage& image, Work& work) override {
+    work.add("updates", 1.0);
+    shown_.push_back(image.sequence);
+    return std::optional{ImageBox{static_cast<double>(image.rgb.front()), 5, 10, 20}};
+  }
+
+ private:
+  std::vector<std::uint64_t>& shown_;
+};
+
+ColourFrame frame_at(MissionTime now, std::uint64_t sequence) {
+  ColourImage image;
+  image.sequence = sequence;
+  image.rgb = {static_cast<std::uint8_t>(sequence)};
+  return {now, sequence, {256, 100, 100.0, 128.0, 50.0},
+          {},  {},       Deferred<ColourImage>::of(std::move(image))};
+}
+
+/// A camera of 20 Hz before a computer on which a detection takes 320 ms and tracking nothing.
+class TargetGraph : public testing::Test {
+ protected:
+  TargetGraph() {
+    auto& kernels = rig.context->kernels;
+    kernels.detector = std::make_unique<ByteDetector>();
+    kernels.buffered_tracker = std::make_unique<ByteTracker>(buffered);
+    kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time);
+    rig.context->phase = MissionPhase::cruise;
+    vehicle = add_vehicle_topics(graph, true);
+    topics = add_target(graph, vehicle, *rig.context, log);
+  }
+
+  void fly(Duration time) {
+    VirtualExecutor executor{graph, platform, queue, {2, Hertz{1e9}}};
+    executor.subscribe<Target>(topics.target,
+                               [this](const Target& target) { targets.push_back(target); });
+    std::uint64_t sequence = 0;
+    queue.every(MissionTime{50ms}, 50ms, EventOrder::sensor, [&] {
+      const ColourFrame frame = frame_at(queue.now(), sequence++);
+      executor.publish(vehicle.colour, frame);
+      executor.publish(vehicle.colour_buffer, frame);
+    });
+    queue.run([&] { return queue.now() >= MissionTime{time}; });
+  }
+
+  static PlatformModel slow_detection() {
+    PlatformModel model = kit::free_of_charge();
+    model.max_cores = 2;
+    model.kernels["hog"].seconds_per["images"] = 0.32;
+    return model;
+  }
+
+  kit::GridMap map = kit::corridor(10.0);
+  kit::MissionRig rig{map};
+  ModeledPlatform platform{slow_detection()};
+  EventQueue queue;
+  Graph graph{"target"};
+  VehicleTopics vehicle;
+  TargetTopics topics;
+  TargetLog log;
+  std::vector<std::uint64_t> buffered;
+  std::vector<std::uint64_t> real_time;
+  std::vector<Target> targets;
+};
+
+TEST_F(TargetGraph, works_through_exactly_the_frames_that_came_while_the_detector_ran) {
+  fly(1500ms);
+  // The first frame comes at 50 ms, its detection at 370 ms: frames 1..6 came meanwhile. The newest
+  // is looked at next, and so on.
+  const std::vector<std::uint64_t> first{0, 1, 2, 3, 4, 5, 6, 6, 7, 8, 9, 10, 11, 12};
+  ASSERT_GE(buffered.size(), first.size());
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), buffered.begin()));
+  EXPECT_EQ(log.detections, 4);
+  EXPECT_EQ(log.missed_in_row, 0);
+}
+
+TEST_F(TargetGraph, hands_the_newest_buffered_frame_on_to_the_real_time_tracker) {
+  fly(1000ms);
+  ASSERT_GE(real_time.size(), 3U);
+  EXPECT_EQ(real_time[0], 6U);  // Begins where the buffered one arrived, ...
+  EXPECT_EQ(real_time[1], 7U);  // ... and goes on with the frame that comes next.
+  ASSERT_FALSE(targets.empty());
+  EXPECT_FALSE(targets.front().box.has_value());
+  ASSERT_TRUE(targets.back().box.has_value());
+  EXPECT_EQ(targets.back().box->x_px, 18.0);
+}
+
+}  // namespace
+}  // namespace flyball

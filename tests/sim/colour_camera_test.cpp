@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/colour_camera.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+ColourCameraSpec small_camera() {
+  ColourCameraSpec spec;
+  spec.width_px = 32;
+  spec.height_px = 24;
+  return spec;
+}
+
+/// Level, looking along x.
+Pose looking_east(const Vec3& p_W) {
+  Pose X_WC = Pose::Identity();
+  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  X_WC.translation() = p_W;
+  return X_WC;
+}
+
+Pose looking_down(const Vec3& p_W) {
+  Pose X_WC = Pose::Identity();
+  X_WC.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  X_WC.translation() = p_W;
+  return X_WC;
+}
+
+MissionTime at_s(double t_s) {
+  return MissionTime{from_seconds(t_s)};
+}
+
+struct Rgb {
+  int red;
+  int green;
+  int blue;
+};
+
+Rgb pixel(const ColourImage& image, int x, int y) {
+  const auto i = 3 * static_cast<std::size_t>(y * image.camera.width_px + x);
+  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
+}
+
+int brightness(const ColourImage& image) {
+  int sum = 0;
+  for (const std::uint8_t value : image.rgb) {
+    sum += value;
+  }
+  return sum / static_cast<int>(image.rgb.size());
+}
+
+TEST(ColourCamera, sees_blue_sky_above_green_grass) {
+  const World world;
+  const auto camera = ColourCamera::make(world, small_camera());
+  ASSERT_TRUE(camera.ok());
+  const ColourImage image = (*camera)->capture(looking_east({0.0, 0.0, 2.0}), MissionTime{}, 7);
+  EXPECT_EQ(image.sequence, 7U);
+  ASSERT_EQ(image.rgb.size(), 3U * 32U * 24U);
+  const Rgb sky = pixel(image, 16, 0);
+  const Rgb ground = pixel(image, 16, 23);
+  EXPECT_GT(sky.blue, sky.red);
+  EXPECT_GT(ground.green, ground.blue + 20);
+}
+
+TEST(ColourCamera, sees_a_roofs_shadow_on_the_ground) {
+  World world;
+  ColourCameraSpec spec = small_camera();
+  spec.sun_elevation_rad = 1.5;
+  const Pose X_WC = looking_down({0.0, 0.0, 2.0});
+  const auto open = ColourCamera::make(world, spec);
+  world.boxes.push_back({{-9.0, -9.0, 4.0}, {9.0, 9.0, 4.2}});
+  const auto roofed = ColourCamera::make(world, spec);
+  const int lit = brightness((*open)->capture(X_WC, MissionTime{}, 0));
+  const int shaded = brightness((*roofed)->capture(X_WC, MissionTime{}, 0));
+  EXPECT_LT(shaded, lit * 7 / 10);
+  EXPECT_GT(shaded, lit / 10);
+}
+
+TEST(ColourCamera, paints_each_solid_in_its_material) {
+  World world;
+  world.boxes = {{{4.0, -9.0, 0.0}, {5.0, 0.0, 9.0}}, {{4.0, 0.0, 0.0}, {5.0, 9.0, 9.0}}};
+  world.box_materials = {Material::brick};  // The one to the right; plaster to the left.
+  const auto camera = ColourCamera::make(world, small_camera());
+  const ColourImage image = (*camera)->capture(looking_east({0.0, 0.0, 1.0}), MissionTime{}, 0);
+  const Rgb left = pixel(image, 8, 6);
+  const Rgb right = pixel(image, 24, 6);
+  EXPECT_GT(right.red - right.blue, 2 * (left.red - left.blue));
+}
+
+TEST(ColourCamera, gives_the_same_image_again_whatever_it_saw_between) {
+  World world;
+  world.boxes.push_back({{4.0, -1.0, 0.0}, {5.0, 1.0, 1.0}});
+  const auto camera = ColourCamera::make(world, small_camera());
+  const Pose X_WC = looking_east({0.0, 0.0, 1.0});
+  const ColourFrame late = (*camera)->frame({X_WC, Pose::Identity()}, at_s(5.0), 1);
+  const auto first = (*camera)->capture(X_WC, at_s(5.0), 1);
+  EXPECT_NE((*camera)->capture(looking_down({0.0, 0.0, 3.0}), at_s(1.0), 0).rgb, first.rgb);
+  EXPECT_EQ(late.image.value().rgb, first.rgb);
+}
+
+class SomebodyWalks : public testing::Test {
+ protected:
+  void SetUp() override {
+    Person person;
+    person.look = "victim";
+    person.walk = {{0.0, {6.0, -6.0, 0.0}}, {10.0, {6.0, 6.0, 0.0}}};
+    world.people = {person};
+    spec.width_px = 64;
+    spec.height_px = 48;
+    auto made = ColourCamera::make(world, spec);
+    if (!made) {
+      GTEST_SKIP() << made.error().message;
+    }
+    camera = std::move(*made);
+  }
+  World world;
+  ColourCameraSpec spec;
+  std::unique_ptr<ColourCamera> camera;
+};
+
+TEST_F(SomebodyWalks, and_the_image_changes_inside_the_persons_box_and_shadow_only) {
+  spec.sun_elevation_rad = 1.57;  // No shadow beside the feet.
+  camera = std::move(*ColourCamera::make(world, spec));
+  const Pose X_WC = looking_east({0.0, 0.0, 1.0});
+  const ColourImage here = camera->capture(X_WC, at_s(5.0), 0);
+  const ColourImage gone = camera->capture(X_WC, at_s(0.0), 0);
+  const auto box = box_of(world.people.front(), at_s(5.0), X_WC, here.camera);
+  ASSERT_TRUE(box.has_value());
+  int inside = 0;
+  for (int i = 0; i < 64 * 48; ++i) {
+    const int x = i % 64;
+    const int y = i / 64;
+    const auto a = 3 * static_cast<std::size_t>(i);
+    if (here.rgb[a] != gone.rgb[a] || here.rgb[a + 1] != gone.rgb[a + 1]) {
+      ++inside;
+      EXPECT_GE(x + 1, box->x_px - 3);  // Its arms reach beyond the cylinder.
+      EXPECT_LE(x, box->x_px + box->width_px + 3);
+      EXPECT_GE(y + 1, box->y_px - 1);
+      EXPECT_LE(y, box->y_px + box->height_px + 2);
+    }
+  }
+  EXPECT_GT(inside, 0.2 * box->area_px2());
+}
+
+TEST(ColourCamera, says_what_is_missing_when_there_is_no_mesh_for_a_person) {
+  World world;
+  world.people.resize(1);
+  ColourCameraSpec spec = small_camera();
+  spec.people_folder = "/nowhere";
+  const auto camera = ColourCamera::make(world, spec);
+  ASSERT_FALSE(camera.ok());
+  EXPECT_NE(camera.error().message.find("morse-simulator-data"), std::string::npos);
+}
+
+TEST(BoxOfAPerson, is_where_the_cylinder_projects) {
+  Person person;
+  person.walk = {{0.0, {10.0, 0.0, 0.0}}};
+  const Intrinsics camera = small_camera().intrinsics();
+  const auto box = box_of(person, MissionTime{}, looking_east({0.0, 0.0, 0.875}), camera);
+  ASSERT_TRUE(box.has_value());
+  EXPECT_NEAR(box->centre_x_px(), 16.0, 1e-9);
+  EXPECT_NEAR(box->centre_y_px(), 12.0, 1e-9);
+  EXPECT_NEAR(box->height_px, camera.focal_px * 1.75 / 9.7, 0.02);
+}
+
+TEST(BoxOfAPerson, is_none_behind_the_camera_or_beside_the_image) {
+  Person person;
+  const Intrinsics camera = small_camera().intrinsics();
+  person.walk = {{0.0, {-10.0, 0.0, 0.0}}};
+  EXPECT_FALSE(box_of(person, MissionTime{}, looking_east({0.0, 0.0, 1.0}), camera).has_value());
+  person.walk = {{0.0, {10.0, 30.0, 0.0}}};
+  EXPECT_FALSE(box_of(person, MissionTime{}, looking_east({0.0, 0.0, 1.0}), camera).has_value());
+}
+
+}  // namespace
+}  // namespace flyball
