@@ -25,7 +25,8 @@ TEST(Report, a_picture_has_two_samples_a_second_and_the_end) {
   EXPECT_EQ(series["y"][0], 0.333) << "rounded to a millimetre";
   for (const auto& [name, values] : series.items()) {
     EXPECT_EQ(values.size(), 5U) << name;
-    EXPECT_FALSE(values[0].is_null()) << name;
+    // Coverage is judged now and then, and only where something is explored.
+    EXPECT_EQ(values[0].is_null(), name == "coverage") << name;
   }
 }
 
