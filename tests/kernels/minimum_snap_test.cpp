@@ -157,34 +157,6 @@ INSTANTIATE_TEST_SUITE_P(Kernels,
                          testing::Values("minimum_jerk", "minimum_snap"),
                          [](const auto& one) { return one.param; });
 
-/// Integral of the squared n-th derivative.
-double effort(const Trajectory& trajectory, int n) {
-  constexpr int steps = 200;
-  double sum = 0.0;
-  for (const auto& piece : trajectory.pieces) {
-    for (int i = 0; i < steps; ++i) {
-      const double t_s = piece.duration_s * (i + 0.5) / steps;
-      sum += piece.derivative(n, t_s).squaredNorm() * piece.duration_s / steps;
-    }
-  }
-  return sum;
-}
-
-TEST(MinimumJerk, keeps_jerk_smaller_and_snap_larger_than_minimum_snap) {
-  // A straight way: no corner bounds the speed, so both take the same time before limits.
-  const SmoothRequest request = request_along({{0, 0, 1.5}, {60, 0, 1.5}});
-  const auto registry = kernels();
-  const auto curve = [&](const char* name) {
-    return registry.make<flyball::Smoother>(name)->smooth(request, open_space())->trajectory;
-  };
-  const Trajectory jerk = curve("minimum_jerk");
-  const Trajectory snap = curve("minimum_snap");
-  // Scaled to the same duration T: the n-th derivative's effort falls with T^(2n - 1).
-  const double longer = jerk.duration_s() / snap.duration_s();
-  EXPECT_LT(effort(jerk, 3) * std::pow(longer, 5), effort(snap, 3));
-  EXPECT_LT(effort(snap, 4), effort(jerk, 4) * std::pow(longer, 7));
-}
-
 TEST(MinimumSnap, keeps_long_edges_straight_and_curves_local) {
   const auto request = request_along({{0, 0, 1.5}, {300, 0, 1.5}, {300, 40, 1.5}, {340, 40, 3}});
   const SmoothPath smooth = smoothed(request);
