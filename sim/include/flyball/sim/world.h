@@ -51,7 +51,7 @@ struct World {
   /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
   /// that is not so.
   std::optional<double> open_above_m{};
-  Aabb volume_W{};              ///< To be explored; empty where there is nothing to explore.
+  Aabb volume_W{};  ///< To be explored; empty where there is nothing to explore.
 };
 
 /// Makes a world from a seed and parameters.
