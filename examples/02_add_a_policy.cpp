@@ -5,9 +5,9 @@
 // every policy and checks that it does what its first line says.
 
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/runtime/registry.h"
 
-#include "policy_conformance.h"
 #include <algorithm>
 #include <cstdio>
 

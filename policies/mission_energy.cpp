@@ -100,6 +100,26 @@ class MissionEnergy final : public flyball::Policy {
     return wish;
   }
 
+  [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
+    std::vector<flyball::PolicyOption> all;
+    for (const flyball::EnergyEstimate& one : search_->weighed()) {
+      if (std::isfinite(one.joules_per_m)) {
+        flyball::PolicyOption option;
+        option.setting.set("map.resolution_m", one.setting.resolution_m);
+        option.setting.set("map.range_m", one.setting.range_m);
+        option.setting.set("cpu.frequency_hz", one.setting.clock_hz);
+        option.speed_m_s = one.speed_m_s;
+        option.joules_per_m = one.joules_per_m;
+        option.response_s = one.response_s;
+        option.watts_per_second = one.watts_per_second;
+        all.push_back(option);
+      }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
+    return all;
+  }
+
  private:
   static flyball::Error refused(const std::string& why) {
     return {flyball::ErrorCode::invalid_input, "policy \"mission_energy\": " + why};

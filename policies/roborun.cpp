@@ -126,7 +126,7 @@ class Roborun final : public flyball::Policy {
         {"deceleration_m_s2", 3.0, 0.0, 20.0, "Of a stop; 0: the fit of RoboRun's own vehicle."},
         {"overhead_s", 0.19, 0.0, 10.0, "Its own decision, off the budget."},
         {"fixed_s", 0.59, 0.0, 10.0, "Stages that no knob changes, off the budget."},
-        {"volume_weight_s2", 1.0, 0.0, 1e6, "w, for the whole of the largest V0."},
+        {"volume_weight_s2", 0.01, 0.0, 1e6, "w, for the whole of the largest V0."},
         {"map_q0_s", 2.24e-6, 0.0, 1.0, "q0 of mapping, times m^3 / m^3."},
         {"map_q1_s", 3.05e-6, 0.0, 1.0, "q1 of mapping."},
         {"map_q2_s", 1.53e-5, 0.0, 1.0, "q2 of mapping."},
@@ -167,10 +167,10 @@ class Roborun final : public flyball::Policy {
     const double coarsest_m = coarsest(seen);
     std::array<double, 5> x{};
     if (seen.planner_failures >= failures_to_finest) {
-      remember(finest_m_, fitting_range_m(finest_m_, 1.0));
+      remember(finest_m_, range_m_);
     } else if (solve(coarsest_m, x)) {
       const double r0_m = rounded(std::exp(x[0]), coarsest_m);
-      remember(r0_m, fitting_range_m(r0_m, x[2]));
+      remember(r0_m, fitting_range_m(std::exp(x[0]), r0_m, x[2]));
     }  // Else the knobs stay.
     return wish_;
   }
@@ -246,15 +246,15 @@ class Roborun final : public flyball::Policy {
   }
 
   /// Rounding to a finer precision costs more than was solved for: the volume pays.
-  [[nodiscard]] double fitting_range_m(double r_m, double share) const noexcept {
-    const double left_s = problem_.budget_s - problem_.fixed_s;
-    const double whole_s = problem_.map.per_m3_s(r_m) * problem_.most_m3[0];
-    const double fits = whole_s > 0.0 ? std::max(0.0, left_s) / whole_s : 1.0;
-    const double range_m = most_range_m_ * std::cbrt(std::min({share, fits, 1.0}));
-    return std::clamp(range_m, least_range_m_, most_range_m_);
+  [[nodiscard]] double fitting_range_m(double solved_m, double r_m, double share) const noexcept {
+    const double dearer = problem_.map.per_m3_s(r_m) / problem_.map.per_m3_s(solved_m);
+    const double range_m = most_range_m_ * std::cbrt(std::min(share, share / dearer));
+    return std::clamp(std::isfinite(range_m) ? range_m : most_range_m_, least_range_m_,
+                      most_range_m_);
   }
 
   void remember(double resolution_m, double range_m) noexcept {
+    range_m_ = range_m;
     wish_ = {};
     wish_.reason = flyball::Reason::deadline;
     wish_.set("map.resolution_m", resolution_m);
@@ -266,6 +266,7 @@ class Roborun final : public flyball::Policy {
   double least_range_m_{};
   double most_range_m_{};
   double v_max_m_s_{};
+  double range_m_{};  ///< Wished last.
   flyball::TimeBudget budget_{};
   Problem problem_{};
   std::array<Order, 3> orders_{};

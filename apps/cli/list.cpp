@@ -100,7 +100,9 @@ Result<Lines> list_policies() {
     if (!preset) {
       return preset.error();
     }
-    lines.push_back({name, preset->policy + ": " + preset->description});
+    const std::string rule =
+        preset->is_combination() ? preset->application + " with " + preset->clock : preset->policy;
+    lines.push_back({name, rule + ": " + preset->description});
   }
   return lines;
 }

@@ -20,6 +20,9 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_list(program, exit_code);
   flyball::add_graph(program, exit_code);
   flyball::add_config(program, exit_code);
+  flyball::add_policy(program, exit_code);
+  flyball::add_replay(program, exit_code);
+  flyball::add_explain(program, exit_code);
   flyball::add_map(program, exit_code);
   flyball::add_detect(program, exit_code);
   flyball::add_models(program, exit_code);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -108,6 +109,8 @@ std::unique_ptr<flyball::PictureReader> open(const std::string& path) {
 extern "C" flyball::PictureReader* flyball_open_pictures(const char* path) {
   try {
     cv::setNumThreads(1);
+    // What cannot be read is said in one sentence, by whoever asked.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return open(path).release();
   } catch (const std::exception&) {
     return nullptr;

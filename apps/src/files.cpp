@@ -11,8 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool looks_like_path(const std::string& text) {
-  return text.find('/') != std::string::npos || fs::path{text}.extension() == ".toml";
+bool looks_like_path(const std::string& kind, const std::string& text) {
+  const std::string ending = fs::path{text}.extension().string();
+  const bool is_program = kind == "presets" && (ending == ".lua" || ending == ".so");
+  return text.find('/') != std::string::npos || ending == ".toml" || is_program;
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ std::vector<std::string> shipped(const std::string& kind) {
 
 Result<std::string> find_shipped(const std::string& kind, const std::string& name_or_path) {
   std::error_code failed;
-  const bool is_path = looks_like_path(name_or_path);
+  const bool is_path = looks_like_path(kind, name_or_path);
   const std::string file =
       is_path ? name_or_path : (fs::path{share_folder(kind)} / (name_or_path + ".toml")).string();
   if (!name_or_path.empty() && fs::is_regular_file(file, failed)) {
@@ -49,11 +51,12 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
       kind == "presets";  // People choose a policy; that it has a preset is ours.
   const std::string thing = is_preset ? "policy" : kind.substr(0, kind.size() - 1);
   const std::string list = is_preset ? "policies" : kind;
+  const std::string endings = is_preset ? ".toml, .lua or .so" : ".toml";
   return Error{ErrorCode::not_found,
-               is_path
-                   ? "no file \"" + name_or_path + "\" to read the " + thing +
-                         " from; give a path to a .toml file, or a name from: flyball list " + list
-                   : "no " + thing + " \"" + name_or_path + "\"; try: flyball list " + list};
+               is_path ? "no file \"" + name_or_path + "\" to read the " + thing +
+                             " from; give a path to a " + endings +
+                             " file, or a name from: flyball list " + list
+                       : "no " + thing + " \"" + name_or_path + "\"; try: flyball list " + list};
 }
 
 }  // namespace flyball

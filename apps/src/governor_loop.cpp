@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "governor_loop.h"
 
+#include "flyball/runtime/observation_fields.h"
+
 #include "gap_scan.h"
 #include <algorithm>
 #include <cstdio>
@@ -37,38 +39,42 @@ GovernorLoop::GovernorLoop(MissionContext& context,
 void GovernorLoop::tick(MissionTime now) {
   seen_.now = now;
   observe_computer(now);
-  if (now >= next_look_) {
+  const bool looks = now >= next_look_;
+  if (looks) {
     next_look_ = now + from_seconds(context_.scenario.governor.period_s);
     observe_surroundings();
-    record();
   }
+  record(looks);
   const HostTime asked = HostTime::clock::now();
   const Decision decision = governor_.decide(seen_);
   decision_host_us_.push_back(
       std::chrono::duration<double, std::micro>(HostTime::clock::now() - asked).count());
+  if (choices_.is_new(governor_, decision)) {
+    context_.recorder.record(now, "choice", {{"what", choice_text(governor_, decision)}});
+  }
+  if (const std::string_view said = governor_.remark(); !said.empty()) {
+    context_.event(now, "policy says: " + std::string{said});
+  }
   apply(now, decision);
   ++decisions_;
 }
 
-void GovernorLoop::record() {
-  context_.recorder.record(
-      seen_.now, "observation",
-      {{"speed_m_s", seen_.speed_m_s},
-       {"known_free_m", seen_.known_free_m},
-       {"obstacle_density", seen_.obstacle_density},
-       {"density_ahead", seen_.density_ahead},
-       {"nearest_obstacle_m", seen_.nearest_obstacle_m},
-       {"narrowest_gap_m", seen_.narrowest_gap_m},
-       {"gap_distance_m", seen_.gap_distance_m},
-       {"mean_gap_m", seen_.mean_gap_m},
-       {"distance_to_goal_m", seen_.distance_to_goal_m},
-       {"latency_s", to_seconds(seen_.latency)},
-       {"latency_bound_s", to_seconds(seen_.latency_bound)},
-       {"busy_cores", seen_.busy_cores},
-       {"busiest_core_load", seen_.busiest_core_load},
-       {"deadline_misses", static_cast<std::int64_t>(seen_.deadline_misses)},
-       {"queue_drops", static_cast<std::int64_t>(seen_.queue_drops)},
-       {"planner_failures", static_cast<std::int64_t>(seen_.planner_failures)}});
+/// Whole when it has looked around; else what has changed since, so that fast policies do not fill
+/// the record. Together they are every observation, bit for bit.
+void GovernorLoop::record(bool is_whole) {
+  const auto& fields = observation_fields();
+  told_.resize(fields.size());
+  std::vector<Field> row;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double value = fields[i].get(seen_);
+    if (is_whole || !have_same_bits(value, told_[i])) {
+      row.push_back({fields[i].name, value});
+      told_[i] = value;
+    }
+  }
+  if (!row.empty()) {
+    context_.recorder.record(seen_.now, is_whole ? "observation" : "computer", row);
+  }
 }
 
 void GovernorLoop::observe_surroundings() {
@@ -169,6 +175,24 @@ void GovernorLoop::note_moved_wishes(MissionTime now) {
   }
 }
 
+/// Each step of the ladder, up or down, is an event; so is each other fault of the policy.
+void GovernorLoop::note_fallback(MissionTime now) {
+  context_.restraint = {governor_.bound_factor(), governor_.must_hover()};
+  const bool is_fault = governor_.last_fault() != PolicyFault::none;
+  faults_ += is_fault ? 1 : 0;
+  const Fallback fallback = governor_.fallback();
+  if (fallback == fallback_ && fallback == Fallback::none) {
+    return;
+  }
+  const std::string why = governor_.why();
+  if (fallback != fallback_ || why != why_) {
+    context_.event(
+        now, "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
+  }
+  fallback_ = fallback;
+  why_ = why;
+}
+
 void GovernorLoop::apply(MissionTime now, const Decision& decision) {
   note_moved_wishes(now);
   for (const auto& wish : decision) {
@@ -183,10 +207,7 @@ void GovernorLoop::apply(MissionTime now, const Decision& decision) {
                               {"before", before},
                               {"reason", std::string{to_string(decision.reason)}}});
   }
-  if (governor_.last_fault() != PolicyFault::none) {
-    ++faults_;
-    context_.event(now, "policy fault: " + std::string{to_string(governor_.last_fault())});
-  }
+  note_fallback(now);
   const OperatingPoint wished{static_cast<int>(context_.knobs.value("cpu.cores")),
                               Hertz{context_.knobs.value("cpu.frequency_hz")}};
   if (wished != executor_.operating_point()) {

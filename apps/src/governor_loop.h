@@ -6,6 +6,7 @@
 
 #include "flyball/governors/policy_governor.h"
 
+#include "choice_text.h"
 #include "closed_loop.h"
 #include "navigator.h"
 #include <set>
@@ -43,9 +44,10 @@ class GovernorLoop {
   [[nodiscard]] double density_ahead() const;
   void observe_gaps();
   void observe_computer(MissionTime now);
-  void record();
+  void record(bool is_whole);
   void apply(MissionTime now, const Decision& decision);
   void note_moved_wishes(MissionTime now);
+  void note_fallback(MissionTime now);
 
   MissionContext& context_;
   PolicyGovernor& governor_;
@@ -53,6 +55,8 @@ class GovernorLoop {
   const ClosedLoop& loop_;
   const Navigator* navigator_;
   Observation seen_{};
+  std::vector<double> told_{};  ///< Its members as the record has them.
+  ChoiceMemory choices_{};
   MissionTime next_look_{};
   MissionTime last_{};
   double last_busy_core_s_{};
@@ -64,6 +68,8 @@ class GovernorLoop {
   std::uint64_t knob_changes_{};
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
+  Fallback fallback_{Fallback::none};
+  std::string why_{};              ///< Of the last fallback that the record has.
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };
 

@@ -67,7 +67,7 @@ std::vector<KnobSpec> standard_knobs(const Scenario& scenario,
                 scenario.mission.max_speed_m_s, "upper limit; the safe speed below it is computed"),
       cores_knob(platform, scenario.platform.cores),
       frequency_knob(platform, scenario.platform.frequency_hz),
-      described(range("detector.scale", "", "detect", 0.25, 4.0), scenario.detector.scale,
+      described(range("detector.scale", "1", "detect", 0.25, 4.0), scenario.detector.scale,
                 "size of the image in which people are looked for, over the camera's"),
   };
 }

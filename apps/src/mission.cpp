@@ -70,6 +70,7 @@ void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks
     }
   });
   const Duration period = flight.period.value_or(from_seconds(scenario.governor.period_s));
+  flight.context.recorder.record(MissionTime{}, "governor", {{"period_s", to_seconds(period)}});
   queue.every(MissionTime{}, period, EventOrder::governor,
               [&flight] { flight.governor->tick(flight.queue.now()); });
   queue.every(MissionTime{}, state_period, EventOrder::observer,

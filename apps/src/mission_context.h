@@ -112,6 +112,12 @@ struct MissionCounters {
   std::vector<double> latency_s{};   ///< Sensor to command, one per map revision that was used.
 };
 
+/// What the governor's fallback asks of the path follower.
+struct FlightRestraint {
+  double bound_factor{1.0};  ///< Of the bound on latency.
+  bool must_hover{};
+};
+
 class MissionContext {
  public:
   /// Scenario, platform and recorder outlive the context.
@@ -151,6 +157,7 @@ class MissionContext {
   MissionPhase phase{MissionPhase::wait};
   const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
   Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+  FlightRestraint restraint{};
 
  private:
   std::optional<MissionStatus> status_{};

@@ -3,8 +3,8 @@
 
 #include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
+#include "flyball/apps/policy_choice.h"
 #include "flyball/apps/workload.h"
-#include "flyball/governors/preset.h"
 #include "flyball/kernels/kernels.h"
 #include "flyball/policies/policies.h"
 #include "flyball/sim/platform_file.h"
@@ -77,39 +77,16 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   return kernels;
 }
 
-/// A preset by this name or path, or a bare policy with its default parameters.
-Result<Preset> find_policy(const std::string& name) {
-  const auto file = find_shipped("presets", name);
-  if (file) {
-    return load_preset(*file);
-  }
-  if (all_plugins().make<Policy>(name)) {
-    return Preset{name, {}, {}};
-  }
-  return unknown("policy", name, "policies");
-}
-
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs) {
-  const auto preset = find_policy(scenario.governor.policy);
-  if (!preset) {
-    return preset.error();
-  }
-  auto policy = all_plugins().make<Policy>(preset->policy);
+  auto policy = start_policy(scenario.governor.policy, scenario.seed,
+                             from_seconds(scenario.governor.period_s), knobs);
   if (!policy) {
-    return unknown("policy", preset->policy, "policies");
-  }
-  const auto parameters =
-      resolved("policy \"" + preset->policy + "\"", policy->parameters(), preset->parameters);
-  if (!parameters) {
-    return parameters.error();
-  }
-  if (const Status started = policy->start(*parameters, knobs); !started) {
-    return started.error();
+    return policy.error();
   }
   // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
   // it.
-  return std::make_unique<PolicyGovernor>(std::move(policy), knobs, PolicyGovernorSettings{},
+  return std::make_unique<PolicyGovernor>(std::move(*policy), knobs, PolicyGovernorSettings{},
                                           nullptr);
 }
 

@@ -123,7 +123,7 @@ double PathFollower::room_m(std::size_t tier) const {
 }
 
 double PathFollower::cruise_speed(std::size_t tier) const {
-  const double delta_s = to_seconds(latency_bound_ + guard_.reaction_time());
+  const double delta_s = to_seconds(latency_bound() + guard_.reaction_time());
   return std::min(tier_speeds_m_s()[tier],
                   safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, room_m(tier)));
 }
@@ -133,7 +133,15 @@ std::array<double, 3> PathFollower::tier_speeds_m_s() const {
   return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
 }
 
+Duration PathFollower::latency_bound() const {
+  const double factor = context_.restraint.bound_factor;
+  return factor == 1.0 ? latency_bound_ : from_seconds(factor * to_seconds(latency_bound_));
+}
+
 double PathFollower::safe_cruise() const {
+  if (context_.restraint.must_hover) {
+    return 0.0;
+  }
   double safe = 0.0;
   for (std::size_t tier = 0; tier < free_until_m_.size(); ++tier) {
     safe = std::max(safe, cruise_speed(tier));

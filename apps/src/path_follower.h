@@ -68,7 +68,8 @@ class PathFollower {
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
   [[nodiscard]] const Guard& guard() const { return guard_; }
-  [[nodiscard]] Duration latency_bound() const { return latency_bound_; }
+  /// In force, widened while the governor asks for it.
+  [[nodiscard]] Duration latency_bound() const;
 
  private:
   void turn_towards(double yaw_rad, double dt_s);

@@ -4,6 +4,7 @@
 #include "flyball/apps/report.h"
 #include "flyball/apps/text_table.h"
 #include "flyball/apps/version.h"
+#include "flyball/governors/policy_file.h"
 
 #include "frame_files.h"
 #include "trace_file.h"
@@ -34,11 +35,15 @@ Error cannot_write(const std::string& path, const std::string& why) {
 std::string data_fingerprint(const Scenario& scenario) {
   TraceHash hash;
   const std::pair<const char*, std::string> files[] = {{"airframes", scenario.vehicle.airframe},
-                                                       {"platforms", scenario.platform.name},
-                                                       {"presets", scenario.governor.policy}};
+                                                       {"platforms", scenario.platform.name}};
   for (const auto& [kind, name] : files) {
     const Result<std::string> file = find_shipped(kind, name);
     hash.add(file ? content_of(*file) : std::string{});
+  }
+  // A preset may stand for a program in another file.
+  const Result<std::string> policy = find_shipped("presets", scenario.governor.policy);
+  for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
+    hash.add(content_of(file));
   }
   return hash.hex();
 }

@@ -4,9 +4,16 @@
 #include "flyball/runtime/assert.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace flyball {
+namespace {
+
+constexpr std::string_view clock_knob = "cpu.frequency_hz";
+constexpr std::string_view cores_knob = "cpu.cores";
+
+}  // namespace
 
 std::string_view to_string(PolicyFault fault) {
   switch (fault) {
@@ -20,6 +27,8 @@ std::string_view to_string(PolicyFault fault) {
       return "overflow";
     case PolicyFault::overtime:
       return "overtime";
+    case PolicyFault::failed:
+      return "failed";
   }
   return "none";
 }
@@ -32,7 +41,8 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
       knobs_{std::move(knobs)},
       settings_{settings},
       clock_{std::move(clock)},
-      changed_(knobs_.specs().size()) {
+      changed_(knobs_.specs().size()),
+      ladder_{settings_.fallback} {
   FLYBALL_ASSERT(policy_ != nullptr, "a governor needs a policy");
   FLYBALL_ASSERT(knobs_.specs().size() <= Decision::capacity, "%zu knobs, a decision holds %zu",
                  knobs_.specs().size(), Decision::capacity);
@@ -41,23 +51,71 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
                  settings_.max_faults);
   for (const KnobSpec& spec : knobs_.specs()) {
     in_force_.push_back(knobs_.value(spec.name));
+    defaults_.push_back(spec.fallback);
+    const bool is_platform = spec.name == clock_knob || spec.name == cores_knob;
+    table_.push_back(is_platform ? spec.nearest(std::numeric_limits<double>::max())
+                                 : spec.fallback);
   }
 }
 
 Decision PolicyGovernor::decide(const Observation& seen) noexcept {
   wished_ = {};
-  if (has_fallen_back()) {
-    return safe_default(seen.now);
+  was_asked_ = false;
+  fallback_ = ladder_.look(seen, requested());
+  if (fallback_ == Fallback::table || fallback_ == Fallback::hover) {
+    last_fault_ = has_fallen_back() ? last_fault_ : PolicyFault::none;
+    return table(seen.now);  // The policy is not asked: what it would learn from this is wrong.
   }
-  last_fault_ = PolicyFault::none;
-  const Decision wished = ask(seen, last_fault_);
-  if (last_fault_ != PolicyFault::none) {
+  if (!has_fallen_back()) {
+    last_fault_ = PolicyFault::none;
+    was_asked_ = true;
+    const Decision wished = ask(seen, last_fault_);
+    if (last_fault_ == PolicyFault::none) {
+      faults_in_row_ = 0;
+      wished_ = wished;
+      return made_legal(wished, seen.now);
+    }
     ++faults_in_row_;
-    return safe_default(seen.now);
   }
-  faults_in_row_ = 0;
-  wished_ = wished;
-  return made_legal(wished, seen.now);
+  fallback_ = Fallback::safe_static;
+  return safe_default(seen.now);
+}
+
+std::string PolicyGovernor::why() const {
+  if (fallback_ != Fallback::safe_static) {
+    return std::string{ladder_.why()};
+  }
+  if (!was_asked_) {
+    return "the policy failed " + std::to_string(settings_.max_faults) +
+           " times in a row and is not asked any more";
+  }
+  switch (last_fault_) {
+    case PolicyFault::none:
+      return {};
+    case PolicyFault::failed:
+      return std::string{policy_->trouble()};
+    case PolicyFault::overtime:
+      return "the policy took longer than " + std::to_string(to_seconds(settings_.time_limit)) +
+             " s";
+    case PolicyFault::overflow:
+      return "the policy wishes more than a decision holds";
+    case PolicyFault::unknown_knob:
+      return "the policy wishes for a knob that does not exist: \"" + std::string{faulty_knob_} +
+             "\"";
+    case PolicyFault::not_finite:
+      return "the policy's wish for " + std::string{faulty_knob_} + " is not a finite number";
+  }
+  return {};
+}
+
+std::string_view PolicyGovernor::remark() const {
+  return was_asked_ ? policy_->remark() : std::string_view{};
+}
+
+double PolicyGovernor::bound_factor() const {
+  // The safe default is as safe as it is without a policy.
+  const bool is_usual = fallback_ == Fallback::none || fallback_ == Fallback::safe_static;
+  return is_usual ? 1.0 : settings_.fallback.bound_factor;
 }
 
 Decision PolicyGovernor::ask(const Observation& seen, PolicyFault& fault) noexcept {
@@ -68,11 +126,15 @@ Decision PolicyGovernor::ask(const Observation& seen, PolicyFault& fault) noexce
   return wished;
 }
 
-PolicyFault PolicyGovernor::fault_in(const Decision& wished) const noexcept {
+PolicyFault PolicyGovernor::fault_in(const Decision& wished) noexcept {
+  if (!policy_->trouble().empty()) {
+    return PolicyFault::failed;
+  }
   if (wished.overflowed()) {
     return PolicyFault::overflow;
   }
   for (const auto& [knob, value] : wished) {
+    faulty_knob_ = knob;
     if (index_of(knob) == in_force_.size()) {
       return PolicyFault::unknown_knob;
     }
@@ -107,14 +169,35 @@ Decision PolicyGovernor::made_legal(const Decision& wished, MissionTime now) noe
 }
 
 Decision PolicyGovernor::safe_default(MissionTime now) noexcept {
+  return put_all_in_force(now, defaults_);
+}
+
+Decision PolicyGovernor::table(MissionTime now) noexcept {
+  return put_all_in_force(now, table_);
+}
+
+Decision PolicyGovernor::put_all_in_force(MissionTime now,
+                                          const std::vector<double>& values) noexcept {
   Decision answer;
   answer.reason = Reason::fallback;
   for (std::size_t knob = 0; knob < in_force_.size(); ++knob) {
-    const KnobSpec& spec = knobs_.specs()[knob];
-    put_in_force(knob, spec.fallback, now);
-    answer.set(spec.name, spec.fallback);
+    put_in_force(knob, values[knob], now);
+    answer.set(knobs_.specs()[knob].name, values[knob]);
   }
   return answer;
+}
+
+FallbackLadder::Request PolicyGovernor::requested() const noexcept {
+  FallbackLadder::Request request;
+  const std::size_t clock = index_of(clock_knob);
+  const std::size_t cores = index_of(cores_knob);
+  if (clock < in_force_.size()) {
+    request.frequency_hz = in_force_[clock];
+  }
+  if (cores < in_force_.size()) {
+    request.cores = in_force_[cores];
+  }
+  return request;
 }
 
 bool PolicyGovernor::may_change(std::size_t knob, MissionTime now) const noexcept {

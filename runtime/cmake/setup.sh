@@ -28,6 +28,7 @@ libnlopt-dev            2.7.1
 libtomlplusplus-dev     3.3.0
 libcli11-dev            2.1.2
 nlohmann-json3-dev      3.11.2
+liblua5.4-dev           5.4.4
 libgtest-dev            1.12.1
 libbenchmark-dev        1.7.1
 LIST

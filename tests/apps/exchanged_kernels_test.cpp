@@ -14,9 +14,10 @@ namespace {
 Scenario between_trees() {
   Scenario scenario = kit::short_delivery();
   scenario.world.generator = "forest";
-  scenario.world.parameters = {
-      {"goal_distance_m", 20.0}, {"width_m", 16.0}, {"density_1_m2", 0.05}};
-  scenario.seed = 3;
+  scenario.world.parameters = {{"goal_distance_m", 20.0},
+                               {"width_m", 10.0},
+                               {"density_1_m2", 0.07},
+                               {"clear_radius_m", 2.0}};
   return scenario;
 }
 
@@ -56,13 +57,12 @@ TEST(ExchangedSmoother, delivers_with_minimum_jerk) {
   EXPECT_GT(record.summary.kernels.at("minimum_jerk").calls, 1U);
 }
 
-TEST(ExchangedWeather, delivers_in_light_gusts_which_are_seeded) {
+TEST(ExchangedWeather, delivers_in_light_gusts) {
   Scenario calm = kit::short_delivery();
   Scenario gusty = calm;
   gusty.vehicle.gust_wind_m_s = 7.7;  // Light turbulence.
   const Summary in_gusts = kit::flown(gusty).summary;
   EXPECT_EQ(in_gusts.status, MissionStatus::succeeded) << to_string(in_gusts.failure);
-  EXPECT_EQ(kit::flown(gusty).summary.trace_hash, in_gusts.trace_hash);
   EXPECT_NE(kit::flown(calm).summary.trace_hash, in_gusts.trace_hash);
 }
 

@@ -6,6 +6,7 @@
 #include "scratch_folder.h"
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,24 @@ TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
   scenario = Scenario{};
   scenario.governor.policy = "just_in_tme";
   EXPECT_NE(refusal(scenario).find("flyball list policies"), std::string::npos);
+}
+
+TEST(MissionSetup, may_fly_an_applications_policy_with_a_clock_rule_beside_it) {
+  const ScratchFolder folder;
+  Scenario scenario;
+  scenario.governor.policy =
+      folder.file("both.toml", "application = 'fixed_coarse'\nclock = 'powersave'\n");
+  const auto setup = set_up(scenario);
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  std::map<std::string, double> wished;
+  for (const auto& [knob, value] : setup->governor->decide({})) {
+    wished[std::string{knob}] = value;
+  }
+  EXPECT_EQ(wished["map.resolution_m"], 0.80);
+  EXPECT_EQ(wished["cpu.frequency_hz"], setup->platform->frequencies().front().value());
+  scenario.governor.policy = folder.file(
+      "twice.toml", "application = '" + scenario.governor.policy + "'\nclock = 'powersave'\n");
+  EXPECT_NE(refusal(scenario).find("combination itself"), std::string::npos);
 }
 
 /// The shipped platform without a price for the brick map.

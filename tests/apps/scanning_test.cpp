@@ -64,8 +64,9 @@ TEST(Scanning, fails_as_incomplete_when_its_lanes_are_too_far_apart) {
   ASSERT_TRUE(record.ok()) << record.error().message;
   EXPECT_EQ(record->summary.status, MissionStatus::failed);
   EXPECT_EQ(record->summary.failure, MissionFailure::incomplete);
-  // One lane, 20 m wide, in the middle of 40 m.
-  EXPECT_NEAR(record->summary.quality.at("area_covered_percent"), 50.0, 2.0);
+  // One lane, 20 m wide, in the middle of 40 m, and a little more where it turns at the ends.
+  EXPECT_GE(record->summary.quality.at("area_covered_percent"), 49.0);
+  EXPECT_LE(record->summary.quality.at("area_covered_percent"), 56.0);
 }
 
 TEST(Scanning, plans_by_a_service_and_has_no_map_in_its_graph) {

@@ -5,4 +5,7 @@ endif()
 if(TARGET test_closed_loop AND TARGET flyball_cli)
   add_dependencies(test_closed_loop flyball_cli)
   target_include_directories(test_closed_loop PRIVATE ${CMAKE_CURRENT_LIST_DIR})
+  target_compile_definitions(test_closed_loop PRIVATE
+    FLYBALL_CLOSED_LOOP_TESTS="${PROJECT_SOURCE_DIR}/tests/closed_loop"
+    $<$<TARGET_EXISTS:flyball_lua>:FLYBALL_HAS_LUA>)
 endif()

@@ -4,10 +4,9 @@
 /// @file
 /// Starts a registered policy the way a mission does.
 
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/policies/policies.h"
 #include "flyball/runtime/registry.h"
-
-#include "policy_conformance.h"
 
 namespace flyball {
 

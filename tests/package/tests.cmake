@@ -13,3 +13,8 @@ foreach(way find_package add_subdirectory)
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_consumer.cmake)
   set_tests_properties(package.${way} PROPERTIES LABELS package TIMEOUT 600)
 endforeach()
+if(FLYBALL_BUILD_SIM)
+  add_test(NAME package.policy COMMAND ${CMAKE_COMMAND} ${consumer_settings}
+                                       -P ${CMAKE_CURRENT_LIST_DIR}/build_policy.cmake)
+  set_tests_properties(package.policy PROPERTIES LABELS package TIMEOUT 600)
+endif()

@@ -101,7 +101,16 @@ TEST_F(Roborun, cuts_the_volume_where_a_gap_forbids_coarser_cells) {
   narrow.nearest_obstacle_m = 0.5;
   const Wish wish = wish_of(*roborun.policy, narrow);
   EXPECT_NEAR(wish.resolution_m, 0.3, 1e-9);
-  EXPECT_NEAR(wish.range_m, 25.0 * std::cbrt(1.0 / 6.0), 0.3);
+  // The volume's own weight takes it a little beyond the budget.
+  EXPECT_NEAR(wish.range_m, 25.0 * std::cbrt(1.0 / 6.0), 0.8);
+}
+
+TEST_F(Roborun, keeps_looking_far_where_it_knows_nothing) {
+  // With no budget left cells are coarse; a short range too would keep the budget at nothing.
+  const auto roborun = start_policy("roborun", cubic(), knobs());
+  const Wish wish = wish_of(*roborun.policy, in_the_open(1.0));
+  EXPECT_GT(wish.resolution_m, 2.0);
+  EXPECT_GT(wish.range_m, 20.0);
 }
 
 TEST_F(Roborun, is_at_most_a_metre_and_a_fifth_near_the_goal) {

@@ -16,7 +16,8 @@ namespace flyball {
 [[nodiscard]] std::string share_folder(const std::string& kind);
 /// Stems of the .toml files of a kind, sorted.
 [[nodiscard]] std::vector<std::string> shipped(const std::string& kind);
-/// The file of a bare name, or the path itself when it has a slash or ends in .toml.
+/// The file of a bare name, or the path itself when it has a slash or ends in .toml; of
+/// `presets` also in .lua or .so.
 /// @error `not_found`: lists the command that shows the names.
 [[nodiscard]] Result<std::string> find_shipped(const std::string& kind,
                                                const std::string& name_or_path);

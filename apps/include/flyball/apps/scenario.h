@@ -100,7 +100,7 @@ struct DetectorSettings {
 struct PhotographySettings {
   double distance_m{7.0};  ///< Kept to the person, along the ground.
   double person_height_m{1.75};
-  int lost_after_detections{10};  ///< In a row without the person: the target is lost.
+  int lost_after_detections{20};  ///< In a row without the person: the target is lost.
   double success_s{60.0};         ///< Tracked for less is a failure.
   double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
 };

@@ -90,6 +90,8 @@ class EnergySearch {
   [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
                                         const Surroundings& around) const;
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
+  /// What the last `choose` expected of each setting; infinite joules where it was not allowed.
+  [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
 

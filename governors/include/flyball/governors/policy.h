@@ -9,9 +9,19 @@
 #include "flyball/runtime/parameters.h"
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace flyball {
+
+/// One of the settings that a policy weighed, with what it expects of it.
+struct PolicyOption {
+  Decision setting{};
+  double speed_m_s{};
+  double joules_per_m{};
+  double response_s{};        ///< Sensor to brake.
+  double watts_per_second{};  ///< Worth of one second of latency; 0 where it limits nothing.
+};
 
 class Policy {
  public:
@@ -30,6 +40,14 @@ class Policy {
   [[nodiscard]] virtual std::optional<Duration> period() const { return std::nullopt; }
   /// The wish for the time until the next decision. Must not block or allocate.
   [[nodiscard]] virtual Decision decide(const Observation& seen) noexcept = 0;
+  /// Why the last `decide` came to nothing, in one sentence; empty: it did not. For policies that
+  /// somebody brought in a file: what is wrong with them shows when they are asked.
+  [[nodiscard]] virtual std::string_view trouble() const noexcept { return {}; }
+  /// What the record shall keep of the last `decide`, in its own words; empty: nothing.
+  [[nodiscard]] virtual std::string_view remark() const noexcept { return {}; }
+  /// What it weighed in the last `decide`, best first; empty: it does not compare. For people who
+  /// ask afterwards, not in flight: may allocate.
+  [[nodiscard]] virtual std::vector<PolicyOption> options() const { return {}; }
 };
 
 }  // namespace flyball

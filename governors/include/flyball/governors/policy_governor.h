@@ -4,12 +4,14 @@
 /// @file
 /// Turns a policy into a governor: every wish becomes a legal value of an existing knob.
 
+#include "flyball/governors/fallback_ladder.h"
 #include "flyball/governors/policy.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,14 +21,23 @@ struct PolicyGovernorSettings {
   Duration min_dwell{std::chrono::milliseconds{500}};   ///< Of knobs that do not say it themselves.
   Duration time_limit{std::chrono::milliseconds{100}};  ///< Watchdog for one `decide`, host time.
   int max_faults{3};                                    ///< In a row; then the fallback for good.
+  FallbackSettings fallback{};
 };
 
 /// What was wrong with a policy's answer; the record says so.
-enum class PolicyFault : std::uint8_t { none, unknown_knob, not_finite, overflow, overtime };
+enum class PolicyFault : std::uint8_t {
+  none,
+  unknown_knob,
+  not_finite,
+  overflow,
+  overtime,
+  failed
+};
 [[nodiscard]] std::string_view to_string(PolicyFault fault);
 
 /// Clamp (to the nearest legal value), rate limit, watchdog, fallback. A faulty answer is replaced
 /// as a whole by the safe default: every knob at its default value, at once whatever the dwell.
+/// What fails around the policy is met by the other steps of fallback_ladder.h.
 /// The watchdog judges an answer by the time it took; it cannot interrupt one that never comes.
 class PolicyGovernor final : public Governor {
  public:
@@ -51,13 +62,29 @@ class PolicyGovernor final : public Governor {
   [[nodiscard]] std::optional<Duration> period() const { return policy_->period(); }
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
+  /// What the last decision is, and why: one sentence, empty for `Fallback::none`.
+  [[nodiscard]] Fallback fallback() const { return fallback_; }
+  [[nodiscard]] std::string why() const;
+  /// For the bound on latency that speed follows from; 1 unless it is widened.
+  [[nodiscard]] double bound_factor() const;
+  /// Whether the vehicle shall brake and stand.
+  [[nodiscard]] bool must_hover() const { return fallback_ == Fallback::hover; }
+  [[nodiscard]] const Policy& policy() const { return *policy_; }
+  /// What may be set, at the values that were in force at the start.
+  [[nodiscard]] const KnobSettings& knobs() const { return knobs_; }
+  /// What the policy wants the record to keep of the last decision; empty when it was not asked.
+  [[nodiscard]] std::string_view remark() const;
 
  private:
   [[nodiscard]] Decision ask(const Observation& seen, PolicyFault& fault) noexcept;
-  [[nodiscard]] PolicyFault fault_in(const Decision& wished) const noexcept;
+  [[nodiscard]] PolicyFault fault_in(const Decision& wished) noexcept;
   [[nodiscard]] std::size_t index_of(std::string_view knob) const noexcept;
   [[nodiscard]] Decision made_legal(const Decision& wished, MissionTime now) noexcept;
   [[nodiscard]] Decision safe_default(MissionTime now) noexcept;
+  [[nodiscard]] Decision table(MissionTime now) noexcept;
+  [[nodiscard]] Decision put_all_in_force(MissionTime now,
+                                          const std::vector<double>& values) noexcept;
+  [[nodiscard]] FallbackLadder::Request requested() const noexcept;
   [[nodiscard]] bool may_change(std::size_t knob, MissionTime now) const noexcept;
   void put_in_force(std::size_t knob, double value, MissionTime now) noexcept;
 
@@ -67,7 +94,13 @@ class PolicyGovernor final : public Governor {
   HostClock clock_;
   std::vector<double> in_force_;                     ///< By index of the knob in `knobs_`.
   std::vector<std::optional<MissionTime>> changed_;  ///< Empty until a knob first changes.
+  std::vector<double> defaults_;
+  std::vector<double> table_;  ///< The defaults, with clock and cores at most.
+  FallbackLadder ladder_;
+  Fallback fallback_{Fallback::none};
   Decision wished_{};
+  bool was_asked_{};
+  std::string_view faulty_knob_{};
   PolicyFault last_fault_{PolicyFault::none};
   int faults_in_row_{};
 };

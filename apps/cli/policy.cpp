@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/policy_choice.h"
+#include "flyball/governors/policy_conformance.h"
+
+#include "commands.h"
+#include "console.h"
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+int check(const std::string& file) {
+  constexpr std::uint64_t seed = 1;
+  const Result<PolicyChoice> choice = choose_policy(file, seed);
+  if (!choice) {
+    return refuse({choice.error()});
+  }
+  std::string why;
+  PolicyConformance conformance{{[&choice, &why]() -> std::unique_ptr<Policy> {
+                                   auto made = choice->make();
+                                   why = made ? "" : ": " + made.error().message;
+                                   return made ? std::move(*made) : nullptr;
+                                 },
+                                 choice->parameters}};
+  const std::vector<std::string> breaches = conformance.breaches();
+  if (breaches.empty()) {
+    print(file + " keeps the contract of a policy\n");
+    return exit_success;
+  }
+  for (const std::string& breach : breaches) {
+    print(file + " " + breach + why + "\n");
+  }
+  return exit_mission_failed;
+}
+
+}  // namespace
+
+void add_policy(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("policy", "looks at a policy before it flies");
+  command->require_subcommand(1);
+  CLI::App* check_command = command->add_subcommand(
+      "check", "holds a policy to the contract that all of them keep, and says what it breaks");
+  const auto file = std::make_shared<std::string>();  // Owners: the parser's callbacks.
+  check_command
+      ->add_option("FILE", *file,
+                   "a preset (.toml), a script (.lua), a library (.so), or a policy's name")
+      ->required();
+  check_command->callback([file, &exit_code] { exit_code = check(*file); });
+}
+
+}  // namespace flyball

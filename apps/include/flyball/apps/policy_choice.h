@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The policy that a scenario names.
+
+#include "flyball/governors/policy_file.h"
+
+namespace flyball {
+
+/// @param name  A preset, a policy with its default parameters, or a path to a policy's file
+///              (policy_file.h).
+/// @param seed  Of the random stream that a file's policy may draw from.
+/// @error `not_found` with the way out; those of `load_policy`.
+[[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed);
+
+/// One that is ready to decide; also a preset that combines two others (combined_policy.h), whose
+/// application is asked once per `application_period`.
+[[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
+                                                           std::uint64_t seed,
+                                                           Duration application_period,
+                                                           const KnobSettings& knobs);
+
+}  // namespace flyball

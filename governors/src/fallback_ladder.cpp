@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/fallback_ladder.h"
+
+#include "flyball/runtime/assert.h"
+#include "flyball/runtime/observation_fields.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+bool differs(const std::optional<double>& request, double granted) {
+  // Zero: whoever observes does not tell. Boards round their clocks to kilohertz.
+  constexpr double rounding = 1e-3;
+  return request && granted != 0.0 && std::abs(*request - granted) > rounding * *request;
+}
+
+}  // namespace
+
+std::string_view to_string(Fallback fallback) {
+  switch (fallback) {
+    case Fallback::none:
+      return "none";
+    case Fallback::wide_bound:
+      return "wide_bound";
+    case Fallback::table:
+      return "table";
+    case Fallback::safe_static:
+      return "safe_static";
+    case Fallback::hover:
+      return "hover";
+  }
+  return "none";
+}
+
+bool is_believable(const Observation& seen) {
+  for (const ObservationField& field : observation_fields()) {
+    if (!std::isfinite(field.get(seen))) {
+      return false;
+    }
+  }
+  return seen.latency >= Duration::zero() && seen.latency_bound >= Duration::zero() &&
+         seen.speed_m_s >= 0.0 && seen.cores >= 0;
+}
+
+FallbackLadder::FallbackLadder(const FallbackSettings& settings) : settings_{settings} {
+  FLYBALL_ASSERT(settings_.map_window >= 1 && settings_.map_window <= 64, "map_window=%d",
+                 settings_.map_window);
+}
+
+Fallback FallbackLadder::look(const Observation& seen, const Request& request) {
+  why_ = {};
+  if (!settings_.enabled) {
+    return Fallback::none;
+  }
+  // Each of them is asked each time: they remember.
+  const bool hovers = must_hover(seen);
+  const bool mismatched = is_mismatched(seen, request);
+  const bool is_valid = is_believable(seen);
+  const bool is_late = is_valid && has_coverage_alarm(seen);
+  if (hovers) {
+    why_ = "deadlines are missed again and again";
+    return Fallback::hover;
+  }
+  if (!is_valid) {
+    why_ = "a number that was observed is not finite or negative";
+    return Fallback::table;
+  }
+  if (mismatched) {
+    why_ = "granted clock or cores are not what was requested";
+    return Fallback::table;
+  }
+  if (is_late) {
+    why_ = "maps came later than bounded";
+    return Fallback::wide_bound;
+  }
+  return Fallback::none;
+}
+
+bool FallbackLadder::has_coverage_alarm(const Observation& seen) {
+  if (seen.map_revision != revision_) {
+    // Against the bound as it was while the map was made: it adapts to each map that comes.
+    const bool is_late = bound_ > Duration::zero() && seen.latency > bound_;
+    late_ = (late_ << 1U) | (is_late ? 1U : 0U);
+    revision_ = seen.map_revision;
+  }
+  bound_ = seen.latency_bound;
+  const std::uint64_t window = ~std::uint64_t{0} >> (64 - settings_.map_window);
+  const auto late = static_cast<int>(std::bitset<64>{late_ & window}.count());
+  return late >= settings_.late_maps;
+}
+
+bool FallbackLadder::is_mismatched(const Observation& seen, const Request& request) {
+  const bool differs_now = differs(request.frequency_hz, seen.frequency.value()) ||
+                           differs(request.cores, static_cast<double>(seen.cores));
+  const bool is_new =
+      request.frequency_hz != last_request_.frequency_hz || request.cores != last_request_.cores;
+  last_request_ = request;
+  if (!differs_now) {
+    mismatched_since_.reset();
+  } else if (is_new || !mismatched_since_) {
+    mismatched_since_ = mismatched_since_ && is_table_ ? mismatched_since_ : seen.now;
+  }
+  is_table_ = differs_now && seen.now - *mismatched_since_ >= settings_.mismatch_patience;
+  return is_table_;
+}
+
+bool FallbackLadder::must_hover(const Observation& seen) {
+  const double elapsed_s = last_look_ ? std::max(0.0, to_seconds(seen.now - *last_look_)) : 0.0;
+  last_look_ = seen.now;
+  missed_ = std::max(0.0, missed_ - settings_.miss_drain_hz * elapsed_s);
+  // A broken counter shall not hold the vehicle for hours.
+  missed_ = std::min(missed_ + seen.deadline_misses, 4.0 * settings_.missed_deadlines);
+  if (missed_ > settings_.missed_deadlines && !hovering_since_) {
+    hovering_since_ = seen.now;
+  }
+  if (hovering_since_ && missed_ == 0.0 && seen.now - *hovering_since_ >= settings_.least_hover) {
+    hovering_since_.reset();
+  }
+  return hovering_since_.has_value();
+}
+
+}  // namespace flyball

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A policy that is a Lua script:
+///
+///     description = "Fine among obstacles"
+///     period_s = 0.25                                  -- optional
+///     parameters = {{name = "fine_m", default = 0.15, min = 0.05, max = 2, description = "..."}}
+///     function start(given, knobs) ... end             -- optional; error("why") refuses
+///     function decide(seen)
+///       return {["map.resolution_m"] = 0.15}, "density"  -- wishes, and a reason
+///     end
+///
+/// `given` has the parameters; `knobs[name]` has unit, min, max, legal, default and value; `seen`
+/// has `now_s`, `phase` and the members of the observation, and is the same table in each decision.
+
+#include "flyball/governors/policy.h"
+
+#include <memory>
+#include <string>
+
+namespace flyball {
+
+/// @param seed  Of `math.random`.
+/// @error `not_found`; `invalid_input` with file and line; `unavailable` without Lua.
+[[nodiscard]] Result<std::unique_ptr<Policy>> open_lua_policy(const std::string& path,
+                                                              std::uint64_t seed);
+
+}  // namespace flyball

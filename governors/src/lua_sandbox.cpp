@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifdef FLYBALL_HAS_LUA
+#include "lua_sandbox.h"
+
+#include "lua_library.h"
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+extern "C" {
+#include <lauxlib.h>
+#include <lua.h>
+}
+
+namespace flyball {
+namespace {
+
+constexpr int look_every = 1000;  // Instructions between two looks at the budget.
+constexpr const char* globals_key = "flyball.globals";
+
+/// What travels through lua_pcall.
+struct Call {
+  void (*invoke)(lua_State*, const void*){};
+  const void* body{};
+};
+
+int invoke(lua_State* state) {
+  const auto* call = static_cast<const Call*>(lua_touserdata(state, 1));
+  lua_settop(state, 0);
+  call->invoke(state, call->body);
+  return 0;
+}
+
+}  // namespace
+
+LuaSandbox::LuaSandbox(std::string path, std::uint64_t seed, LuaLimits limits)
+    : path_{std::move(path)}, seed_{seed}, limits_{limits}, random_{seed, "policy"} {}
+
+LuaSandbox::~LuaSandbox() {
+  if (state_ != nullptr) {
+    lua_close(state_);
+  }
+}
+
+void* LuaSandbox::allocate(void* self, void* old, std::size_t old_size, std::size_t size) {
+  auto& sandbox = *static_cast<LuaSandbox*>(self);
+  const std::size_t before = old == nullptr ? 0 : old_size;  // Else it is a kind of object.
+  if (size == 0) {
+    std::free(old);  // NOLINT(cppcoreguidelines-no-malloc): Lua's way
+    sandbox.used_bytes_ -= before;
+    return nullptr;
+  }
+  // Lua relies on it that shrinking succeeds.
+  if (size > before) {
+    sandbox.call_bytes_ += size - before;
+    if (sandbox.used_bytes_ - before + size > sandbox.limits_.memory_bytes ||
+        sandbox.call_bytes_ > sandbox.limits_.call_bytes) {
+      return nullptr;
+    }
+  }
+  void* place = std::realloc(old, size);  // NOLINT(cppcoreguidelines-no-malloc)
+  if (place != nullptr) {
+    sandbox.used_bytes_ = sandbox.used_bytes_ - before + size;
+  }
+  return place;
+}
+
+void LuaSandbox::count(lua_State* state, lua_Debug* where) {
+  auto& sandbox = **static_cast<LuaSandbox**>(lua_getextraspace(state));
+  lua_getinfo(state, "Sl", where);
+  sandbox.last_line_ = where->currentline;
+  sandbox.instructions_left_ -= look_every;
+  if (sandbox.instructions_left_ < 0) {
+    luaL_error(state, "%s:%d: its budget of instructions is used up; does this loop end?",
+               static_cast<const char*>(where->short_src), where->currentline);
+  }
+}
+
+void LuaSandbox::push_global(lua_State* state, const char* name) {
+  lua_getfield(state, LUA_REGISTRYINDEX, globals_key);
+  lua_getfield(state, -1, name);
+  lua_remove(state, -2);
+}
+
+std::string LuaSandbox::reason_of_failure(int code) const {
+  if (code == LUA_ERRMEM) {
+    const std::string line = last_line_ > 0 ? ":" + std::to_string(last_line_) : "";
+    return path_ + line + ": takes more than " + std::to_string(limits_.memory_bytes >> 20U) +
+           " MiB, or " + std::to_string(limits_.call_bytes >> 20U) + " MiB in one call";
+  }
+  // Only a text has one already; converting another value could fail.
+  if (lua_type(state_, -1) != LUA_TSTRING) {
+    return path_ + ": raised a " + luaL_typename(state_, -1) + " instead of a text";
+  }
+  const std::string text = lua_tostring(state_, -1);
+  const std::string file = std::filesystem::path{path_}.filename().string();
+  return text.find(file) == std::string::npos ? path_ + ": " + text : text;
+}
+
+Status LuaSandbox::run_erased(std::int64_t instructions, Erased call, const void* body) {
+  Call travelling{call, body};
+  logged_.clear();
+  instructions_left_ = instructions;
+  call_bytes_ = 0;
+  last_line_ = 0;
+  lua_settop(state_, 0);
+  lua_sethook(state_, count, LUA_MASKCOUNT, look_every);
+  lua_pushcfunction(state_, invoke);
+  lua_pushlightuserdata(state_, &travelling);
+  const int code = lua_pcall(state_, 1, 0, 0);
+  if (code != LUA_OK) {
+    return Error{ErrorCode::invalid_input, reason_of_failure(code)};
+  }
+  return Done{};
+}
+
+Status LuaSandbox::load() {
+  std::error_code failed;
+  std::ifstream file{path_, std::ios::binary};
+  if (!std::filesystem::is_regular_file(path_, failed) || !file) {
+    return Error{ErrorCode::not_found, "no policy script " + path_};
+  }
+  const std::string text{std::istreambuf_iterator<char>{file}, {}};
+  state_ = lua_newstate(allocate, this);
+  if (state_ == nullptr) {
+    return Error{ErrorCode::failed, path_ + ": no memory for Lua"};
+  }
+  *static_cast<LuaSandbox**>(lua_getextraspace(state_)) = this;
+  return compile_and_run(text);
+}
+
+Status LuaSandbox::compile_and_run(const std::string& text) {
+  static constexpr auto uniform = [](void* self) {
+    return static_cast<LuaSandbox*>(self)->random_.uniform();
+  };
+  static constexpr auto log = [](void* self, const char* line) {
+    std::string& logged = static_cast<LuaSandbox*>(self)->logged_;
+    constexpr std::size_t longest = 400;  // A line for the record, not a place to store things.
+    if (logged.size() < longest) {
+      logged += (logged.empty() ? "" : "; ") + std::string{line};
+    }
+  };
+  const std::string name = "@" + path_;
+  return run(limits_.load_instructions, [this, &text, &name](lua_State* state) {
+    // Owned by the state, like all that uses it.
+    auto* host = static_cast<LuaHost*>(lua_newuserdatauv(state, sizeof(LuaHost), 0));
+    *host = LuaHost{this, uniform, log};
+    lua_setfield(state, LUA_REGISTRYINDEX, "flyball.host");
+    push_lua_globals(state, host);
+    lua_pushvalue(state, -1);
+    lua_setfield(state, LUA_REGISTRYINDEX, globals_key);
+    if (luaL_loadbufferx(state, text.data(), text.size(), name.c_str(), "t") != LUA_OK) {
+      lua_error(state);
+    }
+    lua_pushvalue(state, -2);
+    lua_setupvalue(state, -2, 1);  // _ENV: the only globals that the script has.
+    lua_call(state, 0, 0);
+  });
+}
+
+}  // namespace flyball
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The three kinds of policy that somebody brings in a file, by the examples of each: the same rule
+// keeps the same contract and decides the same.
+#ifdef FLYBALL_EXAMPLES
+
+#include "flyball/apps/policy_choice.h"
+#include "flyball/governors/policy_conformance.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::vector<std::string> examples() {
+  return {
+      FLYBALL_EXAMPLES "/density_switch.toml",
+#ifdef FLYBALL_HAS_LUA
+      FLYBALL_EXAMPLES "/density_switch.lua",
+#endif
+      FLYBALL_EXAMPLE_LIBRARY,
+  };
+}
+
+PolicyChoice chosen(const std::string& file) {
+  auto choice = choose_policy(file, 1);
+  EXPECT_TRUE(choice.ok()) << choice.error().message;
+  return *choice;
+}
+
+TEST(PolicyFiles, keep_the_contract_of_a_policy) {
+  for (const std::string& file : examples()) {
+    const PolicyChoice choice = chosen(file);
+    const auto breaches = PolicyConformance{
+        {[&choice] { return std::move(*choice.make()); },
+         choice.parameters}}.breaches();
+    EXPECT_TRUE(breaches.empty()) << file << " " << breaches.front();
+  }
+}
+
+TEST(PolicyFiles, of_one_rule_decide_the_same) {
+  std::vector<std::unique_ptr<Policy>> policies;
+  for (const std::string& file : examples()) {
+    auto policy = chosen(file).started(conformance_knobs());
+    ASSERT_TRUE(policy.ok()) << policy.error().message;
+    policies.push_back(std::move(*policy));
+  }
+  int changes = 0;
+  double last = 0.0;
+  for (const Observation& seen : plausible_observations(400)) {
+    const Decision first = policies.front()->decide(seen);
+    ASSERT_EQ(1U, first.size());
+    changes += first.begin()->value != last ? 1 : 0;
+    last = first.begin()->value;
+    for (const auto& policy : policies) {
+      const Decision other = policy->decide(seen);
+      ASSERT_EQ(1U, other.size()) << policy->trouble();
+      EXPECT_EQ(first.begin()->knob, other.begin()->knob);
+      EXPECT_EQ(first.begin()->value, other.begin()->value);
+      EXPECT_EQ(first.reason, other.reason);
+    }
+  }
+  EXPECT_GT(changes, 10) << "nothing was compared";
+}
+
+TEST(PolicyFiles, with_wrong_parameters_refuse_in_one_sentence) {
+  for (const std::string& file : examples()) {
+    PolicyChoice choice = chosen(file);
+    choice.parameters = {{"fine_m", 0.9}, {"coarse_m", 0.6}};
+    const auto policy = choice.started(conformance_knobs());
+    ASSERT_FALSE(policy.ok()) << file;
+    EXPECT_NE(std::string::npos, policy.error().message.find("must be below")) << file;
+    EXPECT_EQ(std::string::npos, policy.error().message.find('\n'));
+  }
+}
+
+}  // namespace
+}  // namespace flyball
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "library_policy.h"
+
+#include "policy_start.h"
+#include "scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::string plugin(const std::string& name) {
+  return std::string{FLYBALL_TEST_PLUGINS} + "/" + name + ".so";
+}
+
+std::unique_ptr<Policy> opened(const std::string& name, std::uint64_t seed = 1) {
+  auto policy = LibraryPolicy::open(plugin(name), seed);
+  EXPECT_TRUE(policy.ok()) << policy.error().message;
+  return policy ? std::move(*policy) : nullptr;
+}
+
+Observation at_speed(double speed_m_s) {
+  Observation seen;
+  seen.now = MissionTime{std::chrono::seconds{3}};
+  seen.speed_m_s = speed_m_s;
+  return seen;
+}
+
+TEST(LibraryPolicy, declares_decides_and_gives_its_reason) {
+  const auto policy = opened("culprit");
+  ASSERT_EQ(1U, policy->parameters().size());
+  EXPECT_EQ("crime", policy->parameters()[0].name);
+  ASSERT_TRUE(kit::start(*policy).ok());
+  const Decision wished = policy->decide(at_speed(1.0));
+  EXPECT_EQ(0.15, kit::wish_for(wished, "map.resolution_m"));
+  EXPECT_EQ(Reason::load, wished.reason);
+  EXPECT_EQ("", policy->trouble());
+}
+
+TEST(LibraryPolicy, says_why_it_does_not_start) {
+  const auto policy = opened("culprit");
+  const Status refused = kit::start(*policy, {{"crime", 8.0}});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(plugin("culprit") + ": not today", refused.error().message);
+}
+
+TEST(LibraryPolicy, that_returns_an_error_is_in_trouble_with_its_own_words) {
+  const auto policy = opened("culprit");
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 7.0}}).ok());
+  EXPECT_EQ(0U, policy->decide(at_speed(1.0)).size());
+  EXPECT_EQ(plugin("culprit") + ": I cannot", policy->trouble());
+}
+
+TEST(LibraryPolicy, draws_from_the_hosts_stream_and_knows_the_hosts_time) {
+  const auto one = opened("culprit", 5);
+  const auto other = opened("culprit", 5);
+  const auto third = opened("culprit", 6);
+  for (const auto* policy : {&one, &other, &third}) {
+    ASSERT_TRUE(kit::start(**policy, {{"crime", 9.0}}).ok());
+  }
+  const double drawn = *kit::wish_for(one->decide(at_speed(1.0)), "map.resolution_m");
+  EXPECT_EQ(drawn, kit::wish_for(other->decide(at_speed(1.0)), "map.resolution_m"));
+  EXPECT_NE(drawn, kit::wish_for(third->decide(at_speed(1.0)), "map.resolution_m"));
+  EXPECT_NE(drawn, kit::wish_for(one->decide(at_speed(1.0)), "map.resolution_m"));
+  EXPECT_EQ("in time", one->remark());
+}
+
+TEST(LibraryPolicy, a_wish_for_no_place_in_the_list_names_no_knob) {
+  const auto policy = opened("culprit");
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 5.0}}).ok());
+  const Decision wished = policy->decide(at_speed(1.0));
+  ASSERT_EQ(1U, wished.size());
+  EXPECT_EQ(nullptr, conformance_knobs().spec(wished.begin()->knob));
+}
+
+TEST(LibraryPolicy, too_many_wishes_overflow) {
+  const auto policy = opened("culprit");
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 6.0}}).ok());
+  EXPECT_TRUE(policy->decide(at_speed(1.0)).overflowed());
+}
+
+TEST(LibraryPolicy, built_against_the_first_header_still_works) {
+  const auto policy = opened("culprit_older");
+  ASSERT_TRUE(kit::start(*policy).ok());
+  EXPECT_EQ(std::nullopt, policy->period());
+  EXPECT_EQ(0.15, kit::wish_for(policy->decide(at_speed(1.0)), "map.resolution_m"));
+}
+
+TEST(LibraryPolicy, built_against_less_than_that_is_refused_in_one_sentence) {
+  const auto refused = LibraryPolicy::open(plugin("culprit_too_old"), 1);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(std::string::npos,
+            refused.error().message.find("its FlyballPolicy has 56 bytes, the "
+                                         "oldest that this program knows has 64"))
+      << refused.error().message;
+}
+
+TEST(LibraryPolicy, an_exception_through_the_c_function_is_caught) {
+  const auto policy = opened("thrower");
+  ASSERT_TRUE(kit::start(*policy).ok());
+  EXPECT_EQ(0U, policy->decide(at_speed(4.0)).size());
+  EXPECT_EQ(plugin("thrower") + ": threw: too fast for me", policy->trouble());
+  static_cast<void>(policy->decide(at_speed(2.5)));
+  EXPECT_EQ(plugin("thrower") + ": threw an exception of no known type", policy->trouble());
+  static_cast<void>(policy->decide(at_speed(1.0)));
+  EXPECT_EQ("", policy->trouble()) << "of the last decision only";
+}
+
+TEST(LibraryPolicy, what_is_no_library_is_named) {
+  const ScratchFolder scratch;
+  const auto no_file = LibraryPolicy::open(scratch.path("missing.so"), 1);
+  ASSERT_FALSE(no_file.ok());
+  EXPECT_EQ(ErrorCode::not_found, no_file.error().code);
+  const auto text = LibraryPolicy::open(scratch.file("text.so", "not ELF"), 1);
+  ASSERT_FALSE(text.ok());
+  EXPECT_NE(std::string::npos, text.error().message.find("text.so: cannot be loaded"));
+}
+
+}  // namespace
+}  // namespace flyball
