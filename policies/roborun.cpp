@@ -60,13 +60,13 @@ struct StageLatency {
 struct Problem {
   StageLatency map{};
   StageLatency planner{};
-  double fixed_s{};
-  double budget_s{};
+  double fixed_s{};   ///< Stages that no knob changes.
+  double budget_s{};  ///< Less `fixed_s`, for the stages that knobs change; not below zero.
   double volume_weight_s2{};
   std::array<double, 3> most_m3{};
 
   [[nodiscard]] double latency_s(const double* x) const {
-    return fixed_s + map.per_m3_s(std::exp(x[0])) * x[2] * most_m3[0] +
+    return map.per_m3_s(std::exp(x[0])) * x[2] * most_m3[0] +
            planner.per_m3_s(std::exp(x[1])) * (x[3] * most_m3[1] + 2.0 * x[4] * most_m3[2]);
   }
   void latency_gradient_s(const double* x, double* slope) const {
@@ -163,7 +163,10 @@ class Roborun final : public flyball::Policy {
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
     const double room_m = std::clamp(finite(seen.known_free_m - seen.tracking_error_m), 0.0, 1e3);
-    problem_.budget_s = budget_.budget_s(v_max_m_s_, room_m);
+    // Stages that no knob changes must not count among those that are squeezed: where they alone
+    // are over the budget the volume would go to its least, the vehicle would see no farther, and
+    // the next budget would be no larger.
+    problem_.budget_s = std::max(0.0, budget_.budget_s(v_max_m_s_, room_m) - problem_.fixed_s);
     const double coarsest_m = coarsest(seen);
     std::array<double, 5> x{};
     if (seen.planner_failures >= failures_to_finest) {

@@ -12,6 +12,17 @@
 namespace flyball {
 namespace {
 
+/// Empty: it is none, or a broken one, which `choose_policy` will tell.
+Preset combination_of(const std::string& name) {
+  const auto file = find_shipped("presets", name);
+  if (file && std::filesystem::path{*file}.extension() == ".toml") {
+    if (const auto preset = load_preset(*file); preset && preset->is_combination()) {
+      return *preset;
+    }
+  }
+  return {};
+}
+
 Result<std::unique_ptr<Policy>> start_one(const std::string& name,
                                           std::uint64_t seed,
                                           const KnobSettings& knobs) {
@@ -22,15 +33,15 @@ Result<std::unique_ptr<Policy>> start_one(const std::string& name,
   return choice->started(knobs);
 }
 
-/// Empty: it is none, or a broken one, which `choose_policy` will tell.
-Preset combination_of(const std::string& name) {
-  const auto file = find_shipped("presets", name);
-  if (file && std::filesystem::path{*file}.extension() == ".toml") {
-    if (const auto preset = load_preset(*file); preset && preset->is_combination()) {
-      return *preset;
-    }
+/// One half of a combination.
+Result<std::unique_ptr<Policy>> start_half(const std::string& name,
+                                           std::uint64_t seed,
+                                           const KnobSettings& knobs) {
+  if (combination_of(name).is_combination()) {
+    return Error{ErrorCode::invalid_input,
+                 "policy \"" + name + "\" is a combination itself; name one policy"};
   }
-  return {};
+  return start_one(name, seed, knobs);
 }
 
 }  // namespace
@@ -56,11 +67,11 @@ Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
   if (!both.is_combination()) {
     return start_one(name, seed, knobs);
   }
-  auto application = start_one(both.application, seed, knobs);
+  auto application = start_half(both.application, seed, knobs);
   if (!application) {
     return application.error();
   }
-  auto clock = start_one(both.clock, seed, knobs);
+  auto clock = start_half(both.clock, seed, knobs);
   if (!clock) {
     return clock.error();
   }
