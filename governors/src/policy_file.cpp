@@ -58,8 +58,7 @@ Result<PolicyChoice> load_named(const std::string& path,
                                 const Preset& preset,
                                 const Registry& known) {
   if (preset.is_combination()) {
-    return Error{ErrorCode::invalid_input,
-                 path + ": is a combination; name one policy here"};
+    return Error{ErrorCode::invalid_input, path + ": is a combination; name one policy here"};
   }
   if (known.make<Policy>(preset.policy) == nullptr) {
     return Error{ErrorCode::not_found,

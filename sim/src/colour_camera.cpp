@@ -140,7 +140,11 @@ ColourImage ColourCamera::capture(const Pose& X_WC, MissionTime now, std::uint64
 ColourFrame ColourCamera::frame(const CameraPose& pose,
                                 MissionTime now,
                                 std::uint64_t sequence) const {
-  return {now, sequence, scene_->camera, pose.X_LC, pose.X_WC,
+  return {now,
+          sequence,
+          scene_->camera,
+          pose.X_LC,
+          pose.X_WC,
           Deferred<ColourImage>{
               [this, X_WC = pose.X_WC, now, sequence] { return capture(X_WC, now, sequence); }}};
 }

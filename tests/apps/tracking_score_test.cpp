@@ -24,8 +24,8 @@ class Score : public testing::Test {
     target.frame.camera = ColourCameraSpec{}.intrinsics();
     target.frame.X_WC_truth = camera_in_level_frame({});
     target.frame.X_WC_truth.translation().z() = 0.875;
-    target.box = box_of(world.people.front(), target.frame.captured,
-                        target.frame.X_WC_truth, target.frame.camera);
+    target.box = box_of(world.people.front(), target.frame.captured, target.frame.X_WC_truth,
+                        target.frame.camera);
     if (!on_person) {
       target.box->x_px += 100.0;
     }
