@@ -64,7 +64,7 @@ class MissionEnergy final : public flyball::Policy {
     }
     full_budget_ = knobs.value(budget->name);
     coarse_budget_ = std::min(budget->nearest(given.number("coarse_budget")), full_budget_);
-    if (const flyball::Status set = set_levels(given, knobs); !set) {
+    if (flyball::Status set = set_levels(given, knobs); !set) {
       return set;
     }
     const auto ranges_m = ranges(given, knobs);
@@ -167,9 +167,12 @@ class MissionEnergy final : public flyball::Policy {
                      " must be below most_range_m = " + std::to_string(most_m));
     }
     std::vector<double> ranges_m;
-    for (int i = 0; i < 5; ++i) {  // Equal steps in proportion, as latency has it.
-      ranges_m.push_back(i == 4 ? most_m : least_m * std::pow(most_m / least_m, i / 4.0));
+    constexpr int steps = 4;  // Equal in proportion, as latency has it.
+    ranges_m.reserve(steps + 1);
+    for (int i = 0; i < steps; ++i) {
+      ranges_m.push_back(least_m * std::pow(most_m / least_m, i / double{steps}));
     }
+    ranges_m.push_back(most_m);
     return ranges_m;
   }
 
