@@ -21,5 +21,5 @@ if(FLYBALL_BUILD_SIM AND benchmark_FOUND)
   flyball_compile_options(map_bench)
   # It measures nothing worth knowing, but runs all of it, and fails where stock answers otherwise.
   add_test(NAME map_bench COMMAND map_bench --small --table=${PROJECT_BINARY_DIR}/map_bench_small.md)
-  set_tests_properties(map_bench PROPERTIES LABELS unit TIMEOUT 300)
+  set_tests_properties(map_bench PROPERTIES LABELS bench TIMEOUT 300)
 endif()

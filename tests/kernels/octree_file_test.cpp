@@ -145,7 +145,7 @@ TEST(OctreeFile, no_mutation_of_a_file_crashes_its_reader) {
     const std::string content = scratch.content(name);
     int refused = 0;
     int read = 0;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 500; ++i) {
       const auto result = read_octree(scratch.file("mutant", mutated(content, random)));
       if (result.ok()) {
         ++read;
@@ -156,8 +156,8 @@ TEST(OctreeFile, no_mutation_of_a_file_crashes_its_reader) {
         EXPECT_EQ(result.error().message.find('\n'), std::string::npos);
       }
     }
-    EXPECT_GT(refused, 500) << name;
-    EXPECT_GT(read, 10) << name;
+    EXPECT_GT(refused, 150) << name;
+    EXPECT_GT(read, 0) << name;
   }
 }
 
