@@ -161,18 +161,8 @@ void add_compare(CLI::App& program, int& exit_code) {
       program.add_subcommand("compare", "flies policies over the same seeds and compares them");
   const auto options = std::make_shared<CompareOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  refuse_empty(*command
-                    ->add_option("--policies", options->policies,
-                                 "the first one is what the others are measured by")
-                    ->delimiter(',')
-                    ->required()
-                    ->type_name("A,B,C"));
-  command->add_option("--seeds", options->seeds, "one seed each for world, sensors and planner")
-      ->type_name("1..N");
-  command
-      ->add_option("--jobs", options->jobs, "missions at a time (default: one for each processor)")
-      ->type_name("J")
-      ->check(CLI::Range(1, 1024));
+  add_contest(*command, options->policies, options->seeds);
+  add_jobs(*command, options->jobs);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = compare(*options); });
 }

@@ -33,6 +33,23 @@ void add_output(CLI::App& command, FlightOptions& options) {
   command.add_flag("--json", options.json, "prints the result as JSON");
 }
 
+void add_contest(CLI::App& command, std::vector<std::string>& policies, std::string& seeds) {
+  refuse_empty(
+      *command
+           .add_option("--policies", policies, "the first one is what the others are measured by")
+           ->delimiter(',')
+           ->required()
+           ->type_name("A,B,C"));
+  command.add_option("--seeds", seeds, "one seed each for world, sensors and planner")
+      ->type_name("1..N");
+}
+
+void add_jobs(CLI::App& command, std::size_t& jobs) {
+  command.add_option("--jobs", jobs, "missions at a time (default: one for each processor)")
+      ->type_name("J")
+      ->check(CLI::Range(1, 1024));
+}
+
 std::string run_folder(const std::string& out, const std::string& policy, std::uint64_t seed) {
   namespace fs = std::filesystem;
   return (fs::path{out} / "runs" / fs::path{policy}.stem() / ("seed_" + std::to_string(seed)))

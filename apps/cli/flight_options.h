@@ -6,6 +6,7 @@
 
 #include "flyball/apps/scenario.h"
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,6 +32,11 @@ void add_scenario(CLI::App& command, FlightOptions& options);
 void refuse_empty(CLI::Option& option);
 /// Adds `--out` and `--json`.
 void add_output(CLI::App& command, FlightOptions& options);
+
+/// Adds `--policies` and `--seeds`.
+void add_contest(CLI::App& command, std::vector<std::string>& policies, std::string& seeds);
+/// Adds `--jobs`.
+void add_jobs(CLI::App& command, std::size_t& jobs);
 
 /// The folder of one run: `OUT/runs/POLICY/seed_N`. A policy's file counts by its stem.
 [[nodiscard]] std::string run_folder(const std::string& out,

@@ -197,18 +197,8 @@ void add_tournament(CLI::App& program, int& exit_code) {
                     ->delimiter(',')
                     ->required()
                     ->type_name("A,B,C"));
-  refuse_empty(*command
-                    ->add_option("--policies", options->policies,
-                                 "the first one is what the others are measured by")
-                    ->delimiter(',')
-                    ->required()
-                    ->type_name("A,B,C"));
-  command->add_option("--seeds", options->seeds, "one seed each for world, sensors and planner")
-      ->type_name("1..N");
-  command
-      ->add_option("--jobs", options->jobs, "missions at a time (default: one for each processor)")
-      ->type_name("J")
-      ->check(CLI::Range(1, 1024));
+  add_contest(*command, options->policies, options->seeds);
+  add_jobs(*command, options->jobs);
   command->add_option("--set", options->flight.settings, "changes one setting in every world")
       ->type_name("KEY=VALUE")
       ->expected(1)

@@ -237,10 +237,7 @@ void add_tune(CLI::App& program, int& exit_code) {
                     ->add_option("--preset", options->preset,
                                  "where the best one goes (default: tuned.toml in --out)")
                     ->type_name("FILE"));
-  command
-      ->add_option("--jobs", options->jobs, "missions at a time (default: one for each processor)")
-      ->type_name("J")
-      ->check(CLI::Range(1, 1024));
+  add_jobs(*command, options->jobs);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = tune(*options); });
 }

@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight_recorder.h"
 
+#include "flyball/runtime/observation_fields.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace flyball {
-namespace {
-
-const char* name_of(MissionPhase phase) {
-  switch (phase) {
-    case MissionPhase::take_off:
-      return "take_off";
-    case MissionPhase::cruise:
-      return "cruise";
-    case MissionPhase::land:
-      return "land";
-    case MissionPhase::wait:
-      return "wait";
-  }
-  return "";
-}
-
-}  // namespace
 
 FlightRecorder::FlightRecorder(MissionContext& context,
                                const Graph& graph,
@@ -44,7 +29,7 @@ void FlightRecorder::record_state(MissionTime now) {
                          {"computer_w", loop_.log().computer_w},
                          {"battery_percent", loop_.battery().percent()},
                          {"battery_v", loop_.battery().voltage_v()},
-                         {"phase", std::string{name_of(context_.phase)}}};
+                         {"phase", std::string{to_string(context_.phase)}}};
   if (navigator_ != nullptr) {
     row.push_back({"set_speed_m_s", navigator_->follower().target_speed_m_s()});
     row.push_back({"known_free_m", navigator_->follower().known_free_m()});

@@ -2,6 +2,7 @@
 #include "flyball/sim/colour_camera.h"
 
 #include "colour_scene.h"
+#include "pinhole.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -30,13 +31,7 @@ Eigen::Vector3f lit(const SurfaceHit& hit, const Eigen::Vector3f& to_sun_W, bool
 }  // namespace
 
 Intrinsics ColourCameraSpec::intrinsics() const {
-  Intrinsics camera;
-  camera.width_px = width_px;
-  camera.height_px = height_px;
-  camera.focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_field_rad);
-  camera.centre_x_px = 0.5 * (width_px - 1);
-  camera.centre_y_px = 0.5 * (height_px - 1);
-  return camera;
+  return pinhole(width_px, height_px, horizontal_field_rad);
 }
 
 struct ColourCamera::Scene {

@@ -6,6 +6,7 @@
 
 #include "embree_scene.h"
 #include "mover_view.h"
+#include "pinhole.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,13 +42,7 @@ double cheap_normal(RandomStream& random) {
 }  // namespace
 
 Intrinsics DepthCameraSpec::intrinsics() const {
-  Intrinsics camera;
-  camera.width_px = width_px;
-  camera.height_px = height_px;
-  camera.focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_field_rad);
-  camera.centre_x_px = 0.5 * (width_px - 1);
-  camera.centre_y_px = 0.5 * (height_px - 1);
-  return camera;
+  return pinhole(width_px, height_px, horizontal_field_rad);
 }
 
 struct DepthCamera::Scene {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The ideal camera of both kinds: square pixels, axis through the middle of the image.
+
+#include "flyball/runtime/messages.h"
+
+#include <cmath>
+
+namespace flyball {
+
+[[nodiscard]] inline Intrinsics pinhole(int width_px, int height_px, double horizontal_field_rad) {
+  Intrinsics camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.focal_px = 0.5 * width_px / std::tan(0.5 * horizontal_field_rad);
+  camera.centre_x_px = 0.5 * (width_px - 1);
+  camera.centre_y_px = 0.5 * (height_px - 1);
+  return camera;
+}
+
+}  // namespace flyball
