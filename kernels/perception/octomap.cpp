@@ -10,6 +10,7 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
+#include "bricks/clear_cells.h"
 #include "bricks/octree_record.h"
 #include "bricks/ray_scan.h"
 #include "octomap_view.h"
@@ -66,23 +67,36 @@ octomap::point3d to_octomap(const flyball::Vec3& p) {
   return {single.x(), single.y(), single.z()};
 }
 
+// A finer map trusts only those free cells of this size and wider that surely hold no wall.
+constexpr double coarse_cell_m = 0.3;
 // In a cell wider than this the body can fly beside the wall that the cell contains, and rays that
-// pass there without touching it would free the cell: stock OctoMap forgets the wall.
+// pass there without touching it would free the cell: stock OctoMap forgets the wall, or never
+// learns of it.
 constexpr double wide_cell_m = 0.3;
 constexpr float confirmed_log_odds = 2.2F;  // p = .9: three hits
 
 /// The tree of one resolution as stock insertion makes it, and for wide cells the walls in it:
 /// those cells that were once occupied beyond doubt. The view asks the walls first; obstacles are
-/// static.
+/// static. For coarse cells also which of them surely hold no wall at all.
 struct Layer {
   explicit Layer(double resolution_m)
       : rays{resolution_m, flyball::RayScan::Match::stock},
         tree{resolution_m},
+        clear{resolution_m},
         walls{resolution_m} {
     tree.setClampingThresMin(0.12);  // both as in MAVBench's code
     tree.setClampingThresMax(0.97);
   }
+  [[nodiscard]] bool is_coarse() const { return tree.getResolution() >= coarse_cell_m; }
   [[nodiscard]] bool is_wide() const { return tree.getResolution() > wide_cell_m; }
+
+  void show_in(flyball::OctomapView& view) const {
+    view.activate(
+        {&tree, is_wide() ? &clear.cells() : nullptr, is_coarse() ? &clear.cells() : nullptr});
+    if (is_wide()) {
+      view.activate(walls);
+    }
+  }
 
   void confirm(const std::vector<octomap::point3d>& hits_W) {
     octomap::OcTreeKey last;
@@ -105,6 +119,7 @@ struct Layer {
 
   flyball::RayScan rays;
   octomap::OcTree tree;
+  flyball::ClearCells clear;
   octomap::OcTree walls;
 };
 
@@ -146,11 +161,16 @@ class OctomapMapper final : public flyball::Mapper {
   void commit() override {
     if (pending_ != nullptr) {
       record_.write(masks_->bricks, pending_->tree);
-      view_.activate(pending_->tree);
+      if (pending_->is_coarse()) {
+        pending_->clear.add(masks_->bricks);
+        for (const auto& [centre_W, space] : view_.declared()) {
+          pending_->clear.declare(centre_W, space);
+        }
+      }
       if (pending_->is_wide()) {
         pending_->confirm(scan_.hits_W);
-        view_.activate(pending_->walls);
       }
+      pending_->show_in(view_);
       pending_ = nullptr;
     }
   }
@@ -173,7 +193,8 @@ class OctomapMapper final : public flyball::Mapper {
     flyball::MapContents contents;
     for (const Layer* layer : by_resolution()) {
       contents.levels.push_back(counts_of(layer->tree));
-      contents.bytes += layer->tree.memoryUsage();
+      contents.bytes +=
+          layer->tree.memoryUsage() + layer->clear.bytes() + layer->walls.memoryUsage();
     }
     return contents;
   }
@@ -204,7 +225,10 @@ class OctomapMapper final : public flyball::Mapper {
     pending_ = nullptr;
     Layer& layer = layer_of((*tree)->getResolution());
     layer.tree.swapContent(**tree);
-    view_.activate(layer.tree);
+    if (layer.is_coarse()) {
+      layer.clear.add(layer.tree);
+    }
+    layer.show_in(view_);
     return flyball::Done{};
   }
 

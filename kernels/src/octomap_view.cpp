@@ -41,6 +41,11 @@ std::array<Aabb, 2> halves(const Aabb& box) {
   return result;
 }
 
+bool is_free(const octomap::OcTree& tree, const octomap::OcTreeKey& key) {
+  const octomap::OcTreeNode* node = tree.search(key);
+  return node != nullptr && !tree.isNodeOccupied(node);
+}
+
 Aabb everywhere() {
   const Vec3 far = Vec3::Constant(std::numeric_limits<double>::max());
   return {-far, far};
@@ -78,9 +83,10 @@ struct OctomapView::Columns {
   }
 };
 
-void OctomapView::activate(const octomap::OcTree& tree) {
-  layers_.erase(std::remove(layers_.begin(), layers_.end(), &tree), layers_.end());
-  layers_.insert(layers_.begin(), &tree);
+void OctomapView::activate(const Layer& layer) {
+  const auto is_it = [&](const Layer& other) { return other.tree == layer.tree; };
+  layers_.erase(std::remove_if(layers_.begin(), layers_.end(), is_it), layers_.end());
+  layers_.insert(layers_.begin(), layer);
 }
 
 void OctomapView::declare_clear(const Vec3& centre_W, const Cylinder& space) {
@@ -102,7 +108,7 @@ void OctomapView::declare_clear(const Vec3& centre_W, const Cylinder& space) {
 }
 
 double OctomapView::resolution_m() const {
-  return layers_.empty() ? initial_resolution_m : layers_.front()->getResolution();
+  return layers_.empty() ? initial_resolution_m : layers_.front().tree->getResolution();
 }
 
 CellState OctomapView::state(const Vec3& p_W) const {
@@ -110,17 +116,18 @@ CellState OctomapView::state(const Vec3& p_W) const {
     return CellState::unknown;
   }
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
-    const octomap::OcTree& tree = *layers_[layer];
+    const octomap::OcTree& tree = *layers_[layer].tree;
     octomap::OcTreeKey key;
     if (!tree.coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key)) {
       continue;
     }
     const octomap::OcTreeNode* node = tree.search(key);
-    if (node != nullptr && !tree.isNodeOccupied(node)) {
+    if (node != nullptr && tree.isNodeOccupied(node)) {
+      if (!is_vague(layer, Use::move)) {
+        return CellState::occupied;
+      }
+    } else if (node != nullptr && is_free(known(layer, Use::move), key)) {
       return CellState::free;
-    }
-    if (node != nullptr && !is_vague(layer, Use::move)) {
-      return CellState::occupied;
     }
   }
   const auto contains = [&](const Clear& clear) {
@@ -201,14 +208,20 @@ void OctomapView::for_each_occupied(const std::function<void(const Aabb& cube)>&
   };
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
     const auto visit = [&](const Aabb& cube) { return show_if_it_counts(layer, cube); };
-    (void)OctreeWalk{*layers_[layer]}.any_occupied(space.bounds(), space, visit);
+    (void)OctreeWalk{*layers_[layer].tree}.any_occupied(space.bounds(), space, visit);
   }
 }
 
 bool OctomapView::is_vague(std::size_t layer, Use use) const {
   constexpr double same = 1.001;
   return use == Use::move &&
-         layers_[layer]->getResolution() > same * layers_.front()->getResolution();
+         layers_[layer].tree->getResolution() > same * layers_.front().tree->getResolution();
+}
+
+const octomap::OcTree& OctomapView::known(std::size_t layer, Use use) const {
+  const Layer& of = layers_[layer];
+  const octomap::OcTree* trusted = is_vague(layer, use) ? of.trusted_by_finer : of.trusted;
+  return use == Use::look || trusted == nullptr ? *of.tree : *trusted;
 }
 
 template <class Shape, class Show>
@@ -225,12 +238,14 @@ bool OctomapView::any_gap_from(
   if (layer == layers.count) {
     return show(region);
   }
-  const OctreeWalk walk{*layers_[layer]};
+  const octomap::OcTree& tree = known(layer, layers.use);
+  const bool occupied_is_known = &tree == layers_[layer].tree && !is_vague(layer, layers.use);
+  const OctreeWalk walk{tree};
   const auto deeper = [&](const Aabb& part) {
     return any_gap_from(layer + 1, layers, part, shape, show);
   };
   return walk.any_unknown(region, shape, deeper) ||
-         (is_vague(layer, layers.use) && walk.any_occupied(region, shape, deeper));
+         (!occupied_is_known && walk.any_occupied(region, shape, deeper));
 }
 
 template <class Shape, class Show>
@@ -240,7 +255,7 @@ bool OctomapView::any_obstacle(const Shape& shape, Use use, Show&& show) const {
       return any_gap({layer, use}, part, shape, show);
     };
     if (!is_vague(layer, use) &&
-        OctreeWalk{*layers_[layer]}.any_occupied(shape.bounds(), shape, show_visible)) {
+        OctreeWalk{*layers_[layer].tree}.any_occupied(shape.bounds(), shape, show_visible)) {
       return true;
     }
   }

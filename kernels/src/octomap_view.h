@@ -8,9 +8,11 @@
 /// before it answers, cut to that cube, and so on. A coarser tree's occupied cube does not say
 /// which of the finer cells in it is occupied: where it answers for a finer tree it stands for
 /// unknown, so that a planner may look there for a door, and the guard still does not go. (Density
-/// and nearest obstacle take it as it is.) What no tree knows is unknown, except inside the
-/// cylinders that were declared clear. A place that is not finite is unknown, a way there is
-/// blocked.
+/// and nearest obstacle take it as it is.) A coarse tree's free cube may hold a wall as well: a
+/// layer can name those that surely do not (bricks/clear_cells.h), and then the others stand for
+/// unknown, too. What
+/// no tree knows is unknown, except inside the cylinders that were declared clear. A place that is
+/// not finite is unknown, a way there is blocked.
 
 #include "flyball/runtime/occupancy.h"
 
@@ -21,7 +23,7 @@
 
 namespace octomap {
 class OcTree;
-}
+}  // namespace octomap
 
 namespace flyball {
 
@@ -30,12 +32,26 @@ class OctomapView final : public OccupancyView {
   /// Cylinders that are kept; past it the oldest of the thinnest goes.
   static constexpr std::size_t max_clear = 16;
 
-  /// Makes `tree` the one that answers first. It outlives the view.
-  void activate(const octomap::OcTree& tree);
+  /// A tree, and where those of its free cells stand that can be trusted by whoever moves: while it
+  /// is the active one, and where it answers for a finer one. Null: in the tree itself.
+  struct Layer {
+    const octomap::OcTree* tree;
+    const octomap::OcTree* trusted;
+    const octomap::OcTree* trusted_by_finer;
+  };
+  /// Makes the layer the one that answers first. Its trees outlive the view.
+  void activate(const Layer& layer);
+  void activate(const octomap::OcTree& tree) { activate({&tree, nullptr, nullptr}); }
   /// Back to knowing no tree.
   void forget_trees() { layers_.clear(); }
   /// Ignored when an earlier cylinder contains it.
   void declare_clear(const Vec3& centre_W, const Cylinder& space);
+
+  struct Clear {
+    Vec3 centre_W;
+    Cylinder space;
+  };
+  [[nodiscard]] const std::vector<Clear>& declared() const { return clear_; }
 
   /// Of the active tree; `initial_resolution_m` before there is one.
   [[nodiscard]] double resolution_m() const override;
@@ -62,11 +78,6 @@ class OctomapView final : public OccupancyView {
   static constexpr double initial_resolution_m = 0.15;
 
  private:
-  struct Clear {
-    Vec3 centre_W;
-    Cylinder space;
-  };
-
   /// What a coarser tree's occupied cube stands for: unknown for whoever moves, an obstacle for
   /// whoever looks around.
   enum class Use : std::uint8_t { move, look };
@@ -76,6 +87,8 @@ class OctomapView final : public OccupancyView {
   };
 
   [[nodiscard]] bool is_vague(std::size_t layer, Use use) const;
+  /// The tree whose free cells count.
+  [[nodiscard]] const octomap::OcTree& known(std::size_t layer, Use use) const;
   /// Shows the parts of `region` in the shape that none of the first `layers.count` trees knows.
   template <class Shape, class Show>
   [[nodiscard]] bool any_gap(Layers layers,
@@ -96,7 +109,7 @@ class OctomapView final : public OccupancyView {
   [[nodiscard]] bool is_cleared(const Aabb& part, const BodyShape& body) const;
   [[nodiscard]] bool is_in_clear(const Aabb& part, const BodyShape& body) const;
 
-  std::vector<const octomap::OcTree*> layers_{};  ///< The active one first.
+  std::vector<Layer> layers_{};  ///< The active one first.
   std::vector<Clear> clear_{};
 };
 

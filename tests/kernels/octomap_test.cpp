@@ -126,6 +126,48 @@ TEST(Octomap, keeps_what_was_mapped_when_the_resolution_changes) {
   EXPECT_EQ(view.state({5.01, 0.01, 0.01}), CellState::occupied);
 }
 
+/// A wide view along x that ends at a wall `distance_m` away.
+PointCloud wide_scan(float distance_m) {
+  PointCloud cloud_C = wall_scan(distance_m);
+  for (Eigen::Vector3f& hit_C : cloud_C.hits_C) {
+    hit_C.head<2>() *= 4.0F;
+  }
+  return cloud_C;
+}
+
+TEST(Octomap, trusts_no_wide_cell_that_was_freed_after_a_hit) {
+  const auto mapper = make_octomap();
+  insert(*mapper, wide_scan(3.0F), {0.80, 7.0});
+  for (int i = 0; i < 3; ++i) {
+    insert(*mapper, wide_scan(6.0F), {0.80, 7.0});  // passes through the cells of the wall
+  }
+  const OccupancyView& view = mapper->view();
+  EXPECT_EQ(view.state({2.8, 0.1, 0.1}), CellState::unknown);
+  EXPECT_EQ(view.state({4.4, 0.1, 0.1}), CellState::free);  // no ray ended there
+  insert(*mapper, wall_scan(1.0F), {0.15, 7.0});            // sees nothing of it
+  EXPECT_EQ(view.state({2.8, 0.1, 0.1}), CellState::unknown);
+  EXPECT_EQ(view.body_state({2.1, 0.1, 0.1}, body), CellState::unknown);  // reaches to 2.45
+  EXPECT_EQ(view.state({4.4, 0.1, 0.1}), CellState::free);
+  EXPECT_EQ(view.body_state({4.4, 0.1, 0.1}, body), CellState::free);
+}
+
+TEST(Octomap, trusts_no_wide_cell_beside_space_that_nobody_saw) {
+  const auto mapper = make_octomap();
+  PointCloud grazing_C;  // along a wall at y = 0.3, which no ray hits: what is behind stays unseen
+  for (int i = 0; i < 60 * 60; ++i) {
+    const float right = 0.1F * static_cast<float>(i % 60) - 0.2F;
+    const float down = 0.1F * static_cast<float>(i / 60 - 30);
+    grazing_C.hits_C.emplace_back(right, down, 6.0F);
+  }
+  insert(*mapper, grazing_C, {0.80, 7.0});
+  const OccupancyView& view = mapper->view();
+  EXPECT_EQ(view.state({4.4, 0.1, 0.1}), CellState::unknown);  // its neighbour at y = 1.2 is
+  EXPECT_EQ(view.state({4.4, -1.2, 0.1}), CellState::free);
+  insert(*mapper, wall_scan(1.0F), {0.15, 7.0});
+  EXPECT_EQ(view.state({4.4, 0.1, 0.1}), CellState::unknown);
+  EXPECT_EQ(view.state({4.4, -1.2, 0.1}), CellState::free);
+}
+
 TEST(Octomap, keeps_the_old_resolution_until_the_change_is_committed) {
   const auto mapper = make_octomap();
   insert(*mapper, wall_scan(5.0F), {0.15, 7.0});
