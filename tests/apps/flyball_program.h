@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "built_data.h"
 #include "scratch_folder.h"
 #include <cstdlib>
 #include <string>
@@ -17,7 +18,7 @@ class FlyballProgram {
   };
 
   [[nodiscard]] static std::string binary() {
-    return std::string{FLYBALL_TEST_DATA} + "/../../bin/flyball";
+    return flyball::kit::built_data() + "/../../bin/flyball";
   }
 
   /// `arguments` as a shell reads them.

@@ -10,6 +10,7 @@
 #include "flyball/governors/preset.h"
 #include "flyball/runtime/registry.h"
 
+#include "built_data.h"
 #include "counting_new.h"
 #include <filesystem>
 
@@ -44,7 +45,7 @@ std::string breaches_of(const std::string& name,
 /// A shipped preset's policy, started with the conformance knobs; null when it does not.
 std::unique_ptr<flyball::Policy> started_half(const std::string& name) {
   const auto preset =
-      flyball::load_preset(std::string{FLYBALL_TEST_DATA "/presets/"} + name + ".toml");
+      flyball::load_preset(flyball::kit::built_data() + "/presets/" + name + ".toml");
   auto policy = policies().make<flyball::Policy>(preset ? preset->policy : name);
   if (policy == nullptr) {
     return nullptr;
@@ -87,7 +88,8 @@ TEST(Policies, keep_their_contract_with_default_parameters) {
 
 TEST(Policies, keep_their_contract_with_every_shipped_preset) {
   std::size_t count = 0;
-  for (const auto& file : std::filesystem::directory_iterator{FLYBALL_TEST_DATA "/presets"}) {
+  for (const auto& file :
+       std::filesystem::directory_iterator{flyball::kit::built_data() + "/presets"}) {
     const auto preset = flyball::load_preset(file.path().string());
     ASSERT_TRUE(preset.ok()) << preset.error().message;
     EXPECT_FALSE(preset->description.empty()) << file.path();

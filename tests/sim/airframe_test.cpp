@@ -2,6 +2,7 @@
 
 #include "flyball/sim/airframe.h"
 
+#include "built_data.h"
 #include "scratch_folder.h"
 #include <cmath>
 #include <filesystem>
@@ -13,7 +14,7 @@
 namespace flyball {
 namespace {
 
-const std::string folder = std::string{FLYBALL_TEST_DATA} + "/airframes/";
+const std::string folder = kit::built_data() + "/airframes/";
 
 std::string text_of(const std::string& path) {
   std::stringstream text;

@@ -7,6 +7,7 @@
 #include "flyball/sim/flight_controller.h"
 #include "flyball/sim/vehicle.h"
 
+#include "built_data.h"
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +16,7 @@
 namespace flyball {
 
 inline Airframe shipped_airframe(const std::string& name) {
-  const auto loaded =
-      load_airframe(std::string{FLYBALL_TEST_DATA} + "/airframes/" + name + ".toml");
+  const auto loaded = load_airframe(kit::built_data() + "/airframes/" + name + ".toml");
   EXPECT_TRUE(loaded.ok()) << loaded.error().message;
   return loaded.ok() ? *loaded : Airframe{};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/platform_file.h"
 
+#include "built_data.h"
 #include "scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 namespace flyball {
 namespace {
 
-const std::string tx2_file = std::string{FLYBALL_TEST_DATA} + "/platforms/jetson_tx2.toml";
+const std::string tx2_file = kit::built_data() + "/platforms/jetson_tx2.toml";
 
 PlatformModel tx2() {
   return load_platform(tx2_file).value();
