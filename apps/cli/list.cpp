@@ -129,7 +129,7 @@ Result<Lines> list_knobs() {
     return model.error();
   }
   Lines lines{{"KNOB", "UNIT", "OWNER", "DEFAULT", "MEANING", "VALUES"}};
-  for (const KnobSpec& knob : standard_knobs(scenario, ModeledPlatform{*std::move(model)})) {
+  for (const KnobSpec& knob : standard_knobs(scenario, ModeledPlatform{std::move(*model)})) {
     lines.push_back({knob.name, knob.unit, knob.owner, number(knob.fallback), knob.description,
                      legal_values(knob)});
   }

@@ -47,6 +47,7 @@ ClosedLoop::ClosedLoop(MissionContext& context,
                context.scenario.vehicle.battery_charge},
       camera_{world, context.scenario.camera, context.scenario.seed},
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
+      imu_{ImuSpec{}, context.scenario.seed},
       clearance_{world},
       movers_{world.movers},
       people_{world.people},
@@ -77,6 +78,22 @@ void ClosedLoop::start() {
                                       [this](const GimbalAngles& angles) { gimbal_.aim(angles); });
     const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
     queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
+  }
+  start_localizer();
+}
+
+/// It is told where the vehicle stands. Its inertial sensor is read by a driver, not by a job.
+void ClosedLoop::start_localizer() {
+  const auto& localizer = context_.kernels.localizer;
+  if (!localizer) {
+    return;
+  }
+  localizer->place(vehicle_.state().X_WB);
+  if (localizer->inputs().imu) {
+    const Duration interval = from_seconds(1.0 / ImuSpec{}.rate_hz);
+    queue_.every(MissionTime{interval}, interval, EventOrder::sensor, [this] {
+      context_.kernels.localizer->feel(imu_.sample(vehicle_.state(), queue_.now()));
+    });
   }
 }
 
@@ -146,8 +163,17 @@ void ClosedLoop::publish_navigation() {
 }
 
 void ClosedLoop::publish_depth() {
-  executor_.publish(topics_.depth, camera_.frame(camera_pose(vehicle_.state().X_WB), queue_.now(),
-                                                 frame_count_++));
+  const Pose& X_WB = vehicle_.state().X_WB;
+  const Pose X_WC = camera_pose(X_WB);
+  const std::uint64_t number = frame_count_++;
+  const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
+  if (context_.view) {
+    const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
+    executor_.publish(*context_.view,
+                      View{depth, context_.eye->frame({X_WC, X_LC}, queue_.now(), number),
+                           X_WB.inverse() * X_WC});
+  }
+  executor_.publish(topics_.depth, depth);
 }
 
 void ClosedLoop::publish_colour() {

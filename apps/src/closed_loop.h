@@ -9,6 +9,7 @@
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/flight_controller.h"
 #include "flyball/sim/gps.h"
+#include "flyball/sim/imu.h"
 #include "flyball/sim/rotor_power.h"
 #include "flyball/sim/vehicle.h"
 #include "flyball/sim/wind.h"
@@ -54,6 +55,7 @@ class ClosedLoop {
   void check_step();
   void publish_navigation();
   void publish_depth();
+  void start_localizer();
   void publish_colour();
   void obey(const FlightCommand& command);
   [[nodiscard]] bool is_airborne() const;
@@ -68,6 +70,7 @@ class ClosedLoop {
   Battery battery_;
   DepthCamera camera_;
   Gps gps_;
+  Imu imu_;
   Clearance clearance_;
   std::vector<Mover> movers_;
   std::vector<Person> people_;

@@ -126,6 +126,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
+  summary.quality.merge(flight.context.localization.quality(flight.queue.now()));
 }
 
 Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {

@@ -17,7 +17,8 @@ MissionContext::MissionContext(const Scenario& scenario_in,
       knobs{std::move(equipment.knobs)},
       kernels{std::move(equipment.kernels)},
       colour_camera{std::move(equipment.colour_camera)},
-      recorder{recorder_in} {}
+      recorder{recorder_in},
+      eye{std::move(equipment.eye)} {}
 
 double MissionContext::speed_limit_m_s(const Vec3& p_W) const {
   double limit = knobs.value("mission.max_speed_m_s");

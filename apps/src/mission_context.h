@@ -29,6 +29,8 @@
 #include "flyball/sim/gimbal.h"
 #include "flyball/sim/world.h"
 
+#include "localization_watch.h"
+#include "view.h"
 #include <memory>
 #include <optional>
 #include <vector>
@@ -93,6 +95,7 @@ struct MissionEquipment {
   KnobSettings knobs{};
   MissionKernels kernels{};
   std::unique_ptr<ColourCamera> colour_camera{};  ///< Null where nobody looks for people.
+  std::unique_ptr<ColourCamera> eye{};            ///< Null with a localizer that sees nothing.
 };
 
 /// A map as it was published.
@@ -153,6 +156,9 @@ class MissionContext {
   MissionKernels kernels;
   std::unique_ptr<ColourCamera> colour_camera;
   Recorder& recorder;
+  LocalizationWatch localization{};
+  std::unique_ptr<ColourCamera> eye;  ///< Through the lens of the depth camera; may be null.
+  std::optional<Topic<View>> view{};  ///< What it sees.
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
   const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.

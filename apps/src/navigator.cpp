@@ -243,7 +243,26 @@ TrackingError Navigator::measured(const Vec3& error_W) const {
   return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
 }
 
+/// While the vehicle does not know where it is, no path is flown; afterwards, from where it then
+/// is.
+std::optional<Setpoint> Navigator::search_place(MissionTime now, const PoseEstimate& where) {
+  const bool cruises = context_.phase == MissionPhase::cruise;
+  if (cruises && context_.localization.is_lost()) {
+    is_searching_ = true;
+    return context_.localization.search(now);
+  }
+  if (is_searching_ && goal_W_) {
+    hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
+    set_goal(now, *goal_W_);
+  }
+  is_searching_ = false;
+  return std::nullopt;
+}
+
 Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where) {
+  if (const auto search = search_place(now, where)) {
+    return *search;
+  }
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = measured(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);

@@ -75,6 +75,7 @@ class Navigator {
 
  private:
   [[nodiscard]] bool is_leg_ending() const;
+  [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
   void start_from_path(PlanQuery& query);
@@ -97,6 +98,7 @@ class Navigator {
   MissionTime asked_at_{};
   std::deque<double> planning_s_{};  ///< What the last few plans took.
   bool wants_plan_{};
+  bool is_searching_{};  ///< For the place where it is.
   MissionTime not_before_{};
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};

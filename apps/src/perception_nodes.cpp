@@ -2,6 +2,7 @@
 #include "perception_nodes.h"
 
 #include "scenario_parameters.h"
+#include "visual_nodes.h"
 #include <algorithm>
 #include <memory>
 
@@ -26,7 +27,12 @@ void add_localizer(Graph& graph,
   graph.node(std::move(spec), [vehicle, pose, &context](JobContext& job) {
     Work work;
     if (const auto sample = job.latest(vehicle.navigation)) {
-      job.publish(pose, context.kernels.localizer->estimate(*sample, work));
+      const PoseEstimate estimate = context.kernels.localizer->estimate(*sample, work);
+      context.localization.compare(estimate, sample->X_WB_truth.translation());
+      if (!context.localization.is_lost()) {
+        context.localization.passed(estimate);
+      }
+      job.publish(pose, estimate);
     }
     return work;
   });
@@ -99,7 +105,7 @@ void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& co
   graph.node(std::move(spec), [topics, history, revision, &context](JobContext& job) {
     const auto frame = job.latest(topics.cloud);
     const auto pose = frame ? history->at(frame->captured) : std::nullopt;
-    if (!pose) {
+    if (!pose || context.localization.is_lost()) {  // Seen from nobody knows where.
       return Work{};
     }
     const MapperSettings settings{context.knobs.value("map.resolution_m"),
@@ -169,6 +175,7 @@ Topic<PoseEstimate> add_localization(Graph& graph,
                                      MissionContext& context) {
   const auto pose = graph.topic<PoseEstimate>("pose");
   add_localizer(graph, vehicle, pose, context);
+  add_sight(graph, context);
   return pose;
 }
 
@@ -179,7 +186,7 @@ PerceptionTopics add_perception(Graph& graph,
   topics.pose = add_localization(graph, vehicle, context);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
   topics.map = graph.topic<MapRevision>("map_revision");
-  if (context.scenario.kernels.slam_load) {
+  if (context.scenario.kernels.slam_load && !context.eye) {
     add_slam_load(graph, vehicle);
   }
   add_points(graph, vehicle, topics.cloud, context);

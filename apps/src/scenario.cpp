@@ -42,7 +42,7 @@ void assign_all(Scenario& scenario, const Fields& fields, ScenarioText& read) {
       continue;
     }
     if (std::optional<Error> error = assign(scenario, field, given->second)) {
-      read.errors.push_back(*std::move(error));
+      read.errors.push_back(std::move(*error));
     }
   }
 }

@@ -61,7 +61,7 @@ std::vector<Error> take_parameters(ParameterValues& values,
       continue;
     }
     if (std::optional<Error> error = set_parameter(values, group.prefix, spec, found->second)) {
-      errors.push_back(*std::move(error));
+      errors.push_back(std::move(*error));
     }
   }
   return errors;

@@ -51,7 +51,7 @@ void flatten(const toml::table& table,
     if (const toml::table* section = node.as_table()) {
       flatten(*section, std::string{key}.append("."), file, read);
     } else if (std::optional<GivenValue> given = scalar(node, origin)) {
-      read.values[key] = *std::move(given);
+      read.values[key] = std::move(*given);
     } else {
       std::string sentence = key;
       sentence.append(" (").append(origin).append(") must be one number, text, true or false");

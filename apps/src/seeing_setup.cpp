@@ -6,6 +6,7 @@
 #include "flyball/apps/workload.h"
 
 #include "scenario_parameters.h"
+#include "visual_nodes.h"
 
 namespace flyball {
 namespace {
@@ -33,6 +34,29 @@ Status check_price(const Scenario& scenario, const Platform& platform) {
                                              "\", so looking for people would cost no time; set " +
                                              "detector.cost_of to \"hog\", or add [kernels." +
                                              priced_as + "] to the platform file"};
+}
+
+Status open_eye(const Scenario& scenario,
+                const Platform& platform,
+                const World& world,
+                MissionEquipment& equipment) {
+  const auto& localizer = equipment.kernels.localizer;
+  if (!localizer || !localizer->inputs().images) {
+    return Done{};
+  }
+  const std::string priced_as = frame_cost(scenario.kernels.localizer);
+  if (!platform.knows(priced_as)) {
+    return Error{ErrorCode::invalid_input,
+                 "platform \"" + scenario.platform.name + "\" has no price for localizer \"" +
+                     scenario.kernels.localizer + "\", so its frames would cost no time; add " +
+                     "[kernels." + priced_as + "] to the platform file"};
+  }
+  auto eye = ColourCamera::make(world, colour_beside(scenario.camera));
+  if (!eye) {
+    return eye.error();
+  }
+  equipment.eye = std::move(*eye);
+  return Done{};
 }
 
 }  // namespace
@@ -65,6 +89,9 @@ Status equip_to_see(const Scenario& scenario,
                     const Platform& platform,
                     const World& world,
                     MissionEquipment& equipment) {
+  if (const Status opened = open_eye(scenario, platform, world, equipment); !opened) {
+    return opened.error();
+  }
   const auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload || !workload->looks_for_people()) {
     return Done{};

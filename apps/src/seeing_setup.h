@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a mission needs that looks for people: colour camera, detector, trackers.
+/// What a mission needs that sees in colour: cameras, detector, trackers.
 
 #include "flyball/apps/scenario.h"
 
@@ -18,11 +18,11 @@ namespace flyball {
 /// Whose cost a detection is charged as on the modeled computer.
 [[nodiscard]] std::string detector_cost(const Scenario& scenario);
 
-/// Adds camera, detector and trackers to `equipment` if the scenario's workload looks for people;
-/// else nothing is done.
+/// Adds camera, detector and trackers to `equipment` if the scenario's workload looks for people,
+/// and an eye if its localizer sees.
 ///
-/// @error As `make_detector`; and a mesh of somebody in the world that is missing, a detector or
-///        tracker that the platform has no price for.
+/// @error As `make_detector`; and a mesh of somebody in the world that is missing, a detector,
+///        tracker or seeing localizer that the platform has no price for.
 [[nodiscard]] Status equip_to_see(const Scenario& scenario,
                                   const Platform& platform,
                                   const World& world,

@@ -48,7 +48,7 @@ Result<PolicyChoice> load_library(const std::string& path, std::uint64_t seed) {
     const bool is_named = error.message.find(path) != std::string::npos;
     return Error{error.code, is_named ? error.message : path + ": " + error.message};
   }
-  return PolicyChoice{path, [path, make, limits, declared = *std::move(declaration)] {
+  return PolicyChoice{path, [path, make, limits, declared = std::move(*declaration)] {
                         return Result<std::unique_ptr<Policy>>{
                             std::make_unique<IsolatedPolicy>(path, make, declared, limits)};
                       }};

@@ -23,6 +23,7 @@ opencv-data             4.6.0
 morse-simulator-data    1.4
 libmrpt-topography-dev  2.5.8
 libmrpt-poses-dev       2.5.8
+libmrpt-graphslam-dev   2.5.8
 libsqlite3-dev          3.40.1
 libnlopt-dev            2.7.1
 libtomlplusplus-dev     3.3.0

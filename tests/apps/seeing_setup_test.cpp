@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seeing_setup.h"
 
+#include "flyball/apps/mission.h"
+
 #include "grid_map.h"
 #include "mission_rig.h"
 
@@ -16,6 +18,22 @@ TEST(SeeingSetup, gives_a_workload_that_looks_for_nobody_no_camera) {
   ASSERT_TRUE(equip_to_see(scenario, platform, World{}, equipment).ok());
   EXPECT_EQ(equipment.colour_camera, nullptr);
   EXPECT_EQ(equipment.kernels.detector, nullptr);
+}
+
+TEST(SeeingSetup, gives_a_localizer_that_sees_an_eye_when_it_has_a_price) {
+  Scenario scenario;
+  scenario.kernels.localizer = "visual_slam";
+  PlatformModel model{kit::free_of_charge()};
+  MissionEquipment equipment;
+  equipment.kernels.localizer = all_plugins().make<Localizer>("visual_slam");
+  const Status unpriced = equip_to_see(scenario, ModeledPlatform{model}, World{}, equipment);
+  ASSERT_FALSE(unpriced.ok());
+  EXPECT_NE(unpriced.error().message.find("[kernels.visual_slam_frames]"), std::string::npos);
+  EXPECT_EQ(equipment.eye, nullptr);
+  model.kernels["visual_slam_frames"].seconds_per["pixels"] = 1e-6;
+  ASSERT_TRUE(equip_to_see(scenario, ModeledPlatform{model}, World{}, equipment).ok());
+  ASSERT_NE(equipment.eye, nullptr);
+  EXPECT_EQ(equipment.eye->spec().width_px, scenario.camera.width_px);
 }
 
 class Photographer : public testing::Test {

@@ -9,3 +9,7 @@ if(TARGET test_closed_loop AND TARGET flyball_cli)
     FLYBALL_CLOSED_LOOP_TESTS="${PROJECT_SOURCE_DIR}/tests/closed_loop"
     $<$<TARGET_EXISTS:flyball_lua>:FLYBALL_HAS_LUA>)
 endif()
+# Recordings are written with the library that reads them.
+if(TARGET test_apps)
+  target_link_libraries(test_apps PRIVATE PNG::PNG)
+endif()

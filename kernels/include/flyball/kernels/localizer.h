@@ -2,10 +2,13 @@
 #pragma once
 
 /// @file
-/// Localization: what the navigation sensors say in, a pose out.
+/// Localization: what navigation sensors and cameras say in, a pose out.
 
+#include "flyball/kernels/visual_frame.h"
+#include "flyball/runtime/imu.h"
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/messages.h"
+#include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
 namespace flyball {
@@ -17,11 +20,34 @@ struct GeodeticOrigin {
   double height_m{400.0};
 };
 
+/// What a localizer lives on beside navigation samples.
+struct LocalizerInputs {
+  bool images{};
+  bool depth{};  ///< With each image.
+  bool imu{};
+};
+
+/// One that sees is told where it stands (`place`), gets frames (`see`) and, when the computer is
+/// through with a frame, its result (`correct`): what `estimate` says depends on frames only from
+/// then on.
 class Localizer : public Kernel {
  public:
   virtual void start(const GeodeticOrigin& origin) = 0;
   /// Samples arrive in order of their stamps. Adds `samples` to `work`.
   [[nodiscard]] virtual PoseEstimate estimate(const NavigationSample& sample, Work& work) = 0;
+
+  [[nodiscard]] virtual LocalizerInputs inputs() const { return {}; }
+  /// Where the vehicle stands; to be said before the first frame, and it stands still until then.
+  virtual void place(const Pose& /*X_WB*/) {}
+  /// In order of their stamps; those up to a frame's time before the frame.
+  virtual void feel(const ImuSample& /*sample*/) {}
+  /// Frames in order of their times. Adds what it did to `work`.
+  /// @error `unavailable` when it has no eyes, `invalid_input` when image and camera differ in
+  /// size.
+  [[nodiscard]] virtual Result<VisualFix> see(const VisualFrame& /*frame*/, Work& /*work*/) {
+    return Error{ErrorCode::unavailable, "this localizer looks at no images"};
+  }
+  virtual void correct(const VisualFix& /*fix*/) {}
 };
 
 }  // namespace flyball

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/localization_run.h"
+#include "flyball/apps/text_table.h"
+#include "flyball/kernels/localizer.h"
+
+#include "commands.h"
+#include "console.h"
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+struct LocalizeOptions {
+  std::string folder;
+  std::string localizer{"visual_slam"};
+  std::string out;
+  RecordingSettings recording;
+  bool as_json{};
+};
+
+std::string to_json(const LocalizationRun& run, const LocalizeOptions& options) {
+  nlohmann::ordered_json json{
+      {"localizer", options.localizer},
+      {"frames", run.frames},
+      {"lost", run.lost},
+      {"keyframes", run.keyframes},
+      {"loops_closed", run.loops_closed},
+      {"frame_ms", {{"mean", run.frame_ms_mean}, {"max", run.frame_ms_max}}}};
+  if (run.error) {
+    json["absolute_trajectory_error_m"] = {{"rmse", run.error->rmse_m},
+                                           {"mean", run.error->mean_m},
+                                           {"median", run.error->median_m},
+                                           {"max", run.error->max_m},
+                                           {"pairs", run.error->pairs}};
+    json["path_m"] = run.error->path_m;
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const LocalizationRun& run) {
+  std::vector<std::vector<std::string>> lines{
+      {"frames", std::to_string(run.frames)},
+      {"lost", std::to_string(run.lost)},
+      {"keyframes", std::to_string(run.keyframes)},
+      {"loops closed", std::to_string(run.loops_closed)},
+      {"ms per frame",
+       rounded(run.frame_ms_mean, 2) + " mean, " + rounded(run.frame_ms_max, 2) + " max"}};
+  if (run.error) {
+    const TrajectoryError& error = *run.error;
+    lines.push_back({"absolute trajectory error", rounded(error.rmse_m, 4) + " m rmse, " +
+                                                      rounded(error.median_m, 4) + " m median, " +
+                                                      rounded(error.max_m, 4) + " m max"});
+    lines.push_back({"true path", rounded(error.path_m, 2) + " m, " + std::to_string(error.pairs) +
+                                      " poses compared"});
+  } else {
+    lines.push_back({"absolute trajectory error", "-"});
+  }
+  return aligned(lines);
+}
+
+Status check(const RecordingSettings& settings) {
+  const auto& k = settings.intrinsics;
+  if (!k.empty() && !(k[0] > 0.0 && k[1] > 0.0)) {
+    return Error{ErrorCode::invalid_input, "--intrinsics: focal lengths " + rounded(k[0], 3) +
+                                               " and " + rounded(k[1], 3) +
+                                               " must be above 0 pixels"};
+  }
+  if (!(settings.depth_factor > 0.0)) {
+    return Error{ErrorCode::invalid_input,
+                 "--depth-factor " + rounded(settings.depth_factor, 3) + " must be above 0"};
+  }
+  return Done{};
+}
+
+int localize(const LocalizeOptions& options) {
+  if (const Status usable = check(options.recording); !usable) {
+    return refuse({usable.error()});
+  }
+  auto localizer = make_seeing_localizer(options.localizer);
+  if (!localizer) {
+    return refuse({localizer.error()});
+  }
+  const auto recording = is_euroc(options.folder) ? read_euroc(options.folder, options.recording)
+                                                  : read_tum(options.folder, options.recording);
+  if (!recording) {
+    return refuse({recording.error()});
+  }
+  if (!options.out.empty()) {  // Before the work: a wrong place would cost it.
+    if (const Status written = write_tum_trajectory(options.out, {}); !written) {
+      return refuse({written.error()});
+    }
+  }
+  catch_interrupt();
+  const auto run = localize(*recording, **localizer, was_interrupted);
+  if (!run) {
+    return refuse({run.error()});
+  }
+  if (!options.out.empty()) {
+    if (const Status written = write_tum_trajectory(options.out, run->path); !written) {
+      return refuse({written.error()});
+    }
+  }
+  print(options.as_json ? to_json(*run, options) : to_text(*run));
+  if (was_interrupted()) {
+    return exit_interrupted;
+  }
+  return run->path.empty() ? exit_mission_failed : exit_success;
+}
+
+}  // namespace
+
+void add_localize(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "localize", "finds the path of a recorded flight (TUM RGB-D or EuRoC layout)");
+  const auto options = std::make_shared<LocalizeOptions>();  // Owners: the parser's callbacks.
+  command->add_option("DIR", options->folder, "the folder of the recording")->required();
+  command->add_option("--localizer", options->localizer, "visual_slam or visual_inertial");
+  command
+      ->add_option("--intrinsics", options->recording.intrinsics,
+                   "fx,fy,cx,cy in pixels, in place of the layout's own")
+      ->delimiter(',')
+      ->expected(4);
+  command->add_option("--depth-factor", options->recording.depth_factor,
+                      "units of the depth image in a metre; 5000 by default");
+  command->add_option("--out", options->out, "writes the path here, as TUM's tools read it");
+  command->add_flag("--json", options->as_json, "prints JSON");
+  command->callback([options, &exit_code] { exit_code = localize(*options); });
+}
+
+}  // namespace flyball

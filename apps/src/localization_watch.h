@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How well the vehicle knows where it is, and what it does when it no longer does.
+
+#include "flyball/kernels/visual_frame.h"
+#include "flyball/runtime/messages.h"
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace flyball {
+
+class LocalizationWatch {
+ public:
+  /// A visual fix came, or failed to.
+  void fixed(MissionTime now, const VisualFix& fix);
+  [[nodiscard]] bool is_lost() const { return lost_since_.has_value(); }
+  /// Lost for longer than turning and flying back take: it will not be found any more.
+  [[nodiscard]] bool has_given_up(MissionTime now) const;
+
+  /// An estimate beside the truth, for statistics only.
+  void compare(const PoseEstimate& estimate, const Vec3& p_WB_truth);
+  /// Where the vehicle came along; call with every estimate while it is not lost.
+  void passed(const PoseEstimate& estimate);
+
+  /// While lost: it stops where it last knew that it was, looks to both sides, flies back three
+  /// metres of its own path, and looks again. Positions are the flight controller's, which holds
+  /// them without the companion computer.
+  [[nodiscard]] std::optional<Setpoint> search(MissionTime now);
+
+  /// `localization_error_m_mean`, `_max`, `localization_lost` (times), `localization_lost_s`;
+  /// without an estimate none, without images only the errors.
+  [[nodiscard]] std::map<std::string, double> quality(MissionTime now) const;
+
+ private:
+  /// Where it was so much of its path ago, as far as is remembered.
+  [[nodiscard]] const PoseEstimate& passed_before(double path_m) const;
+
+  std::deque<PoseEstimate> trail_{};  ///< A decimetre apart, newest last.
+  std::optional<MissionTime> lost_since_{};
+  bool has_fixes_{};
+  int times_lost_{};
+  double lost_s_{};
+  double error_sum_m_{};
+  double error_max_m_{};
+  std::uint64_t compared_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,67 @@
+// flyball-package: OpenCV COMPONENTS core imgproc calib3d video
+// flyball-link: opencv_core opencv_imgproc opencv_calib3d opencv_video
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Visual-inertial odometry: corners followed by Lucas-Kanade and an error-state Kalman filter. It
+// goes on without corners for a second and a half, on what it feels.
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/registry.h"
+
+#include "visual/dead_reckoning.h"
+#include "visual/inertial_odometry.h"
+
+namespace {
+
+using flyball::Pose;
+using flyball::VisualFix;
+
+class VisualInertial final : public flyball::Localizer {
+ public:
+  void start(const flyball::GeodeticOrigin& /*origin*/) override {
+    odometry_.start(std::nullopt);
+    reckoning_.start(Pose::Identity());
+  }
+  [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, false, true}; }
+
+  void place(const Pose& X_WB) override {
+    odometry_.start(X_WB);
+    reckoning_.start(X_WB);
+  }
+
+  void feel(const flyball::ImuSample& sample) override { odometry_.feel(sample); }
+
+  flyball::Result<VisualFix> see(const flyball::VisualFrame& frame, flyball::Work& work) override {
+    const auto outcome = odometry_.see(frame, work);
+    if (!outcome) {
+      return outcome.error();
+    }
+    VisualFix fix;
+    fix.captured = frame.captured;
+    fix.tracked = outcome->tracked;
+    fix.X_WB = odometry_.filter().X_WB();
+    fix.v_WB = odometry_.filter().v_WB();
+    fix.matches = outcome->tracks;
+    fix.inliers = outcome->believed;
+    return fix;
+  }
+
+  void correct(const VisualFix& fix) override { reckoning_.correct(fix); }
+
+  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
+                                 flyball::Work& work) override {
+    work.add("samples", 1.0);
+    return reckoning_.estimate(sample);
+  }
+
+ private:
+  flyball::InertialOdometry odometry_;
+  flyball::DeadReckoning reckoning_;
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(visual_inertial) {
+  registry.add<flyball::Localizer>("visual_inertial",
+                                   [] { return std::make_unique<VisualInertial>(); });
+}

@@ -1,0 +1,90 @@
+// flyball-package: OpenCV COMPONENTS core imgproc features2d calib3d
+// flyball-link: opencv_core opencv_features2d opencv_calib3d
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Visual SLAM on RGB-D frames: ORB features, PnP with RANSAC, keyframes, a pose graph when a loop
+// closes. Between frames the pose is reckoned on. It loses its track when two frames show too
+// little in common, and finds it again when it sees a place that it knows.
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/registry.h"
+
+#include "visual/dead_reckoning.h"
+#include "visual/slam.h"
+
+namespace {
+
+using flyball::Pose;
+using flyball::Vec3;
+using flyball::VisualFix;
+
+class VisualSlam final : public flyball::Localizer {
+ public:
+  void start(const flyball::GeodeticOrigin& /*origin*/) override { place(Pose::Identity()); }
+  [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, true, false}; }
+
+  void place(const Pose& X_WB) override {
+    last_ = {};
+    last_.X_WB = X_WB;
+    reckoning_.start(X_WB);
+    has_begun_ = false;
+  }
+
+  flyball::Result<VisualFix> see(const flyball::VisualFrame& frame, flyball::Work& work) override {
+    if (!has_begun_) {
+      slam_.start(last_.X_WB * frame.X_BC);
+      has_begun_ = true;
+    }
+    const auto outcome = slam_.track(frame, work);
+    if (!outcome) {
+      return outcome.error();
+    }
+    VisualFix fix = last_;
+    fix.captured = frame.captured;
+    fix.tracked = outcome->tracked;
+    fix.matches = outcome->matches;
+    fix.inliers = outcome->inliers;
+    fix.keyframes = static_cast<int>(slam_.map().keyframes().size());
+    fix.loops_closed += outcome->loop_closed ? 1 : 0;
+    if (outcome->tracked) {
+      fix.X_WB = outcome->X_WC * frame.X_BC.inverse();
+      fix.v_WB = speed_to(fix, outcome->loop_closed);
+    }
+    last_ = fix;
+    return fix;
+  }
+
+  void correct(const VisualFix& fix) override { reckoning_.correct(fix); }
+
+  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
+                                 flyball::Work& work) override {
+    work.add("samples", 1.0);
+    return reckoning_.estimate(sample);
+  }
+
+ private:
+  /// Half of the new difference quotient: a centimetre of noise in 50 ms is .2 m/s. A loop moves
+  /// the pose, not the vehicle.
+  [[nodiscard]] Vec3 speed_to(const VisualFix& fix, bool loop_closed) const {
+    const double dt_s = flyball::to_seconds(fix.captured - last_.captured);
+    if (!last_.tracked || dt_s <= 0.0) {
+      return Vec3::Zero();
+    }
+    if (loop_closed) {
+      return last_.v_WB;
+    }
+    const Vec3 newest = (fix.X_WB.translation() - last_.X_WB.translation()) / dt_s;
+    return 0.5 * (last_.v_WB + newest);
+  }
+
+  flyball::Slam slam_{flyball::SlamSettings{}};
+  flyball::DeadReckoning reckoning_;
+  VisualFix last_{};
+  bool has_begun_{};
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(visual_slam) {
+  registry.add<flyball::Localizer>("visual_slam", [] { return std::make_unique<VisualSlam>(); });
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "visual/feature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/features2d.hpp>
+
+namespace flyball {
+namespace {
+
+constexpr int octaves = 8;
+constexpr int fast_threshold = 10;  // Of 255 grey levels: few corners are better than none.
+constexpr int cell_px = 32;         // Side of the parts over which the points are spread.
+constexpr int surplus = 3;          // So many more points are looked for than are kept.
+
+std::size_t pixel_count(const CameraModel& camera) {
+  return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+}
+
+/// The strongest of each cell, first one of each, then a second one, until there are `count`.
+std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> found, int columns, int count) {
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return a.response != b.response
+               ? a.response > b.response
+               : std::tie(a.pt.y, a.pt.x, a.octave) < std::tie(b.pt.y, b.pt.x, b.octave);
+  });
+  std::vector<int> taken;
+  std::vector<std::pair<int, std::size_t>> order;  // Rank within its cell, place in `found`.
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto cell = static_cast<std::size_t>(static_cast<int>(found[i].pt.y) / cell_px * columns +
+                                               static_cast<int>(found[i].pt.x) / cell_px);
+    if (cell >= taken.size()) {
+      taken.resize(cell + 1, 0);
+    }
+    order.emplace_back(taken[cell]++, i);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  std::vector<cv::KeyPoint> kept;
+  for (const auto& [rank, place] : order) {
+    kept.push_back(found[place]);
+  }
+  return kept;
+}
+
+/// Where a camera without distortion would see the points.
+std::vector<cv::Point2f> straightened(const CameraModel& camera,
+                                      const std::vector<cv::KeyPoint>& points) {
+  std::vector<cv::Point2f> seen;
+  cv::KeyPoint::convert(points, seen);
+  const auto& d = camera.distortion;
+  if (seen.empty() || std::all_of(d.begin(), d.end(), [](double k) { return k == 0.0; })) {
+    return seen;
+  }
+  const cv::Matx33d matrix{
+      camera.focal_x_px, 0, camera.centre_x_px, 0, camera.focal_y_px, camera.centre_y_px, 0, 0, 1};
+  std::vector<cv::Point2f> straight;
+  cv::undistortPoints(seen, straight, matrix, cv::Vec4d{d[0], d[1], d[2], d[3]}, cv::noArray(),
+                      matrix);
+  return straight;
+}
+
+/// OpenCV multiplies the coordinates of an octave's pixels; their centres lie elsewhere.
+void centre(std::vector<cv::KeyPoint>& points) {
+  for (cv::KeyPoint& point : points) {
+    const auto coarse = static_cast<float>(std::pow(octave_scale, point.octave));
+    point.pt += cv::Point2f{0.5F * (coarse - 1.0F), 0.5F * (coarse - 1.0F)};
+  }
+}
+
+std::vector<Feature> features_of(const VisualFrame& frame,
+                                 const std::vector<cv::KeyPoint>& points,
+                                 const cv::Mat& descriptors) {
+  const std::vector<cv::Point2f> straight = straightened(frame.camera, points);
+  std::vector<Feature> features(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Feature& feature = features[i];
+    feature.pixel = {static_cast<double>(straight[i].x), static_cast<double>(straight[i].y)};
+    feature.octave = points[i].octave;
+    const Eigen::Vector2d raw{static_cast<double>(points[i].pt.x),
+                              static_cast<double>(points[i].pt.y)};
+    if (const auto depth = depth_around(frame, raw)) {
+      feature.depth_m = depth->depth_m;
+      feature.slope_m_px = depth->slope_m_px;
+    }
+    std::memcpy(feature.descriptor.bits.data(), descriptors.ptr(static_cast<int>(i)),
+                sizeof feature.descriptor.bits);
+  }
+  return features;
+}
+
+}  // namespace
+
+double depth_sigma_m(double depth_m) {
+  return std::max(0.01, 2.0 * 1.425e-3 * depth_m * depth_m);
+}
+
+std::optional<SurfaceDepth> depth_around(const VisualFrame& frame,
+                                         const Eigen::Vector2d& raw_pixel) {
+  const int x = static_cast<int>(std::lround(raw_pixel.x()));
+  const int y = static_cast<int>(std::lround(raw_pixel.y()));
+  if (frame.depth_m.empty() || x < 1 || y < 1 || x > frame.camera.width_px - 2 ||
+      y > frame.camera.height_px - 2) {
+    return std::nullopt;
+  }
+  Eigen::Matrix3d around;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const int pixel = (y + row - 1) * frame.camera.width_px + x + column - 1;
+      const float d = frame.depth_m[static_cast<std::size_t>(pixel)];
+      if (!std::isfinite(d) || d <= 0.0F) {
+        return std::nullopt;
+      }
+      around(row, column) = static_cast<double>(d);
+    }
+  }
+  // Least squares of a plane: the mean, and the slopes by column and row.
+  const double mean_m = around.mean();
+  const double by_x = (around.col(2).sum() - around.col(0).sum()) / 6.0;
+  const double by_y = (around.row(2).sum() - around.row(0).sum()) / 6.0;
+  double farthest_off_m = 0.0;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const double plane_m = mean_m + by_x * (column - 1) + by_y * (row - 1);
+      farthest_off_m = std::max(farthest_off_m, std::abs(around(row, column) - plane_m));
+    }
+  }
+  // At an edge the point may lie on either surface. Beyond 17 m the camera's range would cut off
+  // what noise makes longer, but not what it makes shorter.
+  constexpr double off_in_sigmas = 2.5;  // Nine draws of half this sigma stay within it.
+  constexpr double vaguest = 0.05;
+  const double sigma_m = depth_sigma_m(mean_m);
+  if (farthest_off_m > off_in_sigmas * sigma_m || sigma_m > vaguest * mean_m) {
+    return std::nullopt;
+  }
+  return SurfaceDepth{mean_m + by_x * (raw_pixel.x() - x) + by_y * (raw_pixel.y() - y),
+                      std::hypot(by_x, by_y)};
+}
+
+Status check_frame(const VisualFrame& frame) {
+  const CameraModel& camera = frame.camera;
+  const bool sized = camera.width_px > 0 && camera.height_px > 0 &&
+                     frame.grey.size() == pixel_count(camera) &&
+                     (frame.depth_m.empty() || frame.depth_m.size() == pixel_count(camera));
+  if (!sized || !(camera.focal_x_px > 0.0) || !(camera.focal_y_px > 0.0)) {
+    return Error{ErrorCode::invalid_input, "a frame of " + std::to_string(frame.grey.size()) +
+                                               " grey and " + std::to_string(frame.depth_m.size()) +
+                                               " depth pixels does not fit its camera of " +
+                                               std::to_string(camera.width_px) + " x " +
+                                               std::to_string(camera.height_px) +
+                                               " pixels; both images must have the camera's size"};
+  }
+  return Done{};
+}
+
+struct FeatureExtractor::Detector {
+  int count;
+  cv::Ptr<cv::ORB> orb;
+};
+
+FeatureExtractor::FeatureExtractor(const FeatureSettings& settings) {
+  cv::setNumThreads(1);
+  constexpr int border_px = 19;  // ORB's patch and its rotation need so much.
+  detector_ = std::make_unique<Detector>(
+      Detector{settings.count,
+               cv::ORB::create(surplus * settings.count, static_cast<float>(octave_scale), octaves,
+                               border_px, 0, 2, cv::ORB::HARRIS_SCORE, 31, fast_threshold)});
+}
+
+FeatureExtractor::~FeatureExtractor() = default;
+
+Result<std::vector<Feature>> FeatureExtractor::extract(const VisualFrame& frame, Work& work) {
+  if (const Status usable = check_frame(frame); !usable) {
+    return usable.error();
+  }
+  work.add("pixels", static_cast<double>(pixel_count(frame.camera)));
+  try {
+    const cv::Mat image(frame.camera.height_px, frame.camera.width_px, CV_8UC1,
+                        const_cast<std::uint8_t*>(frame.grey.data()));  // NOLINT: only read
+    std::vector<cv::KeyPoint> points;
+    detector_->orb->detect(image, points);
+    points = spread(std::move(points), frame.camera.width_px / cell_px + 1, detector_->count);
+    cv::Mat rows;
+    detector_->orb->compute(image, points, rows);
+    centre(points);
+    std::vector<Feature> features = features_of(frame, points, rows);
+    work.add("features", static_cast<double>(features.size()));
+    return features;
+  } catch (const cv::Exception& error) {
+    return Error{ErrorCode::failed, std::string{"OpenCV finds no features: "} + error.what()};
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "visual/inertial_odometry.h"
+
+#include "visual/motion.h"
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t window_poses = 14;
+constexpr std::size_t least_glimpses = 3;
+constexpr std::size_t most_tracks = 40;  // In one update; the longest ones say most.
+// Lucas-Kanade's noise, measured on rendered views, is .1 to .3 px; it slides along slanted
+// surfaces.
+constexpr double track_sigma_px = 0.7;
+constexpr double reach_in_sigmas = 5.0;
+constexpr int enough_tracks = 10;
+constexpr auto blind_limit = 1500ms;
+constexpr double still_px = 0.3;
+constexpr std::size_t shake_samples = 40;  // .2 s at 200 Hz.
+
+/// Standard deviation around the mean; real manoeuvres within .2 s count as shaking too.
+double shaking(const std::deque<Vec3>& recent) {
+  if (recent.size() < shake_samples) {
+    return 0.0;
+  }
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& f : recent) {
+    mean += f / static_cast<double>(recent.size());
+  }
+  double squares = 0.0;
+  for (const Vec3& f : recent) {
+    squares += (f - mean).squaredNorm() / 3.0;
+  }
+  return std::sqrt(squares / static_cast<double>(recent.size()));
+}
+
+/// One measurement of all; the noise is 1 in each row.
+Innovation stacked(const std::vector<Innovation>& parts) {
+  Eigen::Index rows = 0;
+  for (const Innovation& part : parts) {
+    rows += part.residual.size();
+  }
+  Innovation all{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, parts.front().slope.cols()),
+                 Eigen::VectorXd::Ones(rows)};
+  Eigen::Index row = 0;
+  for (const Innovation& part : parts) {
+    all.residual.segment(row, part.residual.size()) = part.residual;
+    all.slope.middleRows(row, part.residual.size()) = part.slope;
+    row += part.residual.size();
+  }
+  return all;
+}
+
+ImuSample between(const ImuSample& a, const ImuSample& b) {
+  return {b.stamp, 0.5 * (a.w_WB_B + b.w_WB_B), 0.5 * (a.f_B + b.f_B)};
+}
+
+}  // namespace
+
+InertialOdometry::InertialOdometry() : tracks_{TrackSettings{}}, filter_{InertialNoise{}} {}
+
+void InertialOdometry::start(const std::optional<Pose>& X_WB) {
+  tracks_.clear();
+  seen_.clear();
+  waiting_.clear();
+  recent_f_B_.clear();
+  X_WB_start_ = X_WB;
+  has_begun_ = has_moved_ = false;
+}
+
+void InertialOdometry::feel(const ImuSample& sample) {
+  waiting_.push_back(sample);
+}
+
+void InertialOdometry::begin(MissionTime now) {
+  Pose X_WB = X_WB_start_.value_or(Pose::Identity());
+  Vec3 sum = Vec3::Zero();
+  for (const ImuSample& sample : waiting_) {
+    sum += sample.f_B;
+    last_ = sample;
+  }
+  if (!X_WB_start_ && sum.norm() > 0.0) {
+    X_WB.linear() = Eigen::Quaterniond::FromTwoVectors(sum, Vec3::UnitZ()).toRotationMatrix();
+  }
+  constexpr double placed_tilt_rad = 0.01;
+  constexpr double levelled_tilt_rad = 0.05;  // .5 m/s^2 of acceleration, or of bias.
+  filter_.start(X_WB, X_WB_start_ ? placed_tilt_rad : levelled_tilt_rad);
+  waiting_.clear();
+  now_ = last_sight_ = now;
+  has_begun_ = true;
+}
+
+void InertialOdometry::propagate(const ImuSample& sample, MissionTime to) {
+  const double dt_s = to_seconds(to - now_);
+  if (dt_s > 0.0) {
+    filter_.propagate(sample, dt_s, shaking(recent_f_B_));
+    now_ = to;
+  }
+}
+
+void InertialOdometry::advance(MissionTime to) {
+  std::size_t used = 0;
+  for (; used < waiting_.size() && waiting_[used].stamp <= to; ++used) {
+    const ImuSample& sample = waiting_[used];
+    recent_f_B_.push_back(sample.f_B);
+    if (recent_f_B_.size() > shake_samples) {
+      recent_f_B_.pop_front();
+    }
+    propagate(between(last_, sample), sample.stamp);
+    last_ = sample;
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(used));
+  propagate(last_, to);
+}
+
+void InertialOdometry::stand() {
+  Innovation still;
+  still.residual = Eigen::VectorXd::Zero(9);
+  still.slope = Eigen::MatrixXd::Zero(9, filter_.size());
+  still.sigma = Eigen::VectorXd::Zero(9);
+  const Vec3 up_B = filter_.X_WB().linear().transpose() * -gravity_W();
+  still.residual.segment<3>(0) = -filter_.v_WB();
+  still.residual.segment<3>(3) = last_.w_WB_B - filter_.gyro_bias_now();
+  still.residual.segment<3>(6) = last_.f_B - filter_.accel_bias_now() - up_B;
+  using F = InertialFilter;
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  still.slope.block<3, 3>(0, F::velocity) = one;
+  still.slope.block<3, 3>(3, F::gyro_bias) = one;
+  still.slope.block<3, 3>(6, F::accel_bias) = one;
+  still.slope.block<3, 3>(6, F::rotation) = skew(up_B);  // up_B turns with B: + up_B x r.
+  still.sigma << 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.2, 0.2, 0.2;
+  if (filter_.surprise(still) < 1.5 * chi_square_95(9.0)) {
+    filter_.correct(still);
+  } else {
+    has_moved_ = true;  // No corner told, but the other senses did.
+  }
+}
+
+void InertialOdometry::note(const std::vector<TrackedPoint>& points) {
+  const std::size_t newest = filter_.window().size() - 1;
+  for (const TrackedPoint& point : points) {
+    seen_[point.id].push_back({newest, point.ray, point.depth_m});
+  }
+}
+
+/// Tracks that ended, and those that began with the window's oldest pose when it has to go.
+std::vector<std::uint64_t> InertialOdometry::finished() const {
+  const std::size_t newest = filter_.window().size() - 1;
+  const bool is_full = filter_.window().size() >= window_poses;
+  std::vector<std::uint64_t> ids;
+  for (const auto& [id, glimpses] : seen_) {
+    const bool ended = glimpses.back().pose != newest;
+    if (ended || (is_full && glimpses.front().pose == 0)) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+std::optional<Innovation> InertialOdometry::told_by(const std::vector<Glimpse>& glimpses,
+                                                    double ray_sigma) const {
+  const auto p_W = triangulate(filter_.window(), glimpses, reach_in_sigmas * ray_sigma);
+  if (!p_W) {
+    return std::nullopt;
+  }
+  Innovation sight = sight_innovation(filter_, glimpses, *p_W, ray_sigma);
+  const auto rows = static_cast<double>(sight.residual.size());
+  return filter_.surprise(sight) < chi_square_95(rows) ? std::optional{std::move(sight)}
+                                                       : std::nullopt;
+}
+
+int InertialOdometry::use_tracks(double ray_sigma, Work& work) {
+  std::vector<std::uint64_t> ids = finished();
+  std::stable_sort(ids.begin(), ids.end(), [this](std::uint64_t a, std::uint64_t b) {
+    return seen_.at(a).size() > seen_.at(b).size();
+  });
+  std::vector<Innovation> believed;
+  for (const std::uint64_t id : ids) {
+    const std::vector<Glimpse>& glimpses = seen_.at(id);
+    if (has_moved_ && glimpses.size() >= least_glimpses && believed.size() < most_tracks) {
+      if (auto told = told_by(glimpses, ray_sigma)) {
+        believed.push_back(std::move(*told));
+      }
+    }
+    seen_.erase(id);
+  }
+  if (!believed.empty()) {
+    const Innovation all = stacked(believed);
+    filter_.correct(all);
+    const auto columns = static_cast<double>(filter_.size());
+    work.add("filter_updates", static_cast<double>(all.residual.size()) * columns * columns);
+  }
+  return static_cast<int>(believed.size());
+}
+
+void InertialOdometry::forget_oldest() {
+  filter_.forget_oldest();
+  for (auto& [id, glimpses] : seen_) {
+    for (Glimpse& glimpse : glimpses) {
+      --glimpse.pose;  // None is of the oldest: those tracks were used.
+    }
+  }
+}
+
+int InertialOdometry::watch_for_motion(const std::vector<TrackedPoint>& points) {
+  std::vector<double> moved_px;
+  for (const TrackedPoint& point : points) {
+    if (seen_.count(point.id) > 0) {
+      moved_px.push_back(point.moved_px);
+    }
+  }
+  if (!moved_px.empty() && !has_moved_) {
+    const auto middle = moved_px.begin() + static_cast<std::ptrdiff_t>(moved_px.size() / 2);
+    std::nth_element(moved_px.begin(), middle, moved_px.end());
+    has_moved_ = *middle > still_px;
+  }
+  return static_cast<int>(moved_px.size());
+}
+
+Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& work) {
+  auto points = tracks_.follow(frame, work);
+  if (!points) {
+    return points.error();
+  }
+  if (!has_begun_) {
+    begin(frame.captured);
+  }
+  advance(frame.captured);
+  OdometryOutcome outcome;
+  outcome.tracks = watch_for_motion(*points);
+  if (!has_moved_) {
+    stand();
+  }
+  filter_.remember(frame.captured, frame.X_BC);
+  note(*points);
+  outcome.believed = use_tracks(track_sigma_px / frame.camera.focal_x_px, work);
+  if (filter_.window().size() >= window_poses) {
+    forget_oldest();
+  }
+  if (outcome.tracks >= enough_tracks) {
+    last_sight_ = frame.captured;
+  }
+  outcome.tracked = frame.captured - last_sight_ < blind_limit;
+  return outcome;
+}
+
+}  // namespace flyball

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A path from images and inertial measurements.
+
+#include "visual/feature_tracks.h"
+#include "visual/inertial_filter.h"
+#include "visual/sight_update.h"
+#include <map>
+
+namespace flyball {
+
+struct OdometryOutcome {
+  bool tracked{};  ///< Saw enough within the last second and a half.
+  int tracks{};    ///< Points in the newest image that were in the one before.
+  int believed{};  ///< Tracks that corrected the filter.
+};
+
+/// Multi-state constraint Kalman filter: Mourikis & Roumeliotis 2007. Corners are followed from
+/// image to image; when one is out of sight, or as old as the window, it binds the poses that saw
+/// it. Depth is used where the frame has it. No map and no loops: the error grows with the path.
+class InertialOdometry {
+ public:
+  InertialOdometry();
+
+  /// At rest here; without a pose, level as the accelerometer says, at the origin.
+  void start(const std::optional<Pose>& X_WB);
+  void feel(const ImuSample& sample);
+  /// Adds `pixels`, `features`, `tracks` and `filter_updates` (rows times columns squared) to
+  /// `work`.
+  /// @error As `FeatureTracks::follow`.
+  [[nodiscard]] Result<OdometryOutcome> see(const VisualFrame& frame, Work& work);
+  [[nodiscard]] const InertialFilter& filter() const { return filter_; }
+
+ private:
+  void begin(MissionTime now);
+  void advance(MissionTime to);
+  void propagate(const ImuSample& sample, MissionTime to);
+  /// Before it has moved: that it stands is a measurement of speed, tilt and biases.
+  void stand();
+  void note(const std::vector<TrackedPoint>& points);
+  /// How many points were in the image before; they tell whether the body has moved.
+  int watch_for_motion(const std::vector<TrackedPoint>& points);
+  [[nodiscard]] std::optional<Innovation> told_by(const std::vector<Glimpse>& glimpses,
+                                                  double ray_sigma) const;
+  int use_tracks(double ray_sigma, Work& work);
+  [[nodiscard]] std::vector<std::uint64_t> finished() const;
+  void forget_oldest();
+
+  FeatureTracks tracks_;
+  InertialFilter filter_;
+  std::map<std::uint64_t, std::vector<Glimpse>> seen_{};
+  std::vector<ImuSample> waiting_{};  ///< Felt, but later than the newest frame.
+  std::deque<Vec3> recent_f_B_{};     ///< To see how much it shakes.
+  ImuSample last_{};
+  std::optional<Pose> X_WB_start_{};
+  MissionTime now_{};
+  MissionTime last_sight_{};
+  bool has_begun_{};
+  bool has_moved_{};
+};
+
+}  // namespace flyball

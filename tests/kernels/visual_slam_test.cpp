@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/kernels/kernels.h"
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/registry.h"
+
+#include "circle_flight.h"
+#include "textured_camera.h"
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::unique_ptr<Localizer> make() {
+  Registry registry;
+  register_kernels(registry);
+  auto localizer = registry.make<Localizer>("visual_slam");
+  localizer->start({});
+  localizer->place(kit::circle_pose(0.0));
+  return localizer;
+}
+
+/// Small images: a test has milliseconds.
+const kit::TexturedCamera& camera() {
+  static const kit::TexturedCamera made = [] {
+    DepthCameraSpec spec;
+    spec.width_px = 224;
+    spec.height_px = 168;
+    return kit::TexturedCamera{kit::circle_world(1), spec, 1};
+  }();
+  return made;
+}
+
+struct Clock {
+  int frames{};
+  VisualFrame look(const Pose& X_WC) {
+    const int i = frames++;
+    return camera().capture(X_WC, MissionTime{from_seconds(0.1 * i)},
+                            static_cast<std::uint64_t>(i));
+  }
+};
+
+double miss_m(const VisualFix& fix, const Pose& X_WC) {
+  return (fix.X_WB.translation() - X_WC.translation()).norm();
+}
+
+TEST(VisualSlam, follows_a_slow_flight) {
+  const auto localizer = make();
+  Clock clock;
+  Work work;
+  for (int i = 0; i < 12; ++i) {
+    const Pose X_WC = kit::circle_pose(0.2 * i);
+    const auto fix = localizer->see(clock.look(X_WC), work);
+    ASSERT_TRUE(fix) << fix.error().message;
+    ASSERT_TRUE(fix->tracked) << i;
+    EXPECT_LT(miss_m(*fix, X_WC), 0.08) << i;
+    if (i > 6) {
+      EXPECT_NEAR(fix->v_WB.norm(), 2.0, 0.5);
+    }
+  }
+  EXPECT_EQ(work.count("pixels"), 12 * 224 * 168);
+  EXPECT_GT(work.count("features"), 12 * 100);
+  EXPECT_GT(work.count("matches"), 1000);
+  EXPECT_GT(work.count("ransac_iterations"), 11);
+}
+
+TEST(VisualSlam, says_when_it_is_lost_and_finds_a_place_again_that_it_knows) {
+  const auto localizer = make();
+  Clock clock;
+  Work work;
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.2 * i)), work)->tracked);
+  }
+  const auto away = localizer->see(clock.look(kit::circle_pose(80.0)), work);
+  ASSERT_TRUE(away);
+  EXPECT_FALSE(away->tracked) << "nothing of that was ever seen";
+  const auto still_away = localizer->see(clock.look(kit::circle_pose(80.2)), work);
+  EXPECT_FALSE(still_away->tracked);
+  const Pose X_WC = kit::circle_pose(0.3);
+  const auto back = localizer->see(clock.look(X_WC), work);
+  ASSERT_TRUE(back->tracked);
+  EXPECT_LT(miss_m(*back, X_WC), 0.08);
+}
+
+TEST(VisualSlam, gives_the_same_answer_twice) {
+  const auto fly = [] {
+    const auto localizer = make();
+    Clock clock;
+    Work work;
+    VisualFix last;
+    for (int i = 0; i < 4; ++i) {
+      last = *localizer->see(clock.look(kit::circle_pose(0.3 * i)), work);
+    }
+    return last;
+  };
+  const VisualFix one = fly();
+  const VisualFix two = fly();
+  EXPECT_EQ(one.X_WB.matrix(), two.X_WB.matrix());
+  EXPECT_EQ(one.inliers, two.inliers);
+}
+
+TEST(VisualSlam, starts_nowhere_without_features) {
+  const auto localizer = make();
+  VisualFrame blank;
+  blank.camera = {64, 48, 32.0, 32.0, 31.5, 23.5, {}};
+  blank.grey.assign(64 * 48, 128);
+  blank.depth_m.assign(64 * 48, 3.0F);
+  Work work;
+  const auto fix = localizer->see(blank, work);
+  ASSERT_TRUE(fix);
+  EXPECT_FALSE(fix->tracked);
+  EXPECT_EQ(fix->keyframes, 0);
+}
+
+TEST(VisualSlam, refuses_a_frame_of_another_size_than_its_camera) {
+  const auto localizer = make();
+  VisualFrame broken;
+  broken.camera = {64, 48, 32.0, 32.0, 31.5, 23.5, {}};
+  broken.grey.assign(100, 128);
+  Work work;
+  const auto fix = localizer->see(broken, work);
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().code, ErrorCode::invalid_input);
+  EXPECT_NE(fix.error().message.find("64 x 48"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flyball
