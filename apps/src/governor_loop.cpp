@@ -34,7 +34,8 @@ GovernorLoop::GovernorLoop(MissionContext& context,
       governor_{governor},
       executor_{executor},
       loop_{loop},
-      navigator_{navigator} {}
+      navigator_{navigator},
+      asked_{executor.operating_point()} {}
 
 void GovernorLoop::tick(MissionTime now) {
   seen_.now = now;
@@ -210,7 +211,8 @@ void GovernorLoop::apply(MissionTime now, const Decision& decision) {
   note_fallback(now);
   const OperatingPoint wished{static_cast<int>(context_.knobs.value("cpu.cores")),
                               Hertz{context_.knobs.value("cpu.frequency_hz")}};
-  if (wished != executor_.operating_point()) {
+  if (wished != asked_) {  // What is granted may be less.
+    asked_ = wished;
     executor_.set_operating_point(wished);
   }
 }

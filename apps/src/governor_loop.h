@@ -54,6 +54,7 @@ class GovernorLoop {
   VirtualExecutor& executor_;
   const ClosedLoop& loop_;
   const Navigator* navigator_;
+  OperatingPoint asked_;
   Observation seen_{};
   std::vector<double> told_{};  ///< Its members as the record has them.
   ChoiceMemory choices_{};

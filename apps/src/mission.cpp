@@ -5,6 +5,7 @@
 #include "flyball/apps/workload.h"
 
 #include "closed_loop.h"
+#include "computer_drift.h"
 #include "fingerprint.h"
 #include "flight_recorder.h"
 #include "governor_loop.h"
@@ -36,13 +37,15 @@ struct Flight {
         workload{std::move(made)},
         graph{scenario.mission.workload},
         period{setup.governor->period()},
+        computer{setup.platform->model()},
         topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
     context.truth = &setup.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
-        graph, *setup.platform, queue,
+        graph, computer, queue,
         OperatingPoint{scenario.platform.cores, Hertz{scenario.platform.frequency_hz}});
     loop = std::make_unique<ClosedLoop>(context, setup.world, *executor, queue, topics);
+    drift = std::make_unique<ComputerDrift>(context, computer, *executor, queue, *loop);
     governor = std::make_unique<GovernorLoop>(context, *setup.governor, *executor, *loop,
                                               workload->navigator());
     recorder = std::make_unique<FlightRecorder>(context, graph, *loop, workload->navigator());
@@ -53,9 +56,11 @@ struct Flight {
   std::unique_ptr<Workload> workload;
   Graph graph;
   std::optional<Duration> period;  ///< Between decisions, if the policy says.
+  DriftingPlatform computer;  ///< The true one: what is known of it on board is in the context.
   VehicleTopics topics;
   std::unique_ptr<VirtualExecutor> executor;
   std::unique_ptr<ClosedLoop> loop;
+  std::unique_ptr<ComputerDrift> drift;
   std::unique_ptr<GovernorLoop> governor;
   std::unique_ptr<FlightRecorder> recorder;
 };
@@ -88,6 +93,7 @@ void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks
         });
   }
   flight.loop->start();
+  flight.drift->start(flight.computer.nominal().thermal);
 }
 
 void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {
@@ -124,6 +130,8 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.budget_use_p50 = quantile(counters.budget_use, 0.5);
   summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
   summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
+  summary.throttle_events = flight.drift->throttle_events();
+  summary.hottest_c = flight.drift->hottest_c();
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
   summary.quality.merge(flight.context.localization.quality(flight.queue.now()));

@@ -5,6 +5,7 @@
 #include "flyball/apps/text_table.h"
 #include "flyball/apps/version.h"
 #include "flyball/governors/policy_file.h"
+#include "flyball/sim/platform_file.h"
 
 #include "frame_files.h"
 #include "trace_file.h"
@@ -34,11 +35,12 @@ Error cannot_write(const std::string& path, const std::string& why) {
 /// Of the files that the scenario names: their numbers are part of the mission.
 std::string data_fingerprint(const Scenario& scenario) {
   TraceHash hash;
-  const std::pair<const char*, std::string> files[] = {{"airframes", scenario.vehicle.airframe},
-                                                       {"platforms", scenario.platform.name}};
-  for (const auto& [kind, name] : files) {
-    const Result<std::string> file = find_shipped(kind, name);
-    hash.add(file ? content_of(*file) : std::string{});
+  const Result<std::string> airframe = find_shipped("airframes", scenario.vehicle.airframe);
+  hash.add(airframe ? content_of(*airframe) : std::string{});
+  const Result<std::string> platform = find_shipped("platforms", scenario.platform.name);
+  for (const std::string& file :
+       platform ? files_of_platform(*platform) : std::vector<std::string>{}) {
+    hash.add(content_of(file));
   }
   // A preset may stand for a program in another file.
   const Result<std::string> policy = find_shipped("presets", scenario.governor.policy);

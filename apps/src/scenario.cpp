@@ -5,6 +5,7 @@
 #include "flyball/apps/files.h"
 
 #include "scenario_check.h"
+#include "scenario_events.h"
 #include "scenario_fields.h"
 #include "scenario_keys.h"
 #include "scenario_parameters.h"
@@ -57,7 +58,7 @@ bool is_of_unknown_plugin(const Groups& groups, const std::string& key) {
 void report_unknown_keys(const Fields& fields, const Groups& groups, ScenarioText& read) {
   const std::vector<std::string> known = known_keys(fields, groups);
   for (const auto& [key, given] : read.values) {
-    if (contains(known, key) || is_of_unknown_plugin(groups, key)) {
+    if (contains(known, key) || is_of_unknown_plugin(groups, key) || is_event_key(key)) {
       continue;
     }
     std::string sentence = "no setting \"" + key + "\" (" + given.origin + "); ";
@@ -127,6 +128,10 @@ std::vector<ConfigEntry> entries_of(const Scenario& scenario,
                        origin_of(field.key, given), field.description});
     append_parameters(scenario, groups, field.key, given, entries);
   }
+  for (ConfigEntry& entry : event_entries(scenario)) {
+    entry.origin = origin_of(entry.key, given);
+    entries.push_back(std::move(entry));
+  }
   return entries;
 }
 
@@ -146,8 +151,9 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
   Scenario scenario;
   assign_all(scenario, fields, read);
   report_unknown_keys(fields, parameter_groups(scenario), read);
-  for (const auto& check : {read_parameters(scenario, read.values),
-                            check_names(scenario, read.values), check_map(scenario, read.values)}) {
+  for (const auto& check :
+       {read_parameters(scenario, read.values), read_events(scenario, read.values),
+        check_names(scenario, read.values), check_map(scenario, read.values)}) {
     read.errors.insert(read.errors.end(), check.begin(), check.end());
   }
   if (!read.errors.empty()) {
@@ -171,7 +177,7 @@ std::string to_toml(const Scenario& scenario) {
     text += toml_line(field.key.substr(dot + 1), toml_value(scenario, field));
     text += parameter_lines(scenario, groups, field.key);
   }
-  return text;
+  return text + events_toml(scenario);
 }
 
 }  // namespace flyball

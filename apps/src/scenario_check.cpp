@@ -102,7 +102,14 @@ std::vector<Error> check_operating_point(const Scenario& scenario, const GivenVa
     return {platform.error()};
   }
   std::vector<Error> errors;
-  const auto& [name, cores, clock_hz] = scenario.platform;
+  const auto& [name, cores, clock_hz, start_c] = scenario.platform;
+  if (start_c != 0.0 && !platform->thermal) {
+    errors.push_back({ErrorCode::invalid_input,
+                      "platform.start_temperature_c = " + toml_number(start_c) +
+                          place_of("platform.start_temperature_c", given) + " needs a platform " +
+                          "with a [thermal] table, and " + name +
+                          " has none; try: --set platform.name=jetson_tx2_passive"});
+  }
   if (cores > platform->max_cores) {
     errors.push_back({ErrorCode::invalid_input,
                       "platform.cores = " + std::to_string(cores) +

@@ -41,6 +41,27 @@ std::optional<GivenValue> scalar(const toml::node& node, const std::string& orig
   return given;
 }
 
+/// `[[events]]`: a list that holds tables only.
+const toml::array* tables_of(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  return list != nullptr && list->is_array_of_tables() ? list : nullptr;
+}
+
+void flatten(const toml::table& table,
+             const std::string& prefix,
+             const std::string& file,
+             ScenarioText& read);
+
+/// The first one is `events.1`.
+void flatten(const toml::array& tables,
+             const std::string& prefix,
+             const std::string& file,
+             ScenarioText& read) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    flatten(*tables.get(i)->as_table(), prefix + std::to_string(i + 1) + ".", file, read);
+  }
+}
+
 void flatten(const toml::table& table,
              const std::string& prefix,
              const std::string& file,
@@ -50,6 +71,8 @@ void flatten(const toml::table& table,
     const std::string origin = file + ":" + std::to_string(node.source().begin.line);
     if (const toml::table* section = node.as_table()) {
       flatten(*section, std::string{key}.append("."), file, read);
+    } else if (const toml::array* tables = tables_of(node)) {
+      flatten(*tables, std::string{key}.append("."), file, read);
     } else if (std::optional<GivenValue> given = scalar(node, origin)) {
       read.values[key] = std::move(*given);
     } else {

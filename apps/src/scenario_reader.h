@@ -19,7 +19,8 @@ struct ScenarioText {
   std::vector<Error> errors{};
 };
 
-/// Keys of sections are joined with a dot: `map.range_m`.
+/// Keys of sections are joined with a dot: `map.range_m`; tables in a list are numbered from 1:
+/// `events.1.at_s`.
 [[nodiscard]] ScenarioText read_scenario_file(const std::string& path);
 /// Puts `KEY=VALUE` on top of what was read. A value that is no TOML is a text without quotes.
 void read_override(const std::string& key_and_value, ScenarioText& read);

@@ -100,6 +100,10 @@ void read_computing(const Json& json, Summary& summary) {
   summary.budget_use_p50 = number(json.at("budget_use_p50"));
   summary.decision_host_us_p50 = number(json.at("decision_host_us").at("p50"));
   summary.decision_host_us_p99 = number(json.at("decision_host_us").at("p99"));
+  summary.throttle_events = json.at("throttle_events").get<std::uint64_t>();
+  if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
+    summary.hottest_c = hottest.get<double>();
+  }
   read_kernels(json.at("kernels"), summary);
   for (const auto& [name, value] : json.at("quality").items()) {
     summary.quality[name] = number(value);
@@ -178,6 +182,8 @@ std::string to_json(const Summary& summary, int indent) {
       {"budget_use_p50", summary.budget_use_p50},
       {"decision_host_us",
        {{"p50", summary.decision_host_us_p50}, {"p99", summary.decision_host_us_p99}}},
+      {"throttle_events", summary.throttle_events},
+      {"hottest_c", summary.hottest_c ? Json(*summary.hottest_c) : Json()},
       {"kernels", kernels_json(summary)},
       {"quality", Json(summary.quality)},
       {"host_s", summary.host_s},

@@ -81,7 +81,7 @@ void VirtualComputer::dispatch() {
     claims.push_back({spec(node).priority, useful_cores(node)});
   }
   const bool is_stalled = queue.now() < stalled_until;
-  const std::vector<double> shares = share_cores(claims, is_stalled ? 0.0 : point.cores);
+  const std::vector<double> shares = share_cores(claims, is_stalled ? 0.0 : free_cores());
   for (std::size_t i = 0; i < urgent.size(); ++i) {
     if (shares[i] > 0.0 && !nodes[index(urgent[i])].job->has_started) {
       compute(urgent[i]);
@@ -177,8 +177,17 @@ void VirtualComputer::advance() {
   }
 }
 
+/// Somebody else's work goes first to the cores that this graph leaves idle, as an operating system
+/// would place it; a core is left to the graph in any case.
+double VirtualComputer::free_cores() const {
+  const double idle = std::max(0, platform.max_cores() - point.cores);
+  return std::max(std::min(1.0, static_cast<double>(point.cores)),
+                  point.cores - std::max(0.0, taken_cores - idle));
+}
+
+/// Of the whole computer.
 double VirtualComputer::busy_cores() const {
-  double sum = 0.0;
+  double sum = taken_cores;
   for (const NodeState& node : nodes) {
     sum += node.job ? node.job->share : 0.0;
   }
@@ -198,9 +207,21 @@ void VirtualComputer::rescale_running_jobs() {
 void VirtualComputer::set_operating_point(const OperatingPoint& wanted) {
   FLYBALL_ASSERT(wanted.cores >= 1 && wanted.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
                  wanted.cores, wanted.frequency.value());
+  requested = wanted;
   advance();
-  const bool changes_clock = wanted.frequency != point.frequency;
-  point = wanted;
+  apply(platform.granted(requested));
+}
+
+void VirtualComputer::change_platform() {
+  advance();  // At the rates that have been in force until now.
+  taken_cores = platform.taken_cores();
+  rescale_running_jobs();
+  apply(platform.granted(requested));
+}
+
+void VirtualComputer::apply(const OperatingPoint& granted) {
+  const bool changes_clock = granted.frequency != point.frequency;
+  point = granted;
   if (changes_clock) {
     rescale_running_jobs();
     stalled_until = queue.now() + platform.switching_time();

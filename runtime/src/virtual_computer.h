@@ -56,7 +56,10 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void schedule_end(int node);
   void advance();
   void set_operating_point(const OperatingPoint& wanted);
+  void change_platform();
+  void apply(const OperatingPoint& granted);
   void rescale_running_jobs();
+  [[nodiscard]] double free_cores() const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
   [[nodiscard]] std::vector<int> nodes_by_urgency() const;
@@ -70,7 +73,9 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   const Graph& graph;
   const Platform& platform;
   EventQueue& queue;
-  OperatingPoint point;
+  OperatingPoint requested;
+  OperatingPoint point;  ///< Granted.
+  double taken_cores;    ///< Busy with somebody else's work.
   std::vector<NodeState> nodes;
   std::vector<TopicState> topics;
   std::deque<std::function<void(const JobRecord&)>> job_listeners;

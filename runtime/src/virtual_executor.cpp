@@ -16,7 +16,9 @@ VirtualComputer::VirtualComputer(const Graph& hosted,
     : graph{hosted},
       platform{model},
       queue{events},
-      point{first},
+      requested{first},
+      point{model.granted(first)},
+      taken_cores{model.taken_cores()},
       nodes(hosted.nodes().size()),
       topics(hosted.topics().size()),
       advanced_to{events.now()} {
@@ -199,6 +201,10 @@ void VirtualExecutor::on_miss(std::function<void(int node, OnMiss)> listener) {
 
 void VirtualExecutor::set_operating_point(const OperatingPoint& point) {
   computer_->set_operating_point(point);
+}
+
+void VirtualExecutor::platform_changed() {
+  computer_->change_platform();
 }
 
 const OperatingPoint& VirtualExecutor::operating_point() const {

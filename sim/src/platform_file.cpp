@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/platform_file.h"
 
-#include <algorithm>
+#include "platform_table.h"
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -10,104 +11,6 @@
 
 namespace flyball {
 namespace {
-
-// Reads keys of one table and remembers which were asked for: the rest is unknown.
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string where, std::vector<std::string>& problems)
-      : table_{table}, where_{std::move(where)}, problems_{problems} {}
-
-  double number(const std::string& key, double min, double max) {
-    const toml::node* node = require(key);
-    if (node == nullptr) {
-      return min;
-    }
-    return checked(*node, key, min, max);
-  }
-
-  double number_or(const std::string& key, double fallback, double min, double max) {
-    return table_.contains(key) ? number(key, min, max) : fallback;
-  }
-
-  std::string text(const std::string& key) {
-    const toml::node* node = require(key);
-    if (node != nullptr && !node->is_string()) {
-      complain(key, "is no text");
-    }
-    return node != nullptr ? node->value<std::string>().value_or("") : "";
-  }
-
-  std::vector<double> numbers(const std::string& key, double min, double max) {
-    std::vector<double> values;
-    const toml::node* node = require(key);
-    if (node == nullptr) {
-      return values;
-    }
-    if (!node->is_array() || node->as_array()->empty()) {
-      complain(key, "is no list of numbers");
-      return values;
-    }
-    for (const toml::node& item : *node->as_array()) {
-      values.push_back(checked(item, key, min, max));
-    }
-    return values;
-  }
-
-  const toml::table* table(const std::string& key) {
-    const toml::node* node = require(key);
-    if (node != nullptr && !node->is_table()) {
-      complain(key, "is no table");
-    }
-    return node != nullptr ? node->as_table() : nullptr;
-  }
-
-  [[nodiscard]] std::string path(const std::string& key) const {
-    return where_.empty() ? key : where_ + "." + key;
-  }
-
-  void reject_unknown() {
-    for (const auto& [key, node] : table_) {
-      const std::string name{key.str()};
-      if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
-        complain(name, "is unknown");
-      }
-    }
-  }
-
-  void complain(const std::string& key, const std::string& what) {
-    problems_.push_back(path(key) + " " + what);
-  }
-
- private:
-  const toml::node* require(const std::string& key) {
-    asked_.push_back(key);
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) {
-      complain(key, "is missing");
-    }
-    return node;
-  }
-
-  double checked(const toml::node& node, const std::string& key, double min, double max) {
-    if (!node.is_number()) {
-      complain(key, "is no number");
-      return min;
-    }
-    const double value = node.value<double>().value_or(min);
-    if (!std::isfinite(value) || value < min || value > max) {
-      std::ostringstream what;
-      what << "= " << value << " is not between " << min << " and " << max;
-      complain(key, what.str());
-      return min;
-    }
-    return value;
-  }
-
-  const toml::table& table_;
-  std::string where_;
-  std::vector<std::string>& problems_;
-  std::vector<std::string> asked_;
-};
 
 PowerCost read_power(TableReader& reader) {
   PowerCost power;
@@ -161,6 +64,32 @@ std::map<std::string, KernelCost, std::less<>> read_kernels(const toml::table& t
   return kernels;
 }
 
+ThermalTrip read_trip(TableReader& reader) {
+  ThermalTrip trip;
+  trip.at_c = reader.number("at_c", -50.0, 200.0);
+  trip.hysteresis_k = reader.number("hysteresis_k", 0.0, 100.0);
+  trip.cap = Hertz{reader.number("cap_hz", 1e6, 1e11)};
+  reader.reject_unknown();
+  return trip;
+}
+
+ThermalModel read_thermal(TableReader& reader, std::vector<std::string>& problems) {
+  ThermalModel thermal;
+  thermal.ambient_c = reader.number("ambient_c", -60.0, 90.0);
+  thermal.resistance_k_w = reader.number("resistance_k_w", 0.01, 1000.0);
+  thermal.time_constant_s = reader.number("time_constant_s", 0.1, 1e5);
+  for (const toml::table* one : reader.tables_or_none("trips")) {
+    TableReader items{*one, reader.path("trips"), problems};
+    const ThermalTrip trip = read_trip(items);
+    if (!thermal.trips.empty() && thermal.trips.back().at_c >= trip.at_c) {
+      reader.complain("trips", "are not ascending");
+    }
+    thermal.trips.push_back(trip);
+  }
+  reader.reject_unknown();
+  return thermal;
+}
+
 PlatformModel read_model(const toml::table& file, std::vector<std::string>& problems) {
   TableReader reader{file, "", problems};
   PlatformModel model;
@@ -185,8 +114,34 @@ PlatformModel read_model(const toml::table& file, std::vector<std::string>& prob
     TableReader items{*kernels, "kernels", problems};
     model.kernels = read_kernels(*kernels, items, problems);
   }
+  if (file.contains("thermal")) {
+    if (const toml::table* thermal = reader.table("thermal")) {
+      TableReader items{*thermal, "thermal", problems};
+      model.thermal = read_thermal(items, problems);
+    }
+  }
   reader.reject_unknown();
   return model;
+}
+
+/// The file that this one is like; empty when it stands alone.
+std::string base_path(const toml::table& file, const std::string& path) {
+  const auto base = file["like"].value<std::string>();
+  return base ? (std::filesystem::path{path}.parent_path() / (*base + ".toml")).string() : "";
+}
+
+/// With what it takes over from the file that it is like.
+toml::table completed(toml::table own, const std::string& path) {
+  const std::string base = base_path(own, path);
+  own.erase("like");
+  if (base.empty()) {
+    return own;
+  }
+  toml::table all = toml::parse_file(base);
+  for (const auto& [key, node] : own) {
+    all.insert_or_assign(key.str(), node);
+  }
+  return all;
 }
 
 std::string joined(const std::vector<std::string>& problems) {
@@ -206,7 +161,13 @@ Result<PlatformModel> load_platform(const std::string& path) {
                  "no platform file \"" + path + "\"; try: flyball list platforms"};
   }
   try {
-    const toml::table file = toml::parse(stream, path);
+    toml::table own = toml::parse(stream, path);
+    if (own.contains("like") && !std::filesystem::is_regular_file(base_path(own, path))) {
+      return Error{ErrorCode::invalid_input,
+                   "platform file \"" + path + "\" must be like another platform beside it, and " +
+                       "there is no \"" + base_path(own, path) + "\""};
+    }
+    const toml::table file = completed(std::move(own), path);
     std::vector<std::string> problems;
     PlatformModel model = read_model(file, problems);
     if (!problems.empty()) {
@@ -215,12 +176,25 @@ Result<PlatformModel> load_platform(const std::string& path) {
     return model;
   } catch (const toml::parse_error& error) {
     std::ostringstream what;
-    what << "platform file \"" << path << "\", line " << error.source().begin.line << ": "
-         << error.description();
+    what << "platform file \"" << (error.source().path ? *error.source().path : path) << "\", line "
+         << error.source().begin.line << ": " << error.description();
     return Error{ErrorCode::invalid_input, what.str()};
   } catch (const std::exception& error) {
     return Error{ErrorCode::failed, "platform file \"" + path + "\": " + error.what()};
   }
+}
+
+std::vector<std::string> files_of_platform(const std::string& path) {
+  std::vector<std::string> files{path};
+  try {
+    const std::string base = base_path(toml::parse_file(path), path);
+    if (!base.empty()) {
+      files.push_back(base);
+    }
+  } catch (const toml::parse_error&) {
+    return files;  // Reading it says what is wrong.
+  }
+  return files;
 }
 
 }  // namespace flyball

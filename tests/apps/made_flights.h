@@ -38,6 +38,8 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.budget_use_p50 = 0.66;
   summary.decision_host_us_p50 = 1.5;
   summary.decision_host_us_p99 = 2.75;
+  summary.throttle_events = 2;
+  summary.hottest_c = 81.5;
   summary.min_clearance_m = 0.44;
   summary.kernels["octomap"] = {123, 45.6, 78.9, 1.25};
   summary.quality["area_covered_percent"] = 97.25;

@@ -85,6 +85,8 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "bound_overruns",
                               "budget_use_p50",
                               "decision_host_us",
+                              "throttle_events",
+                              "hottest_c",
                               "kernels",
                               "quality",
                               "host_s",

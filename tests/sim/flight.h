@@ -33,8 +33,11 @@ struct TrackingError {
 class Flight {
  public:
   /// Hovers at `height_m` over the origin.
-  explicit Flight(double payload_kg = 0.0, double dt_s = 0.001, double height_m = 3.0)
-      : airframe{shipped_airframe("matrice_100")},
+  explicit Flight(double payload_kg = 0.0,
+                  double dt_s = 0.001,
+                  double height_m = 3.0,
+                  const std::string& name = "matrice_100")
+      : airframe{shipped_airframe(name)},
         vehicle{airframe, payload_kg, {0.0, 0.0, height_m}, 0.0, 0.0},
         controller{airframe, 0.0},
         step_s{dt_s} {

@@ -3,6 +3,7 @@
 
 #include "built_data.h"
 #include "scratch_folder.h"
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,71 @@ TEST(PlatformFile, refuses_a_kernel_that_would_cost_nothing) {
   EXPECT_NE(failure_of(with("updates = 1e-6", "")).find("names no work"), std::string::npos);
   EXPECT_NE(failure_of(with("scale = 2.0", "scale = 0.0")).find("must be positive"),
             std::string::npos);
+}
+
+const char* const warm = R"(
+[thermal]
+ambient_c = 40.0
+resistance_k_w = 8.0
+time_constant_s = 540.0
+[[thermal.trips]]
+at_c = 80.0
+hysteresis_k = 2.0
+cap_hz = 1e9
+)";
+
+TEST(PlatformFile, may_say_how_warm_it_gets) {
+  const ScratchFolder scratch;
+  const auto model = load_platform(scratch.file("board.toml", std::string{whole} + warm));
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_TRUE(model->thermal);
+  EXPECT_EQ(model->thermal->resistance_k_w, 8.0);
+  ASSERT_EQ(model->thermal->trips.size(), 1U);
+  EXPECT_EQ(model->thermal->trips[0].cap.value(), 1e9);
+}
+
+TEST(PlatformFile, needs_ascending_trips_and_knows_their_keys) {
+  const std::string twice = std::string{whole} + warm +
+                            "[[thermal.trips]]\nat_c = 70.0\nhysteresis_k = 2.0\ncap_hz = 1e9\n"
+                            "fan_w = 1.0\n";
+  EXPECT_NE(failure_of(twice).find("thermal.trips are not ascending"), std::string::npos);
+  EXPECT_NE(failure_of(twice).find("thermal.trips.fan_w is unknown"), std::string::npos);
+}
+
+TEST(PlatformFile, that_is_like_another_one_takes_over_what_it_does_not_say) {
+  const ScratchFolder scratch;
+  (void)scratch.file("board.toml", whole);
+  const std::string hot = "like = \"board\"\nname = \"hot\"\nmax_cores = 1\n" + std::string{warm};
+  const std::string path = scratch.file("hot.toml", hot);
+  const auto model = load_platform(path);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->name, "hot");
+  EXPECT_EQ(model->max_cores, 1);
+  EXPECT_EQ(model->kernels.at("octomap").scale, 2.0);
+  EXPECT_TRUE(model->thermal);
+  EXPECT_EQ(files_of_platform(path).size(), 2U);
+}
+
+TEST(PlatformFile, that_is_like_nothing_is_named) {
+  EXPECT_NE(failure_of("like = \"moon\"\n").find("there is no"), std::string::npos);
+}
+
+TEST(JetsonTx2, passively_cooled_throttles_under_full_load_and_not_at_half_of_it) {
+  const auto model =
+      load_platform(std::string{FLYBALL_TEST_DATA} + "/platforms/jetson_tx2_passive.toml");
+  ASSERT_TRUE(model) << model.error().message;
+  const ModeledPlatform platform{*model};
+  const OperatingPoint top{4, platform.frequencies().back()};
+  ThermalState full{*model->thermal, platform.power(top, 0.0)};
+  ThermalState half = full;
+  full.step(platform.power(top, 4.0), 1e5);
+  half.step(platform.power(top, 2.0), 1e5);
+  EXPECT_TRUE(full.cap());
+  EXPECT_FALSE(half.cap());
+  for (const ThermalTrip& trip : model->thermal->trips) {
+    const auto& clocks = platform.frequencies();
+    EXPECT_EQ(std::count(clocks.begin(), clocks.end(), trip.cap), 1) << trip.cap.value();
+  }
 }
 
 TEST(JetsonTx2, has_the_boards_clocks_and_the_papers_cores) {

@@ -109,6 +109,21 @@ struct PlatformSettings {
   std::string name{"jetson_tx2"};
   int cores{4};
   double frequency_hz{2.0352e9};
+  double start_temperature_c{};  ///< 0: as warm as it is after it has idled for long.
+};
+
+/// Something that happens to the companion computer in flight; which members count is a matter of
+/// the kind.
+struct ComputerEvent {
+  std::string kind{};          ///< `slowdown`, `co_runner` or `cooling`.
+  double at_s{};               ///< Mission time.
+  double until_s{};            ///< 0: it lasts.
+  double factor{1.0};          ///< Slowdown: kernels take so many times what the file says.
+  std::string kernels{"all"};  ///< Slowdown: these only, with commas between them.
+  double cores{};              ///< Co-runner: kept busy.
+  double memory_share{};       ///< Co-runner: of the memory's bandwidth.
+  double resistance_k_w{8.0};  ///< Cooling: from the computer to the air.
+  double ambient_c{40.0};      ///< Cooling: of the air.
 };
 
 struct GovernorSettings {
@@ -134,6 +149,7 @@ struct Scenario {
   PhotographySettings photography{};
   PlatformSettings platform{};
   GovernorSettings governor{};
+  std::vector<ComputerEvent> events{};
 };
 
 /// A value of the configuration as `flyball config` prints it.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace flyball {
@@ -62,6 +63,9 @@ struct Summary {
   double budget_use_p50{};         ///< Latency over its bound.
   double decision_host_us_p50{};   ///< One decision of the governor, on the host.
   double decision_host_us_p99{};
+  std::uint64_t throttle_events{};  ///< How often heat took clocks away.
+  std::optional<double>
+      hottest_c{};  ///< Of the computer; empty where nothing is known of its heat.
   double min_clearance_m{};
   std::map<std::string, KernelStatistics> kernels{};
   /// The workload's own quality of flight; the unit is the name's ending.

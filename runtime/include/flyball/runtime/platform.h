@@ -5,11 +5,13 @@
 /// The computer: its operating points, and what work costs on it in time and power.
 
 #include "flyball/runtime/result.h"
+#include "flyball/runtime/thermal.h"
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/units.h"
 #include "flyball/runtime/work.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +50,12 @@ class Platform {
   [[nodiscard]] virtual Watts power(const OperatingPoint& point, double busy_cores) const = 0;
   /// How long a change of the clock takes; jobs stand still meanwhile.
   [[nodiscard]] virtual Duration switching_time() const = 0;
+  /// What is granted when `wanted` is asked for: a board that is too hot grants less.
+  [[nodiscard]] virtual OperatingPoint granted(const OperatingPoint& wanted) const {
+    return wanted;
+  }
+  /// Cores that somebody else's work keeps busy now.
+  [[nodiscard]] virtual double taken_cores() const { return 0.0; }
 };
 
 /// One kernel's price list: t = scale * sum_i n_i c_i (a / f_GHz + b) / S(cores).
@@ -83,6 +91,7 @@ struct PlatformModel {
   Duration switching_time{};
   PowerCost power{};
   std::map<std::string, KernelCost, std::less<>> kernels{};
+  std::optional<ThermalModel> thermal{};  ///< Empty: it never gets too hot.
 };
 
 /// A platform that is nothing but its numbers.

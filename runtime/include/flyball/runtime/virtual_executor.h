@@ -17,6 +17,7 @@ struct VirtualComputer;  // see runtime/src/virtual_computer.h
 /// most its node's `threads`. A job computes for real when it first gets a core, and ends when the
 /// modeled time has passed: progress grows at S(share) / t(f), or share / t(f) below one core, so
 /// that a change of clock or cores alters only that rate. A node runs one job at a time.
+/// Cores that the platform says are taken are first those that the operating point leaves idle.
 /// The same graph, platform and events give the same schedule on any host.
 class VirtualExecutor final : public Executor {
  public:
@@ -32,7 +33,10 @@ class VirtualExecutor final : public Executor {
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
   void set_operating_point(const OperatingPoint& point) override;
+  /// What is granted, which may be less than was set.
   [[nodiscard]] const OperatingPoint& operating_point() const override;
+  /// The platform's costs, taken cores or grants are others from now on: jobs go on at new rates.
+  void platform_changed();
   [[nodiscard]] double busy_core_s() const override;
   [[nodiscard]] double busiest_core_s() const override;
   [[nodiscard]] double busy_cores() const override;

@@ -6,9 +6,18 @@
 
 #include "flyball/runtime/platform.h"
 
+#include <string>
+#include <vector>
+
 namespace flyball {
 
+/// A file may be like another one beside it (`like = "jetson_tx2"`): then its own top-level keys
+/// replace that one's.
+///
 /// @error `not_found`, `invalid_input`: unknown keys and impossible values, all in one message.
 [[nodiscard]] Result<PlatformModel> load_platform(const std::string& path);
+
+/// The files that a platform comes from: its own, and the one that it is like.
+[[nodiscard]] std::vector<std::string> files_of_platform(const std::string& path);
 
 }  // namespace flyball

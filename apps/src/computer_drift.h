@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The companion computer as it truly is in flight: the scenario's events, and its heat.
+
+#include "flyball/runtime/drifting_platform.h"
+#include "flyball/runtime/thermal.h"
+
+#include "closed_loop.h"
+#include "mission_context.h"
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace flyball {
+
+/// Nothing on board is told: governors see the granted clock, latencies and the load.
+class ComputerDrift {
+ public:
+  /// All arguments outlive the drift; `executor` runs on `platform`.
+  ComputerDrift(MissionContext& context,
+                DriftingPlatform& platform,
+                VirtualExecutor& executor,
+                EventQueue& queue,
+                const ClosedLoop& loop);
+
+  /// @param thermal  Of the platform's file; empty: it never gets too hot.
+  void start(const std::optional<ThermalModel>& thermal);
+
+  /// How often a trip took clocks away.
+  [[nodiscard]] std::uint64_t throttle_events() const { return throttle_events_; }
+  [[nodiscard]] std::optional<double> hottest_c() const;
+
+ private:
+  void schedule(const ComputerEvent& event);
+  void change(const ComputerEvent& event, bool begins);
+  void strain();
+  void cool();
+  void heat_step();
+  void obey_trips();
+
+  MissionContext& context_;
+  DriftingPlatform& platform_;
+  VirtualExecutor& executor_;
+  EventQueue& queue_;
+  const ClosedLoop& loop_;
+  std::optional<ThermalModel> nominal_{};
+  std::optional<ThermalState> heat_{};
+  double last_energy_j_{};
+  std::optional<Hertz> cap_{};
+  std::uint64_t throttle_events_{};
+  std::uint64_t steps_{};
+};
+
+}  // namespace flyball

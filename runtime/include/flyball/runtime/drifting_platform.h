@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A computer that is not, or no longer, what its file says.
+
+#include "flyball/runtime/platform.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace flyball {
+
+/// What keeps a computer from being what its file says. By default nothing does.
+struct Strain {
+  double cost{1.0};  ///< Every kernel takes so many times what the file says.
+  std::map<std::string, double, std::less<>> kernel_cost{};  ///< Times this, of single ones.
+  double memory_cost{1.0};  ///< Of the share of each kernel that waits for memory; b of KernelCost.
+  double taken_cores{};     ///< Busy with somebody else's work.
+  std::optional<Hertz> clock_cap{};  ///< Higher clocks are not granted.
+};
+
+/// A model under strain, which may change in flight. Whoever changes it tells the executor
+/// (`platform_changed`).
+class DriftingPlatform final : public Platform {
+ public:
+  explicit DriftingPlatform(const PlatformModel& nominal);
+
+  /// @pre All costs are positive, `taken_cores` is not negative.
+  void set(const Strain& strain);
+  [[nodiscard]] const Strain& strain() const { return strain_; }
+  [[nodiscard]] const PlatformModel& nominal() const { return nominal_; }
+
+  [[nodiscard]] const std::string& name() const override { return nominal_.name; }
+  [[nodiscard]] const std::vector<Hertz>& frequencies() const override {
+    return nominal_.frequencies;
+  }
+  [[nodiscard]] int max_cores() const override { return nominal_.max_cores; }
+  [[nodiscard]] Duration job_time(std::string_view kernel,
+                                  const Work& work,
+                                  Hertz frequency) const override {
+    return now_->job_time(kernel, work, frequency);
+  }
+  [[nodiscard]] double speedup(std::string_view kernel, double cores) const override {
+    return now_->speedup(kernel, cores);
+  }
+  [[nodiscard]] bool knows(std::string_view kernel) const override { return now_->knows(kernel); }
+  [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override {
+    return now_->power(point, busy_cores);
+  }
+  [[nodiscard]] Duration switching_time() const override { return nominal_.switching_time; }
+  [[nodiscard]] OperatingPoint granted(const OperatingPoint& wanted) const override;
+  [[nodiscard]] double taken_cores() const override { return strain_.taken_cores; }
+
+ private:
+  PlatformModel nominal_;
+  Strain strain_{};
+  std::optional<ModeledPlatform> now_;  ///< The nominal model with the strain worked in.
+};
+
+}  // namespace flyball
