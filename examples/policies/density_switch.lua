@@ -14,6 +14,8 @@ parameters = {
   {name = "min_fine_s", default = 2, min = 0, max = 3600, description = "Fine lasts at least this long."},
 }
 
+local rounding_s = 1e-9 -- a difference of two times is not exact
+
 local settings
 local fine_since_s -- nil: coarse
 
@@ -32,7 +34,7 @@ function decide(seen)
   if not fine_since_s and seen.obstacle_density >= settings.enter_density then
     fine_since_s = seen.now_s
   elseif fine_since_s and seen.obstacle_density <= settings.leave_density
-      and seen.now_s - fine_since_s >= settings.min_fine_s then
+      and seen.now_s - fine_since_s >= settings.min_fine_s - rounding_s then
     fine_since_s = nil
   end
   return {["map.resolution_m"] = fine_since_s and settings.fine_m or settings.coarse_m}, "density"

@@ -154,8 +154,7 @@ TEST(PlatformFile, that_is_like_nothing_is_named) {
 }
 
 TEST(JetsonTx2, passively_cooled_throttles_under_full_load_and_not_at_half_of_it) {
-  const auto model =
-      load_platform(std::string{FLYBALL_TEST_DATA} + "/platforms/jetson_tx2_passive.toml");
+  const auto model = load_platform(kit::built_data() + "/platforms/jetson_tx2_passive.toml");
   ASSERT_TRUE(model) << model.error().message;
   const ModeledPlatform platform{*model};
   const OperatingPoint top{4, platform.frequencies().back()};
