@@ -8,10 +8,9 @@
 
 #include "flyball/runtime/result.h"
 
+#include "octomap_tree.h"
 #include <memory>
 #include <string>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

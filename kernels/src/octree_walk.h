@@ -5,10 +5,9 @@
 /// Walks down an OctoMap tree, only where a shape is, and shows what the tree says there. Own
 /// recursion, because OctoMap's iterators visit whole boxes and skip unknown space.
 
+#include "octomap_tree.h"
 #include "overlap.h"
 #include <array>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

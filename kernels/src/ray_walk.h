@@ -7,12 +7,11 @@
 /// time goes into branches that no processor foresees, and into a list of keys; here the step is
 /// computed, and a cell is handed on at once.
 
+#include "octomap_tree.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

@@ -15,14 +15,13 @@
 
 #include "fit_scenes.h"
 #include "mission_setup.h"
+#include "octomap_tree.h"
 #include "perception_nodes.h"
 #include "scenario_parameters.h"
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <map>
-
-#include <octomap/OcTree.h>
 
 namespace {
 

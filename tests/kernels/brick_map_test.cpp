@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/bricks/brick_map.h"
 
+#include "octomap_tree.h"
 #include <algorithm>
 #include <map>
 #include <random>
 #include <tuple>
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 namespace flyball {
 namespace {

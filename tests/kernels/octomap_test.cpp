@@ -3,13 +3,13 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
+#include "octomap_tree.h"
 #include "synthetic_scans.h"
 #include "wall_scan.h"
 #include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 namespace flyball {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/octomap_view.h"
+#include "octomap_tree.h"
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 namespace flyball {
 namespace {

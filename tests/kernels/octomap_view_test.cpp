@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/octomap_view.h"
 
+#include "octomap_tree.h"
 #include "random_map.h"
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 namespace flyball {
 namespace {

@@ -5,6 +5,7 @@
 /// Random maps, and what they say by definition: the brute force that the view is held against.
 
 #include "../../kernels/src/octomap_view.h"
+#include "octomap_tree.h"
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,8 +13,6 @@
 #include <random>
 #include <utility>
 #include <vector>
-
-#include <octomap/OcTree.h>
 
 namespace flyball::kit {
 

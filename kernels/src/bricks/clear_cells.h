@@ -13,13 +13,12 @@
 
 #include "flyball/runtime/geometry.h"
 
+#include "../octomap_tree.h"
 #include "scan_masks.h"
 #include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

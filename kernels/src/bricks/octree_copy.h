@@ -7,10 +7,9 @@
 
 #include "flyball/runtime/result.h"
 
+#include "../octomap_tree.h"
 #include "brick_map.h"
 #include <memory>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

@@ -12,10 +12,9 @@
 /// block with a hit in it is not freed as a whole, (3) a free block over refined space reaches
 /// every leaf in it, (4) no coarse block is written through the cell at its centre.
 
+#include "../octomap_tree.h"
 #include "scan_masks.h"
 #include <vector>
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 

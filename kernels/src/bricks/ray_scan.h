@@ -12,12 +12,11 @@
 /// are stock's, bit for bit; `Match::close` takes either order. A ray whose end lies as near to a
 /// border is walked in OctoMap's arithmetic in both.
 
+#include "../octomap_tree.h"
 #include "inner_loops.h"
 #include "mark_window.h"
 #include "scan.h"
 #include "scan_masks.h"
-
-#include <octomap/OcTree.h>
 
 namespace flyball {
 
