@@ -22,6 +22,8 @@ class Density final : public flyball::Policy {
             {"enter_density", 0.06, 0.0, 1.0, "At or above this share of columns: fine."},
             {"leave_density", 0.045, 0.0, 1.0, "At or below this share of columns: coarse."},
             {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."},
+            {"failures_to_fine", 3.0, 0.0, 1000.0,
+             "After so many failed plans in a row: fine, whatever the density. 0: never."},
             {"fine_range_m", 0.0, 0.0, 100.0, "Range where fine; 0: as the scenario says."},
             {"coarse_range_m", 0.0, 0.0, 100.0, "Range where coarse; 0: as the scenario says."}};
   }
@@ -33,6 +35,7 @@ class Density final : public flyball::Policy {
     enter_ = given.number("enter_density");
     leave_ = given.number("leave_density");
     min_fine_ = flyball::from_seconds(given.number("min_fine_s"));
+    failures_to_fine_ = given.number("failures_to_fine");
     fine_range_m_ = given.number("fine_range_m");
     coarse_range_m_ = given.number("coarse_range_m");
     fine_since_.reset();
@@ -59,9 +62,11 @@ class Density final : public flyball::Policy {
   }
 
   [[nodiscard]] flyball::Decision decide(const flyball::Observation& seen) noexcept override {
-    if (!fine_since_ && seen.obstacle_density >= enter_) {
+    const bool is_stuck =
+        failures_to_fine_ > 0.0 && static_cast<double>(seen.planner_failures) >= failures_to_fine_;
+    if (!fine_since_ && (is_stuck || seen.obstacle_density >= enter_)) {
       fine_since_ = seen.now;
-    } else if (fine_since_ && seen.obstacle_density <= leave_ &&
+    } else if (fine_since_ && !is_stuck && seen.obstacle_density <= leave_ &&
                seen.now - *fine_since_ >= min_fine_) {
       fine_since_.reset();
     }
@@ -85,6 +90,7 @@ class Density final : public flyball::Policy {
   double coarse_m_{};
   double enter_{};
   double leave_{};
+  double failures_to_fine_{};
   double fine_range_m_{};  ///< Both 0, or neither.
   double coarse_range_m_{};
   flyball::Duration min_fine_{};

@@ -168,6 +168,11 @@ void Navigator::start_from_path(PlanQuery& query) {
 
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   ++context_.counters.planner_failures_in_row;
+  if (planned.failure == "start blocked" && at_rest_since_) {
+    // An obstacle fills a part of the cell that the body reaches into, or noise has filled it. But
+    // where the body is, is free: a finer map begins with that.
+    context_.kernels.mapper->declare_clear(follower_.position_W(), context_.airframe.body());
+  }
   not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});
   want_plan(now, planned.failure);
 }

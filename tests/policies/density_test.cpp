@@ -73,8 +73,24 @@ TEST(Density, stays_fine_for_its_minimum_time) {
   EXPECT_EQ(0.80, resolution_m(*density.policy, 15.0, 0.0));
 }
 
-TEST(Density, is_not_moved_by_failures_of_the_planner) {
+TEST(Density, is_fine_after_three_failed_plans_in_a_row_until_one_succeeds) {
   const auto density = start_policy("density", two_levels);
+  flyball::Observation seen;
+  const auto after = [&](double t_s, std::uint32_t failures) {
+    seen.now = flyball::MissionTime{flyball::from_seconds(t_s)};
+    seen.planner_failures = failures;
+    return density.policy->decide(seen).begin()->value;
+  };
+  EXPECT_EQ(0.80, after(0.0, 2));
+  EXPECT_EQ(0.15, after(1.0, 3));
+  EXPECT_EQ(0.15, after(20.0, 4)) << "the minimum time is over";
+  EXPECT_EQ(0.80, after(21.0, 0));
+}
+
+TEST(Density, can_be_told_not_to_care_about_failed_plans) {
+  Given given = two_levels;
+  given["failures_to_fine"] = 0.0;
+  const auto density = start_policy("density", given);
   flyball::Observation seen;
   seen.planner_failures = 9;
   EXPECT_EQ(0.80, density.policy->decide(seen).begin()->value);
