@@ -21,9 +21,13 @@ class GridMapper final : public Mapper {
     return Work{};
   }
   void commit() override {}
-  void declare_clear(const Vec3&, const Cylinder&) override {}
+  void declare_clear(const Vec3& centre_W, const Cylinder&) override {
+    declared_W.push_back(centre_W);
+  }
   [[nodiscard]] const OccupancyView& view() const override { return map_; }
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return {}; }
+
+  std::vector<Vec3> declared_W{};
 
  private:
   const GridMap& map_;
@@ -44,7 +48,9 @@ struct MissionRig {
     equipment.airframe.body_diameter_m = 0.65;
     equipment.airframe.body_height_m = 0.2;
     equipment.knobs = KnobSettings{standard_knobs(scenario, platform)};
-    equipment.kernels.mapper = std::make_unique<GridMapper>(map);
+    auto grid_mapper = std::make_unique<GridMapper>(map);
+    mapper = grid_mapper.get();
+    equipment.kernels.mapper = std::move(grid_mapper);
     equipment.kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
     context = std::make_unique<MissionContext>(scenario, platform, trace, std::move(brief),
                                                std::move(equipment));
@@ -60,6 +66,7 @@ struct MissionRig {
   Scenario scenario;
   ModeledPlatform platform{free_of_charge()};
   MemoryRecorder trace;
+  GridMapper* mapper{};  ///< The context's.
   std::unique_ptr<MissionContext> context;
 };
 

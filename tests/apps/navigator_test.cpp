@@ -228,6 +228,23 @@ TEST(Navigator, plans_at_once_when_only_the_map_has_moved_on) {
   }
 }
 
+TEST(Navigator, calls_the_place_clear_where_it_rests_when_a_plan_cannot_begin_there) {
+  Trip trip;
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  const auto fail = [&](const char* why) {
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.navigator.path_planned(trip.now, {query->id, {}, why});
+    trip.tick(60);
+  };
+  trip.tick(1);
+  fail("no path");
+  EXPECT_TRUE(trip.rig.mapper->declared_W.empty());
+  fail("start blocked");
+  ASSERT_EQ(trip.rig.mapper->declared_W.size(), 1U);
+  EXPECT_LT((trip.rig.mapper->declared_W[0] - Vec3{0, 0, 1.5}).norm(), 1e-9);
+}
+
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
   Trip trip;
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
