@@ -3,6 +3,7 @@
 // What the governor does when the policy, or what it relies on, fails.
 #include "flyball/governors/policy_governor.h"
 
+#include "rule_policy.h"
 #include <cmath>
 #include <map>
 
@@ -14,32 +15,12 @@ using flyball::Decision;
 using flyball::MissionTime;
 using flyball::Observation;
 using flyball::PolicyFault;
+using flyball::kit::Rule;
+using flyball::kit::RulePolicy;
 using namespace std::chrono_literals;
 
-using Rule = std::function<Decision(const Observation&)>;
-
-class RulePolicy final : public flyball::Policy {
- public:
-  explicit RulePolicy(Rule rule) : rule_{std::move(rule)} {}
-  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override { return {}; }
-  flyball::Status start(const flyball::Parameters& /*given*/,
-                        const flyball::KnobSettings& /*knobs*/) override {
-    return flyball::Done{};
-  }
-  [[nodiscard]] Decision decide(const Observation& seen) noexcept override { return rule_(seen); }
-
- private:
-  Rule rule_;
-};
-
-flyball::KnobSettings knobs() {
-  return flyball::KnobSettings{
-      {{"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.80}, 0.0, 0.0, 0.15, {}, ""},
-       {"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, {}, ""}}};
-}
-
 flyball::PolicyGovernor governor_of(Rule rule) {
-  return {std::make_unique<RulePolicy>(std::move(rule)), knobs(), {}, {}};
+  return {std::make_unique<RulePolicy>(std::move(rule)), flyball::kit::map_knobs(), {}, {}};
 }
 
 Decision wish(std::string_view knob, double value) {
@@ -79,7 +60,7 @@ class Troubled final : public flyball::Policy {
 };
 
 TEST(PolicyGovernor, says_in_one_sentence_why_it_fell_back) {
-  flyball::PolicyGovernor troubled{std::make_unique<Troubled>(), knobs(), {}, {}};
+  flyball::PolicyGovernor troubled{std::make_unique<Troubled>(), flyball::kit::map_knobs(), {}, {}};
   EXPECT_EQ(safe_default, values(troubled.decide(at(0ms))));
   EXPECT_EQ(PolicyFault::failed, troubled.last_fault());
   EXPECT_EQ(flyball::Fallback::safe_static, troubled.fallback());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/policy_governor.h"
 
+#include "rule_policy.h"
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,28 +14,12 @@ using flyball::Decision;
 using flyball::MissionTime;
 using flyball::Observation;
 using flyball::PolicyFault;
+using flyball::kit::Rule;
+using flyball::kit::RulePolicy;
 using namespace std::chrono_literals;
 
-using Rule = std::function<Decision(const Observation&)>;
-
-class RulePolicy final : public flyball::Policy {
- public:
-  explicit RulePolicy(Rule rule) : rule_{std::move(rule)} {}
-  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override { return {}; }
-  flyball::Status start(const flyball::Parameters& /*given*/,
-                        const flyball::KnobSettings& /*knobs*/) override {
-    return flyball::Done{};
-  }
-  [[nodiscard]] Decision decide(const Observation& seen) noexcept override { return rule_(seen); }
-
- private:
-  Rule rule_;
-};
-
 flyball::KnobSettings knobs() {
-  flyball::KnobSettings settings{
-      {{"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.80}, 0.0, 0.0, 0.15, {}, ""},
-       {"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, {}, ""}}};
+  flyball::KnobSettings settings = flyball::kit::map_knobs();
   EXPECT_TRUE(settings.set("map.resolution_m", 0.80).ok());
   return settings;
 }
