@@ -50,6 +50,8 @@ class MissionEnergy final : public flyball::Policy {
             {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."},
             {"patience_s", 3.0, 0.1, 3600.0, "Standing for this long: fine."},
             {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
+            {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
+            {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
             {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
   }
 
@@ -73,6 +75,14 @@ class MissionEnergy final : public flyball::Policy {
     }
     flyball::EnergySearchSettings settings;
     settings.bound.alpha = given.number("alpha");
+    settings.learn_s = given.number("learn_s");
+    if (const double margin = given.number("margin"); margin != 0.0) {
+      if (margin < 1.0) {
+        return refused("margin = " + std::to_string(margin) + " must be at least 1, or 0");
+      }
+      settings.bound.first = std::log(margin);
+      settings.bound.eta = 0.0;
+    }
     auto search = flyball::EnergySearch::make(settings, map_levels(given, ranges_m->back()),
                                               *ranges_m, knobs);
     if (!search) {
@@ -98,6 +108,10 @@ class MissionEnergy final : public flyball::Policy {
     const bool is_finest = best.setting.resolution_m <= levels_m_.front();
     wish.set("planner.budget", is_finest || !is_lattice_ ? full_budget_ : coarse_budget_);
     return wish;
+  }
+
+  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
+    return search_->promises();
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {

@@ -56,8 +56,20 @@ void GovernorLoop::tick(MissionTime now) {
   if (const std::string_view said = governor_.remark(); !said.empty()) {
     context_.event(now, "policy says: " + std::string{said});
   }
+  record_promises(now);
   apply(now, decision);
   ++decisions_;
+}
+
+void GovernorLoop::record_promises(MissionTime now) {
+  const std::optional<PromiseCount> count = governor_.policy().promises();
+  if (count && count->issued != promises_) {
+    promises_ = count->issued;
+    context_.recorder.record(now, "promise",
+                             {{"issued", static_cast<std::int64_t>(count->issued)},
+                              {"late", static_cast<std::int64_t>(count->late)},
+                              {"factor", count->factor}});
+  }
 }
 
 /// Whole when it has looked around; else what has changed since, so that fast policies do not fill

@@ -45,6 +45,7 @@ class GovernorLoop {
   void observe_gaps();
   void observe_computer(MissionTime now);
   void record(bool is_whole);
+  void record_promises(MissionTime now);
   void apply(MissionTime now, const Decision& decision);
   void note_moved_wishes(MissionTime now);
   void note_fallback(MissionTime now);
@@ -69,6 +70,7 @@ class GovernorLoop {
   std::uint64_t knob_changes_{};
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
+  std::uint64_t promises_{};  ///< Settled ones that the record has.
   Fallback fallback_{Fallback::none};
   std::string why_{};              ///< Of the last fallback that the record has.
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.

@@ -116,26 +116,58 @@ void EnergySearch::learn(const Observation& seen) {
   }
 }
 
+/// A board that is too hot grants less than was asked for, and a governor takes its time: a map is
+/// made at the clocks that were seen, not at the one that was wished for.
+void EnergySearch::note_clock(const Observation& seen) {
+  const double hz = seen.frequency.value();
+  const bool is_told = hz > 1e6 && hz < 1e12;  // Else a fault of whoever observes.
+  clock_factors_ += settings_.clock.factor(is_told ? seen.frequency : Hertz{in_force_.clock_hz});
+  ++looks_;
+}
+
+/// At which a map would take as long as at those that were seen.
+Hertz EnergySearch::mean_clock() const {
+  return Hertz{1e9 * settings_.clock.a / (clock_factors_ / looks_ - settings_.clock.b)};
+}
+
 void EnergySearch::learn_latency(const Observation& seen) {
   const double measured_s = to_seconds(seen.latency);
   constexpr double absurd_s = 100.0;
   const bool is_new = seen.map_revision != revision_ && measured_s > 0.0 && measured_s < absurd_s;
   revision_ = seen.map_revision;
-  bound_.expire(seen.now - (is_new ? seen.latency : Duration::zero()));
+  note_clock(seen);
+  const Hertz clock = mean_clock();
+  bound_.regrant(ticket_, settings_.clock.factor(clock) / settings_.clock.factor(issued_at_));
   if (!is_new) {
+    // The next map begins with the next frame: until then nothing is late.
+    bound_.expire(seen.now - from_seconds(settings_.frame_s));
     return;
   }
   bound_.settle(ticket_, issued_ + seen.latency);
+  clock_factors_ = 0.0;
+  looks_ = 0;
   // A frame that was captured before the setting came into force says nothing about it.
   const bool is_of_this_setting = seen.now - seen.latency >= in_force_since_ &&
                                   std::abs(seen.map_resolution_m - in_force_.resolution_m) < 1e-9;
   if (is_of_this_setting) {
-    models_.learn(level(in_force_.resolution_m),
-                  {1.0, in_force_.range_m, Hertz{in_force_.clock_hz}}, seen.latency);
+    if (settings_.learn_s == 0.0 || to_seconds(seen.now.time_since_epoch()) < settings_.learn_s) {
+      models_.learn(level(in_force_.resolution_m), {1.0, in_force_.range_m, clock}, seen.latency);
+    }
     issued_ = seen.now;
+    issued_at_ = Hertz{in_force_.clock_hz};
     ticket_ =
         bound_.issue(level(in_force_.resolution_m), issued_, from_seconds(predicted_s(in_force_)));
   }
+}
+
+PromiseCount EnergySearch::promises() const {
+  PromiseCount count;
+  for (std::size_t i = 0; i < bound_.levels(); ++i) {
+    count.issued += bound_.tracker(i).decisions();
+    count.late += bound_.tracker(i).misses();
+  }
+  count.factor = bound_.tracker(level(in_force_.resolution_m)).factor();
+  return count;
 }
 
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {

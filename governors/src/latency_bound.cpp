@@ -10,7 +10,7 @@ namespace flyball {
 
 QuantileTracker::QuantileTracker(const Settings& settings)
     : settings_{settings}, q_{settings.first} {
-  FLYBALL_ASSERT(settings.alpha > 0.0 && settings.alpha < 1.0 && settings.eta > 0.0,
+  FLYBALL_ASSERT(settings.alpha > 0.0 && settings.alpha < 1.0 && settings.eta >= 0.0,
                  "alpha=%g, eta=%g", settings.alpha, settings.eta);
 }
 

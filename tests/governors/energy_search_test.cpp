@@ -203,5 +203,84 @@ TEST(EnergySearch, refuses_what_no_knob_can_be) {
   EXPECT_FALSE(EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}).ok());
 }
 
+/// Maps of .8 m, one in each of `n` looks, `period_s` apart.
+void see_maps(EnergySearch& one, int n, double period_s, double latency_s, double from_s = 1.0) {
+  for (int i = 0; i < n; ++i) {
+    const double t_s = from_s + i * period_s;
+    one.learn(seen_map(t_s, static_cast<std::uint64_t>(t_s * 1e3), 0.80, latency_s));
+    (void)one.choose(open_space(), MissionTime{from_seconds(t_s)});
+  }
+}
+
+EnergySearch search_with(const EnergySearchSettings& settings) {
+  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs());
+}
+
+TEST(EnergySearch, a_map_that_was_quick_is_in_time_however_seldom_it_is_looked_for) {
+  EnergySearch one = search();
+  see_maps(one, 100, 0.25, 0.01);
+  EXPECT_GT(one.promises().issued, 90U);
+  EXPECT_LT(one.promises().late, 8U);
+}
+
+TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
+  EnergySearch one = search();
+  see_maps(one, 20, 0.25, 0.1);
+  const PromiseCount before = one.promises();
+  Observation seen = seen_map(6.0, 5750, 0.80, 0.1);  // The last map that was seen.
+  for (int i = 0; i < 8; ++i) {
+    seen.now += std::chrono::milliseconds{250};
+    one.learn(seen);
+  }
+  EXPECT_EQ(one.promises().issued, before.issued + 1);
+  EXPECT_EQ(one.promises().late, before.late + 1);
+}
+
+TEST(EnergySearch,
+     with_a_constant_margin_is_late_for_good_when_costs_triple_and_nothing_is_learned) {
+  EnergySearchSettings once;
+  once.bound.eta = 0.0;
+  once.bound.first = std::log(1.3);
+  once.learn_s = 26.0;
+  EnergySearch kept = search_with(once);
+  EnergySearch calibrated = search_with({});
+  for (EnergySearch* one : {&kept, &calibrated}) {
+    see_maps(*one, 100, 0.25, 0.1);
+    const PromiseCount calm = one->promises();
+    EXPECT_LE(calm.late, 10U);
+    see_maps(*one, 50, 0.5, 0.3, 30.0);
+    const PromiseCount settled = one->promises();
+    see_maps(*one, 200, 0.5, 0.3, 60.0);
+    const auto late = one->promises().late - settled.late;
+    const auto issued = one->promises().issued - settled.issued;
+    ASSERT_GT(issued, 190U);
+    if (one == &kept) {
+      EXPECT_EQ(late, issued);
+      EXPECT_DOUBLE_EQ(one->promises().factor, 1.3);
+    } else {
+      EXPECT_LE(static_cast<double>(late), 0.1 * static_cast<double>(issued));
+    }
+  }
+}
+
+TEST(EnergySearch, a_slower_clock_than_asked_for_moves_the_promise) {
+  EnergySearchSettings constant;
+  constant.bound.eta = 0.0;
+  constant.bound.first = std::log(1.3);
+  EnergySearch one = search_with(constant);
+  see_maps(one, 40, 0.25, 0.1);
+  const PromiseCount before = one.promises();
+  for (int i = 0; i < 10; ++i) {
+    Observation seen = seen_map(20.0 + 0.5 * i, static_cast<std::uint64_t>(90000 + i), 0.80, 0.19);
+    seen.frequency = Hertz{0.5 * top_hz};  // .9 / 1 + .05 instead of .9 / 2 + .05: 1.9 times.
+    one.learn(seen);
+    (void)one.choose(open_space(), seen.now);
+  }
+  EXPECT_GE(one.promises().issued, before.issued + 9);
+  EXPECT_EQ(one.promises().late, before.late);
+}
+
 }  // namespace
 }  // namespace flyball

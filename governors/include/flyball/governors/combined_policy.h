@@ -25,6 +25,10 @@ class CombinedPolicy final : public Policy {
   /// The shorter one of both; the clock rule's own where the application has none.
   [[nodiscard]] std::optional<Duration> period() const override;
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
+  /// The application's.
+  [[nodiscard]] std::optional<PromiseCount> promises() const noexcept override {
+    return application_->promises();
+  }
 
  private:
   std::unique_ptr<Policy> application_;

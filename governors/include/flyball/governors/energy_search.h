@@ -7,6 +7,7 @@
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
 #include "flyball/governors/operating_points.h"
+#include "flyball/governors/policy.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/observation.h"
@@ -35,6 +36,7 @@ struct EnergySearchSettings {
   double horizon_m{10.0};    ///< Over which a switch must pay.
   QuantileTracker::Settings bound{0.05, 0.05, 0.1};
   ClockScaling clock{0.9, 0.05};
+  double learn_s{};  ///< Mission time after which latency is not learned any more; 0: it always is.
 };
 
 /// A resolution that the map may have, and what is known of its cost before the first flight.
@@ -93,6 +95,8 @@ class EnergySearch {
   /// What the last `choose` expected of each setting; infinite joules where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
+  /// Of all levels; the factor is that of the level in force.
+  [[nodiscard]] PromiseCount promises() const;
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
 
  private:
@@ -103,6 +107,8 @@ class EnergySearch {
   [[nodiscard]] std::size_t level(double resolution_m) const;
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
+  void note_clock(const Observation& seen);
+  [[nodiscard]] Hertz mean_clock() const;
   void learn_latency(const Observation& seen);
   [[nodiscard]] bool is_allowed(const MapSetting& candidate,
                                 const Surroundings& around,
@@ -121,6 +127,9 @@ class EnergySearch {
   std::uint64_t revision_{};
   LatencyBound::Ticket ticket_{};  ///< Of the next map; it was issued when the last one came.
   MissionTime issued_{};
+  Hertz issued_at_{1e9};    ///< The clock that the ticket counts on.
+  double clock_factors_{};  ///< Sum over the looks since then, of the clocks that were granted.
+  int looks_{};
   double other_core_ghz_{2.5};  ///< Busy cores of everything but the map, times the clock.
 };
 

@@ -38,8 +38,8 @@ class QuantileTracker {
  public:
   struct Settings {
     double alpha{0.05};  ///< Share of misses asked for, in (0, 1).
-    double eta{0.05};    ///< Step in log latency.
-    double first{0.2};   ///< q_1: a margin of 22 % until something is known.
+    double eta{0.05};   ///< Step in log latency; 0: q stays, a constant margin without (2) and (3).
+    double first{0.2};  ///< q_1: a margin of 22 % until something is known.
   };
 
   explicit QuantileTracker(const Settings& settings);

@@ -8,6 +8,7 @@
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,13 @@ struct PolicyOption {
   double joules_per_m{};
   double response_s{};        ///< Sensor to brake.
   double watts_per_second{};  ///< Worth of one second of latency; 0 where it limits nothing.
+};
+
+/// A policy that promises by when a result is there keeps count of its promises.
+struct PromiseCount {
+  std::uint64_t issued{};  ///< Settled ones: each result came, or its time ran out.
+  std::uint64_t late{};    ///< Of them.
+  double factor{1.0};      ///< Of the next promise: bound over prediction.
 };
 
 class Policy {
@@ -45,6 +53,10 @@ class Policy {
   [[nodiscard]] virtual std::string_view trouble() const noexcept { return {}; }
   /// What the record shall keep of the last `decide`, in its own words; empty: nothing.
   [[nodiscard]] virtual std::string_view remark() const noexcept { return {}; }
+  /// Empty: it promises nothing.
+  [[nodiscard]] virtual std::optional<PromiseCount> promises() const noexcept {
+    return std::nullopt;
+  }
   /// What it weighed in the last `decide`, best first; empty: it does not compare. For people who
   /// ask afterwards, not in flight: may allocate.
   [[nodiscard]] virtual std::vector<PolicyOption> options() const { return {}; }

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/drift.h"
+
+#include "flyball/apps/report.h"
+#include "flyball/apps/text_table.h"
+
+#include "commands.h"
+#include "flight_batch.h"
+#include "seed_list.h"
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+// The issue is what a policy does once it has had time to notice: the first 50 are not counted.
+constexpr std::uint64_t first_promise = 51;
+constexpr std::uint64_t last_promise = 450;
+
+struct DriftOptions {
+  FlightOptions flight{};
+  std::vector<std::string> policies{};
+  std::string seeds{"1..1"};
+  double at_s{30.0};
+  std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
+};
+
+struct Entry : PlannedFlight {
+  std::size_t drift{};   ///< Of the cases.
+  std::size_t policy{};  ///< Of the policies.
+};
+
+/// What all seeds of one policy under one event came to.
+struct Outcome {
+  DriftCount promises{};
+  std::size_t flights{};
+  std::size_t without_event{};  ///< The computer never got that hot.
+  std::size_t succeeded{};
+  std::size_t collisions{};
+  double energy_j{};  ///< Sum.
+};
+
+using Entries = std::vector<Entry>;
+
+std::variant<Entries, std::vector<Error>> plan(const DriftOptions& options,
+                                               const std::vector<DriftCase>& cases,
+                                               const std::vector<std::uint64_t>& seeds) {
+  Entries entries;
+  for (std::size_t drift = 0; drift < cases.size(); ++drift) {
+    FlightOptions flight = options.flight;
+    flight.settings.insert(flight.settings.end(), cases[drift].settings.begin(),
+                           cases[drift].settings.end());
+    for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
+      for (const std::uint64_t seed : seeds) {
+        auto planned = plan_flight(flight, options.policies[policy], seed, "");
+        if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+          return std::move(*errors);
+        }
+        auto& one = std::get<PlannedFlight>(planned);
+        const std::string folder =
+            comparison_folder(options.flight, one.scenario) + "/" + cases[drift].name;
+        one.folder = run_folder(folder, options.policies[policy], seed);
+        *(std::find(one.arguments.begin(), one.arguments.end(), "--out") + 1) = one.folder;
+        entries.push_back({std::move(one), drift, policy});
+      }
+    }
+  }
+  return entries;
+}
+
+Status add(const Entry& entry, const DriftCase& drift, double at_s, Outcome& outcome) {
+  const auto picture = finished_run(entry.folder, entry.scenario);
+  const Result<DriftRecord> record = read_drift_record(entry.folder);
+  if (!picture || !record) {
+    return record ? Error{ErrorCode::failed, "no record in \"" + entry.folder + "\""}
+                  : record.error();
+  }
+  ++outcome.flights;
+  outcome.succeeded += picture->summary.status == MissionStatus::succeeded ? 1 : 0;
+  outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
+  outcome.energy_j += picture->summary.energy_total_j();
+  const auto event = time_of_event(*record, drift, at_s);
+  outcome.without_event += event ? 0 : 1;
+  if (event) {
+    const DriftCount count = count_promises(*record, *event, first_promise, last_promise);
+    outcome.promises.decisions += count.decisions;
+    outcome.promises.late += count.late;
+  }
+  return Done{};
+}
+
+std::string percent(double share) {
+  return rounded(100.0 * share, 1) + " %";
+}
+
+std::string to_text(const DriftOptions& options,
+                    const std::vector<DriftCase>& cases,
+                    const std::vector<Outcome>& outcomes) {
+  std::vector<std::vector<std::string>> lines{
+      {"event", "policy", "late", "of promises", "share", "succeeded", "collisions", "energy kJ"}};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& one = outcomes[i];
+    lines.push_back({cases[i / options.policies.size()].name,
+                     options.policies[i % options.policies.size()],
+                     std::to_string(one.promises.late), std::to_string(one.promises.decisions),
+                     percent(one.promises.late_share()),
+                     std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
+                     std::to_string(one.collisions),
+                     rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
+  }
+  std::string text = "Promises " + std::to_string(first_promise) + " to " +
+                     std::to_string(last_promise) + " after the event, over all seeds:\n" +
+                     aligned(lines);
+  for (const DriftCase& drift : cases) {
+    text += drift.name + ": " + drift.description + "\n";
+  }
+  return text;
+}
+
+std::string to_json(const DriftOptions& options,
+                    const std::vector<DriftCase>& cases,
+                    const std::vector<Outcome>& outcomes) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& one = outcomes[i];
+    all.push_back({{"event", cases[i / options.policies.size()].name},
+                   {"policy", options.policies[i % options.policies.size()]},
+                   {"promises", one.promises.decisions},
+                   {"late", one.promises.late},
+                   {"late_share", one.promises.late_share()},
+                   {"flights", one.flights},
+                   {"without_event", one.without_event},
+                   {"succeeded", one.succeeded},
+                   {"collisions", one.collisions},
+                   {"energy_mean_j", one.energy_j / static_cast<double>(one.flights)}});
+  }
+  return all.dump(2) + "\n";
+}
+
+int show(const DriftOptions& options, const std::vector<DriftCase>& cases, const Entries& entries) {
+  std::vector<Outcome> outcomes(cases.size() * options.policies.size());
+  for (const Entry& entry : entries) {
+    Outcome& outcome = outcomes[entry.drift * options.policies.size() + entry.policy];
+    if (const Status added = add(entry, cases[entry.drift], options.at_s, outcome); !added) {
+      return refuse({added.error()});
+    }
+  }
+  print(options.flight.json ? to_json(options, cases, outcomes)
+                            : to_text(options, cases, outcomes));
+  return exit_success;
+}
+
+int drift(const DriftOptions& options) {
+  const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
+  if (!seeds) {
+    return refuse({seeds.error()});
+  }
+  if (const Status distinct = check_distinct(options.policies); !distinct) {
+    return refuse({distinct.error()});
+  }
+  const std::vector<DriftCase> cases = drift_cases(options.at_s);
+  auto planned = plan(options, cases, *seeds);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+    return refuse(*errors);
+  }
+  const Entries& entries = std::get<Entries>(planned);
+  std::vector<const PlannedFlight*> flights;
+  for (const Entry& entry : entries) {
+    if (!finished_run(entry.folder, entry.scenario)) {
+      flights.push_back(&entry);
+    }
+  }
+  std::size_t done = entries.size() - flights.size();
+  const Flown flown = fly_all(flights, options.jobs, [&](std::size_t index) {
+    const auto& flight = *flights[index];
+    const bool left_record = finished_run(flight.folder, flight.scenario).has_value();
+    if (left_record && has_watcher()) {
+      note("[" + std::to_string(++done) + "/" + std::to_string(entries.size()) + "] " +
+           flight.folder);
+    }
+    return left_record;
+  });
+  if (flown.interrupted) {
+    note("interrupted; the same command goes on from here");
+    return exit_interrupted;
+  }
+  if (!flown.errors.empty()) {
+    (void)refuse(flown.errors);
+    return flown.exit_code;
+  }
+  return show(options, cases, entries);
+}
+
+}  // namespace
+
+void add_drift(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "drift", "counts the promises that policies break after the computer has changed");
+  const auto options = std::make_shared<DriftOptions>();  // Owners: the parser's callbacks.
+  add_scenario(*command, options->flight);
+  add_contest(*command, options->policies, options->seeds);
+  command->add_option("--at", options->at_s, "mission time of the event, s")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->type_name("SECONDS");
+  add_jobs(*command, options->jobs);
+  add_output(*command, options->flight);
+  command->callback([options, &exit_code] { exit_code = drift(*options); });
+}
+
+}  // namespace flyball

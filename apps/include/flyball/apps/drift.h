@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a drifting computer does to a policy's promises: the events, and the count after them.
+
+#include "flyball/runtime/recorder.h"
+#include "flyball/runtime/result.h"
+#include "flyball/runtime/time.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flyball {
+
+/// Something that happens to the computer `at_s` after the start, as settings of a scenario.
+struct DriftCase {
+  std::string name{};
+  std::string description{};
+  std::vector<std::string> settings{};
+  /// How the record's event begins after which decisions are counted; empty: those from `at_s` on.
+  std::string begins_with{};
+};
+
+/// `none`, and one of each: costs that are three times the file's, a co-runner with half the cores
+/// and memory, a computer behind a bad heat sink that reaches its trips.
+[[nodiscard]] std::vector<DriftCase> drift_cases(double at_s);
+
+/// One promise of a policy that was kept or not, as the record tells.
+struct PromiseRow {
+  MissionTime at{};
+  std::uint64_t issued{};  ///< Until now.
+  std::uint64_t late{};    ///< Of them.
+};
+
+/// What of a record is about drift.
+struct DriftRecord {
+  std::vector<PromiseRow> promises{};
+  std::vector<std::pair<MissionTime, std::string>> events{};
+};
+
+[[nodiscard]] DriftRecord drift_record(const MemoryRecorder& trace);
+/// Of a flight that is on disk.
+///
+/// @error `not_found`, `invalid_input` when there is no such record or it is broken.
+[[nodiscard]] Result<DriftRecord> read_drift_record(const std::string& run_folder);
+
+/// Promises `first` to `last` (from 1) after an event.
+struct DriftCount {
+  std::uint64_t decisions{};  ///< Fewer than `last - first + 1` when the mission ended before.
+  std::uint64_t late{};
+  [[nodiscard]] double late_share() const {
+    return decisions == 0 ? 0.0 : static_cast<double>(late) / static_cast<double>(decisions);
+  }
+};
+[[nodiscard]] DriftCount count_promises(const DriftRecord& record,
+                                        MissionTime event,
+                                        std::uint64_t first,
+                                        std::uint64_t last);
+
+/// When the case's event took place; empty when it did not.
+[[nodiscard]] std::optional<MissionTime> time_of_event(const DriftRecord& record,
+                                                       const DriftCase& drift,
+                                                       double at_s);
+
+}  // namespace flyball
