@@ -11,6 +11,9 @@
 namespace flyball {
 namespace {
 
+// Of ORB's corners: FAST finds whole pixels of its octave; measured on rendered views, two
+// detections of one corner lie .5 to .8 px apart.
+constexpr double corner_sigma_px = 0.8;
 constexpr int octaves = 8;
 constexpr int fast_threshold = 10;  // Of 255 grey levels: few corners are better than none.
 constexpr int cell_px = 32;         // Side of the parts over which the points are spread.
@@ -63,11 +66,17 @@ std::vector<cv::Point2f> straightened(const CameraModel& camera,
   return straight;
 }
 
-/// OpenCV multiplies the coordinates of an octave's pixels; their centres lie elsewhere.
-void centre(std::vector<cv::KeyPoint>& points) {
+/// OpenCV multiplies the coordinates in an octave's image by the octave's scale. But that image has
+/// a whole number of pixels, so that its real scale is another one (a pixel at the right edge), and
+/// the centre of its first pixel lies half a coarse pixel from the edge, not half a fine one.
+void place_exactly(std::vector<cv::KeyPoint>& points, const CameraModel& camera) {
   for (cv::KeyPoint& point : points) {
-    const auto coarse = static_cast<float>(std::pow(octave_scale, point.octave));
-    point.pt += cv::Point2f{0.5F * (coarse - 1.0F), 0.5F * (coarse - 1.0F)};
+    const double nominal = std::pow(octave_scale, point.octave);
+    const auto exactly = [nominal](float at, int pixels) {
+      const double real = pixels / std::round(pixels / nominal);
+      return static_cast<float>((static_cast<double>(at) / nominal + 0.5) * real - 0.5);
+    };
+    point.pt = {exactly(point.pt.x, camera.width_px), exactly(point.pt.y, camera.height_px)};
   }
 }
 
@@ -80,12 +89,9 @@ std::vector<Feature> features_of(const VisualFrame& frame,
     Feature& feature = features[i];
     feature.pixel = {static_cast<double>(straight[i].x), static_cast<double>(straight[i].y)};
     feature.octave = points[i].octave;
-    const Eigen::Vector2d raw{static_cast<double>(points[i].pt.x),
-                              static_cast<double>(points[i].pt.y)};
-    if (const auto depth = depth_around(frame, raw)) {
-      feature.depth_m = depth->depth_m;
-      feature.slope_m_px = depth->slope_m_px;
-    }
+    feature.raw_pixel = {static_cast<double>(points[i].pt.x), static_cast<double>(points[i].pt.y)};
+    feature.sigma_px = corner_sigma_px * std::pow(octave_scale, feature.octave);
+    measure_depth(feature, frame);
     std::memcpy(feature.descriptor.bits.data(), descriptors.ptr(static_cast<int>(i)),
                 sizeof feature.descriptor.bits);
   }
@@ -140,6 +146,12 @@ std::optional<SurfaceDepth> depth_around(const VisualFrame& frame,
                       std::hypot(by_x, by_y)};
 }
 
+void measure_depth(Feature& feature, const VisualFrame& frame) {
+  const auto depth = depth_around(frame, feature.raw_pixel);
+  feature.depth_m = depth ? std::optional{depth->depth_m} : std::nullopt;
+  feature.slope_m_px = depth ? depth->slope_m_px : 0.0;
+}
+
 Status check_frame(const VisualFrame& frame) {
   const CameraModel& camera = frame.camera;
   const bool sized = camera.width_px > 0 && camera.height_px > 0 &&
@@ -185,7 +197,7 @@ Result<std::vector<Feature>> FeatureExtractor::extract(const VisualFrame& frame,
     points = spread(std::move(points), frame.camera.width_px / cell_px + 1, detector_->count);
     cv::Mat rows;
     detector_->orb->compute(image, points, rows);
-    centre(points);
+    place_exactly(points, frame.camera);
     std::vector<Feature> features = features_of(frame, points, rows);
     work.add("features", static_cast<double>(features.size()));
     return features;

@@ -38,6 +38,8 @@ struct Descriptor {
 
 struct Feature {
   Eigen::Vector2d pixel{Eigen::Vector2d::Zero()};  ///< Where a camera without distortion sees it.
+  Eigen::Vector2d raw_pixel{Eigen::Vector2d::Zero()};  ///< In the image.
+  double sigma_px{1.0};
   std::optional<double> depth_m{};
   double slope_m_px{};  ///< Of the depth, where the surface is slanted.
   int octave{};         ///< Of the image pyramid, each 1.2 times coarser than the one below.
@@ -60,6 +62,9 @@ struct SurfaceDepth {
 /// one pixel's noise. None at an edge, without returns, or beyond what the camera can tell to 5 %.
 [[nodiscard]] std::optional<SurfaceDepth> depth_around(const VisualFrame& frame,
                                                        const Eigen::Vector2d& raw_pixel);
+
+/// Depth and its slope at the feature's place.
+void measure_depth(Feature& feature, const VisualFrame& frame);
 
 struct FeatureSettings {
   int count{800};  ///< At most, spread over the image.

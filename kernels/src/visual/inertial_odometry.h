@@ -34,6 +34,7 @@ class InertialOdometry {
   [[nodiscard]] const InertialFilter& filter() const { return filter_; }
 
  private:
+  [[nodiscard]] bool is_due(MissionTime now) const;
   void begin(MissionTime now);
   void advance(MissionTime to);
   void propagate(const ImuSample& sample, MissionTime to);

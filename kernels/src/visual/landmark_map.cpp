@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visual/landmark_map.h"
 
+#include "visual/patches.h"
 #include <algorithm>
 #include <cmath>
 
 namespace flyball {
 namespace {
 
-// Of ORB's corners: FAST finds whole pixels of its octave; measured on rendered views, two
-// detections of one corner lie .5 to .8 px apart.
-constexpr double corner_sigma_px = 0.8;
 constexpr double pose_sigma_m = 0.01;
 
-double sigma_px(const Feature& feature) {
-  return corner_sigma_px * std::pow(octave_scale, feature.octave);
-}
-
 /// Uncertainty of a point from one view: across the ray by the pixel, along it by the depth `d`.
-Eigen::Matrix3d covariance_C(const Feature& feature, const CameraModel& camera, double d) {
+Eigen::Matrix3d covariance_C(const Feature& feature,
+                             const CameraModel& camera,
+                             double d,
+                             double sigma_px) {
   const Vec3 ray = back_projected(camera, feature.pixel, 1.0);
-  const double across_m = d * sigma_px(feature) / camera.focal_x_px;
-  const double along_m = std::hypot(depth_sigma_m(d), feature.slope_m_px * sigma_px(feature));
+  const double across_m = d * sigma_px / camera.focal_x_px;
+  const double along_m = std::hypot(depth_sigma_m(d), feature.slope_m_px * sigma_px);
   Eigen::Matrix3d covariance = along_m * along_m * ray * ray.transpose();
   covariance.diagonal().array() += across_m * across_m;
   return covariance;
@@ -29,9 +26,8 @@ Eigen::Matrix3d covariance_C(const Feature& feature, const CameraModel& camera, 
 }  // namespace
 
 LandmarkSighting sighting_of(const LandmarkMap& map, int landmark, const Feature& feature) {
-  return {map.p_W(landmark), map.covariance_W(landmark),
-          feature.pixel,     sigma_px(feature),
-          feature.depth_m,   feature.slope_m_px * sigma_px(feature)};
+  return {map.p_W(landmark), map.covariance_W(landmark),           feature.pixel, feature.sigma_px,
+          feature.depth_m,   feature.slope_m_px * feature.sigma_px};
 }
 
 std::size_t LandmarkMap::add(Keyframe keyframe, const CameraModel& camera) {
@@ -55,7 +51,8 @@ int LandmarkMap::add_landmark(const Feature& feature,
   Landmark fresh;
   fresh.anchor = keyframe;
   fresh.p_K = back_projected(camera, feature.pixel, *feature.depth_m);
-  fresh.covariance_K = covariance_C(feature, camera, *feature.depth_m);
+  // It is whatever is seen at that pixel, wherever the corner is: that pixel can be found again.
+  fresh.covariance_K = covariance_C(feature, camera, *feature.depth_m, patch_sigma_px);
   fresh.descriptor = feature.descriptor;
   fresh.octave = feature.octave;
   fresh.distance_m = fresh.p_K.norm();
@@ -88,7 +85,7 @@ void LandmarkMap::observe(int id,
   // Measured as a point in C: the covariance is that of one view, plus the pose's. It is taken at
   // the expected depth: at the measured one, the shorter of two would always weigh more.
   const Vec3 seen_C = back_projected(camera, feature.pixel, *feature.depth_m);
-  Eigen::Matrix3d noise = covariance_C(feature, camera, p_C.z());
+  Eigen::Matrix3d noise = covariance_C(feature, camera, p_C.z(), feature.sigma_px);
   noise.diagonal().array() += pose_sigma_m * pose_sigma_m;
   const Eigen::Matrix3d R_CK = X_CK.linear();
   const Eigen::Matrix3d prior_C = R_CK * mark.covariance_K * R_CK.transpose();

@@ -30,7 +30,8 @@ struct Keyframe {
   Pose X_WC{Pose::Identity()};
   double path_m{};  ///< Flown since the first one.
   std::vector<Feature> features{};
-  std::vector<int> landmarks{};  ///< Of each feature, or `no_landmark`.
+  std::vector<int> landmarks{};      ///< Of each feature, or `no_landmark`.
+  std::vector<std::uint8_t> grey{};  ///< The image.
 };
 
 /// Only grows, but for `merge`.

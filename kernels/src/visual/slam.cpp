@@ -2,9 +2,10 @@
 #include "visual/slam.h"
 
 #include "visual/motion.h"
+#include "visual/patches.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 
 namespace flyball {
 namespace {
@@ -55,7 +56,8 @@ Result<SlamOutcome> Slam::track(const VisualFrame& frame, Work& work) {
     speed_ = std::nullopt;
     return outcome;
   }
-  const Found all = extend(std::move(*found), frame, grid, work);
+  Found all = extend(std::move(*found), frame, grid, work);
+  all = sharpen(std::move(all), frame, *features, work);
   learn(all, *features, frame.camera);
   go_to(all.pose.X_WC, frame.captured);
   outcome.tracked = true;
@@ -168,15 +170,58 @@ Slam::Found Slam::extend(Found found,
   for (const int id : in_view) {
     map_.count_expected(id);
   }
-  std::vector<LandmarkSighting> sightings;
-  for (const Match& match : matches) {
-    sightings.push_back(sighting_of(map_, match.landmark, grid.features()[match.feature]));
-  }
-  SolvedPose solved = refine(sightings, frame.camera, found.pose.X_WC);
+  SolvedPose solved = refined(matches, grid.features(), frame.camera, found.pose.X_WC);
   if (solved.inliers < found.pose.inliers) {
     return found;
   }
   return {std::move(solved), matches};
+}
+
+SolvedPose Slam::refined(const std::vector<Match>& matches,
+                         const std::vector<Feature>& features,
+                         const CameraModel& camera,
+                         const Pose& X_WC_guess) const {
+  std::vector<LandmarkSighting> sightings;
+  for (const Match& match : matches) {
+    sightings.push_back(sighting_of(map_, match.landmark, features[match.feature]));
+  }
+  return refine(sightings, camera, X_WC_guess);
+}
+
+/// What the reference keyframe sees too is followed from there to a fraction of a pixel; then the
+/// pose again.
+Slam::Found Slam::sharpen(Found found,
+                          const VisualFrame& frame,
+                          std::vector<Feature>& features,
+                          Work& work) const {
+  const Keyframe& reference = map_.keyframes()[reference_];
+  std::map<int, std::size_t> seen;
+  for (std::size_t i = 0; i < reference.landmarks.size(); ++i) {
+    seen.emplace(reference.landmarks[i], i);
+  }
+  std::vector<PatchPair> pairs;
+  std::vector<std::size_t> followed;
+  for (std::size_t i = 0; i < found.matches.size(); ++i) {
+    const auto before = seen.find(found.matches[i].landmark);
+    if (found.pose.fits[i] && before != seen.end()) {
+      pairs.push_back({reference.features[before->second].raw_pixel,
+                       features[found.matches[i].feature].raw_pixel});
+      followed.push_back(found.matches[i].feature);
+    }
+  }
+  const auto places = follow_patches(reference.grey, frame.grey, frame.camera, pairs);
+  work.add("patches", static_cast<double>(pairs.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i]) {
+      Feature& feature = features[followed[i]];
+      feature.pixel += *places[i] - feature.raw_pixel;  // Distortion is the same 3 px away.
+      feature.raw_pixel = *places[i];
+      feature.sigma_px = patch_sigma_px;
+      measure_depth(feature, frame);
+    }
+  }
+  found.pose = refined(found.matches, features, frame.camera, found.pose.X_WC);
+  return found;
 }
 
 void Slam::learn(const Found& found,
@@ -210,6 +255,7 @@ void Slam::add_keyframe(const Found& found,
   Keyframe fresh;
   fresh.captured = frame.captured;
   fresh.X_WC = found.pose.X_WC;
+  fresh.grey = frame.grey;
   fresh.landmarks = no_landmarks(features.size());
   for (std::size_t i = 0; i < found.matches.size(); ++i) {
     if (found.pose.fits[i]) {

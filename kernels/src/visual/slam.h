@@ -27,8 +27,8 @@ struct SlamOutcome {
 /// The parts and their order are ORB-SLAM2's for RGB-D (Mur-Artal & Tardos 2017,
 /// doi:10.1109/TRO.2017.2705103): predict, look for the local map's landmarks, pose, keyframe,
 /// loop. In place of bundle adjustment each landmark is a Kalman filter of its place, and the pose
-/// weighs landmarks by their uncertainty. In place of a bag of words, keyframes near the pose are
-/// compared.
+/// weighs landmarks by their uncertainty, on places that are followed from the reference keyframe
+/// to a fraction of a pixel. In place of a bag of words, keyframes near the pose are compared.
 class Slam {
  public:
   explicit Slam(const SlamSettings& settings);
@@ -36,7 +36,8 @@ class Slam {
   /// Forgets everything; the next frame is seen from here.
   void start(const Pose& X_WC);
   /// Frames in order of time. While the track is lost, each frame is compared with a few keyframes.
-  /// Adds `pixels`, `features`, `matches`, `ransac_iterations` and `graph_edges` to `work`.
+  /// Adds `pixels`, `features`, `matches`, `patches`, `ransac_iterations` and `graph_edges` to
+  /// `work`.
   /// @error As `FeatureExtractor::extract`; the map is unchanged.
   [[nodiscard]] Result<SlamOutcome> track(const VisualFrame& frame, Work& work);
   [[nodiscard]] const LandmarkMap& map() const { return map_; }
@@ -65,8 +66,16 @@ class Slam {
                              const VisualFrame& frame,
                              const FeatureGrid& grid,
                              Work& work);
+  [[nodiscard]] Found sharpen(Found found,
+                              const VisualFrame& frame,
+                              std::vector<Feature>& features,
+                              Work& work) const;
   void learn(const Found& found, const std::vector<Feature>& features, const CameraModel& camera);
   [[nodiscard]] bool wants_keyframe(const Found& found) const;
+  [[nodiscard]] SolvedPose refined(const std::vector<Match>& matches,
+                                   const std::vector<Feature>& features,
+                                   const CameraModel& camera,
+                                   const Pose& X_WC_guess) const;
   void add_keyframe(const Found& found, const VisualFrame& frame, std::vector<Feature> features);
   bool close_loop(const CameraModel& camera, Work& work);
   [[nodiscard]] std::vector<std::size_t> loop_candidates() const;
