@@ -130,12 +130,12 @@ Outcome fly(const Flight& flight) {
 void print_table(const std::string& localizer) {
   std::printf("Flights of %d that failed with %s, quarter lap at 320 x 240:\n\n| m/s |", int{runs},
               localizer.c_str());
-  const double rates_hz[] = {1.0, 2.0, 4.0, 8.0, 16.0};
+  const double rates_hz[] = {1.0, 2.0, 4.0, 8.0};
   for (const double rate_hz : rates_hz) {
     std::printf(" %g Hz |", rate_hz);
   }
-  std::printf("\n|---|---|---|---|---|---|\n");
-  for (const double speed_m_s : {2.0, 4.0, 6.0, 8.0, 12.0}) {
+  std::printf("\n|---|---|---|---|---|\n");
+  for (const double speed_m_s : {2.0, 4.0, 8.0, 12.0}) {
     std::printf("| %g |", speed_m_s);
     for (const double rate_hz : rates_hz) {
       int failed = 0;
