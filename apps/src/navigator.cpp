@@ -11,8 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto retry_after =
-    500ms;  // A new plan of the same map would fail again: wait for frames.
+constexpr auto retry_after = 500ms;  // The same map would fail again: wait for frames.
 constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
 // A plan is spliced in ahead of the vehicle by what plans take and half as much again.
 constexpr double lead_over_usual = 1.5;
@@ -20,6 +19,8 @@ constexpr std::size_t plans_remembered = 5;
 constexpr double least_lead_s = 0.1;
 constexpr double most_lead_s = 1.0;
 constexpr double arrival_m = 0.3;
+constexpr double rests_below_m_s = 0.02;
+constexpr double moves_above_m_s = 0.2;
 // When the way to the goal has become this much longer than it was at first, and stays so with a
 // frame that was taken at rest, a look to both sides may show a door that the vehicle flew past.
 constexpr double worth_a_look_m = 5.0;
@@ -57,17 +58,11 @@ bool Navigator::has_arrived() const {
   return goal_W_ && follower_.is_at_end() && (follower_.position_W() - *goal_W_).norm() < arrival_m;
 }
 
-LatencyWindow& Navigator::window(std::map<double, LatencyWindow>& windows,
-                                 double resolution_m,
-                                 Duration seed) {
-  return windows.try_emplace(resolution_m, seed).first->second;
-}
-
 void Navigator::map_published(MissionTime now,
                               const MapRevision& revision,
                               Duration expected_latency) {
-  auto& latency = window(latency_, revision.resolution_m, expected_latency);
-  auto& interval = window(interval_, revision.resolution_m, expected_latency);
+  auto& latency = latency_.try_emplace(revision.resolution_m, expected_latency).first->second;
+  auto& interval = interval_.try_emplace(revision.resolution_m, expected_latency).first->second;
   newest_latency_ = now - revision.captured;
   map_revision_ = revision.number;
   if (newest_latency_ > latency.bound()) {
@@ -113,7 +108,9 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
     want_plan(now, "path ends short of the goal");
   }
-  if (follower_.stalled(now) > stall_patience) {
+  if (follower_.stalled(now) > stall_patience && !wants_plan_) {
+    trust_own_place();
+    context_.counters.planner_failures_in_row = ++stalls_;
     want_plan(now, "stalled before unknown space");
   }
   if (!wants_plan_ || now < not_before_ || (doubts_way_ && !sees_from_rest())) {
@@ -166,12 +163,15 @@ void Navigator::start_from_path(PlanQuery& query) {
       follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
 }
 
+// Noise, or part of an obstacle, may fill a cell that the body reaches into. Yet its place is free.
+void Navigator::trust_own_place() {
+  context_.kernels.mapper->declare_clear(follower_.position_W(), context_.body_at(0.0));
+}
+
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   ++context_.counters.planner_failures_in_row;
   if (planned.failure == "start blocked" && at_rest_since_) {
-    // An obstacle fills a part of the cell that the body reaches into, or noise has filled it. But
-    // where the body is, is free: a finer map begins with that.
-    context_.kernels.mapper->declare_clear(follower_.position_W(), context_.airframe.body());
+    trust_own_place();
   }
   not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});
   want_plan(now, planned.failure);
@@ -186,7 +186,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     plan_failed(now, planned);
     return;
   }
-  context_.counters.planner_failures_in_row = 0;
+  context_.counters.planner_failures_in_row = stalls_;
   planning_s_.push_back(to_seconds(now - asked_at_));
   while (planning_s_.size() > plans_remembered) {
     planning_s_.pop_front();
@@ -271,12 +271,12 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = measured(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
-  if (reference.speed_m_s > 0.02) {
-    at_rest_since_.reset();
-  } else if (!at_rest_since_) {
-    at_rest_since_ = now;
+  const bool rests = reference.speed_m_s <= rests_below_m_s;
+  at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};
+  if (stalls_ > 0 && reference.speed_m_s > moves_above_m_s) {
+    context_.counters.planner_failures_in_row = stalls_ = 0;
   }
-  if (reference.speed_m_s > 0.02 || !goal_W_ || has_arrived()) {
+  if (!rests || !goal_W_ || has_arrived()) {
     without_path_since_ = now;
   } else if (to_seconds(now - without_path_since_) > context_.scenario.mission.plan_time_limit_s) {
     context_.finish(now, MissionStatus::failed, MissionFailure::no_plan);

@@ -76,6 +76,7 @@ class Navigator {
  private:
   [[nodiscard]] bool is_leg_ending() const;
   [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
+  void trust_own_place();
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
   void start_from_path(PlanQuery& query);
@@ -84,9 +85,6 @@ class Navigator {
   void doubt(MissionTime now);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
-  [[nodiscard]] LatencyWindow& window(std::map<double, LatencyWindow>& windows,
-                                      double resolution_m,
-                                      Duration seed);
 
   MissionContext& context_;
   PathFollower follower_;
@@ -95,6 +93,7 @@ class Navigator {
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be flown into.
+  int stalls_{};    ///< Plans in a row that have led nowhere: they count as failed ones.
   MissionTime asked_at_{};
   std::deque<double> planning_s_{};  ///< What the last few plans took.
   bool wants_plan_{};

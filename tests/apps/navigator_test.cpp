@@ -231,18 +231,35 @@ TEST(Navigator, plans_at_once_when_only_the_map_has_moved_on) {
 TEST(Navigator, calls_the_place_clear_where_it_rests_when_a_plan_cannot_begin_there) {
   Trip trip;
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
-  const auto fail = [&](const char* why) {
+  for (const char* why : {"no path", "start blocked"}) {
+    EXPECT_TRUE(trip.rig.mapper->declared_W.empty());
     const auto query = trip.navigator.next_query(trip.now);
     ASSERT_TRUE(query.has_value());
+    trip.tick(60);
     trip.navigator.path_planned(trip.now, {query->id, {}, why});
     trip.tick(60);
-  };
-  trip.tick(1);
-  fail("no path");
-  EXPECT_TRUE(trip.rig.mapper->declared_W.empty());
-  fail("start blocked");
+  }
   ASSERT_EQ(trip.rig.mapper->declared_W.size(), 1U);
   EXPECT_LT((trip.rig.mapper->declared_W[0] - Vec3{0, 0, 1.5}).norm(), 1e-9);
+}
+
+TEST(Navigator, counts_a_plan_that_led_nowhere_as_failed_until_it_moves) {
+  Trip trip;
+  const auto fly_for = [&](int ticks) {
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, {40, 0, 1.5}), ""});
+    trip.tick(ticks);
+  };
+  trip.map.fill({Vec3{-2, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  fly_for(400);  // 8 s
+  fly_for(400);
+  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 1);
+  EXPECT_EQ(trip.rig.mapper->declared_W.size(), 1U);
+  trip.map.fill({Vec3{-2, -3, 0}, Vec3{60, 3, 3}}, CellState::free);
+  fly_for(100);
+  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 0);
 }
 
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
