@@ -70,8 +70,7 @@ octomap::point3d to_octomap(const flyball::Vec3& p) {
 // A finer map trusts only those free cells of this size and wider that surely hold no wall.
 constexpr double coarse_cell_m = 0.3;
 // In a cell wider than this the body can fly beside the wall that the cell contains, and rays that
-// pass there without touching it would free the cell: stock OctoMap forgets the wall, or never
-// learns of it.
+// pass there without touching it would free the cell: stock OctoMap forgets the wall.
 constexpr double wide_cell_m = 0.3;
 constexpr float confirmed_log_odds = 2.2F;  // p = .9: three hits
 
@@ -91,8 +90,7 @@ struct Layer {
   [[nodiscard]] bool is_wide() const { return tree.getResolution() > wide_cell_m; }
 
   void show_in(flyball::OctomapView& view) const {
-    view.activate(
-        {&tree, is_wide() ? &clear.cells() : nullptr, is_coarse() ? &clear.cells() : nullptr});
+    view.activate({&tree, is_coarse() ? &clear.cells() : nullptr});
     if (is_wide()) {
       view.activate(walls);
     }

@@ -220,8 +220,7 @@ bool OctomapView::is_vague(std::size_t layer, Use use) const {
 
 const octomap::OcTree& OctomapView::known(std::size_t layer, Use use) const {
   const Layer& of = layers_[layer];
-  const octomap::OcTree* trusted = is_vague(layer, use) ? of.trusted_by_finer : of.trusted;
-  return use == Use::look || trusted == nullptr ? *of.tree : *trusted;
+  return is_vague(layer, use) && of.trusted_by_finer != nullptr ? *of.trusted_by_finer : *of.tree;
 }
 
 template <class Shape, class Show>

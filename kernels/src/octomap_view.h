@@ -10,7 +10,7 @@
 /// unknown, so that a planner may look there for a door, and the guard still does not go. (Density
 /// and nearest obstacle take it as it is.) A coarse tree's free cube may hold a wall as well: a
 /// layer can name those that surely do not (bricks/clear_cells.h), and then the others stand for
-/// unknown, too. What
+/// unknown, too, where it answers for a finer tree. What
 /// no tree knows is unknown, except inside the cylinders that were declared clear. A place that is
 /// not finite is unknown, a way there is blocked.
 
@@ -32,16 +32,15 @@ class OctomapView final : public OccupancyView {
   /// Cylinders that are kept; past it the oldest of the thinnest goes.
   static constexpr std::size_t max_clear = 16;
 
-  /// A tree, and where those of its free cells stand that can be trusted by whoever moves: while it
-  /// is the active one, and where it answers for a finer one. Null: in the tree itself.
+  /// A tree, and where those of its free cells stand that can be trusted where it answers for a
+  /// finer one. Null: in the tree itself.
   struct Layer {
     const octomap::OcTree* tree;
-    const octomap::OcTree* trusted;
     const octomap::OcTree* trusted_by_finer;
   };
   /// Makes the layer the one that answers first. Its trees outlive the view.
   void activate(const Layer& layer);
-  void activate(const octomap::OcTree& tree) { activate({&tree, nullptr, nullptr}); }
+  void activate(const octomap::OcTree& tree) { activate({&tree, nullptr}); }
   /// Back to knowing no tree.
   void forget_trees() { layers_.clear(); }
   /// Ignored when an earlier cylinder contains it.
