@@ -141,15 +141,12 @@ int compare(const CompareOptions& options) {
   }
   reuse_finished(entries, folder);
   const Flown flown = fly_missing(entries, options.jobs);
-  if (flown.interrupted) {
-    note("interrupted; the same command goes on from here");
-    return exit_interrupted;
-  }
-  if (!flown.errors.empty()) {
-    (void)refuse(flown.errors);
-    remove_traces(entries);
-    remove_empty(*prepared);
-    return flown.exit_code;
+  if (const std::optional<int> code = unfinished(flown)) {
+    if (!flown.interrupted) {
+      remove_traces(entries);
+      remove_empty(*prepared);
+    }
+    return *code;
   }
   return show(options, folder, entries);
 }

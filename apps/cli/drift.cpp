@@ -186,13 +186,8 @@ int drift(const DriftOptions& options) {
     }
     return left_record;
   });
-  if (flown.interrupted) {
-    note("interrupted; the same command goes on from here");
-    return exit_interrupted;
-  }
-  if (!flown.errors.empty()) {
-    (void)refuse(flown.errors);
-    return flown.exit_code;
+  if (const std::optional<int> code = unfinished(flown)) {
+    return *code;
   }
   return show(options, cases, entries);
 }

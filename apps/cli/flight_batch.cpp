@@ -86,6 +86,18 @@ Flown fly_all(const std::vector<const PlannedFlight*>& flights,
   return flown;
 }
 
+std::optional<int> unfinished(const Flown& flown) {
+  if (flown.interrupted) {
+    note("interrupted; the same command goes on from here");
+    return exit_interrupted;
+  }
+  if (!flown.errors.empty()) {
+    (void)refuse(flown.errors);
+    return flown.exit_code;
+  }
+  return std::nullopt;
+}
+
 Status check_distinct(const std::vector<std::string>& policies) {
   std::set<std::string> folders;
   for (const std::string& policy : policies) {

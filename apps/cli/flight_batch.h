@@ -11,6 +11,7 @@
 #include "flight_options.h"
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,6 +45,9 @@ struct Flown {
 [[nodiscard]] Flown fly_all(const std::vector<const PlannedFlight*>& flights,
                             std::size_t jobs,
                             const std::function<bool(std::size_t)>& took);
+
+/// Says why not all flights were flown, and with what the command then ends. Empty: all were.
+[[nodiscard]] std::optional<int> unfinished(const Flown& flown);
 
 /// Two policies of one name (files in different folders) would write over each other's flights.
 [[nodiscard]] Status check_distinct(const std::vector<std::string>& policies);

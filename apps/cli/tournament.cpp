@@ -152,13 +152,8 @@ int fly_and_show(const TournamentOptions& options, TournamentStore& store, Entri
          " flights are known from before");
   }
   const Flown flown = fly_missing(options, store, entries);
-  if (flown.interrupted) {
-    note("interrupted; the same command goes on from here");
-    return exit_interrupted;
-  }
-  if (!flown.errors.empty()) {
-    (void)refuse(flown.errors);
-    return flown.exit_code;
+  if (const std::optional<int> code = unfinished(flown)) {
+    return *code;
   }
   return show(options, entries);
 }

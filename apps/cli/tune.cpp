@@ -151,13 +151,8 @@ int run(Race& race) {
       return refuse(*errors);
     }
     const Flown flown = fly_round(race, std::get<std::vector<Heat>>(planned));
-    if (flown.interrupted) {
-      note("interrupted; the same command goes on from here");
-      return exit_interrupted;
-    }
-    if (!flown.errors.empty()) {
-      (void)refuse(flown.errors);
-      return flown.exit_code;
+    if (const std::optional<int> code = unfinished(flown)) {
+      return *code;
     }
     std::stable_sort(race.candidates.begin(),
                      race.candidates.begin() + static_cast<std::ptrdiff_t>(round.candidates),

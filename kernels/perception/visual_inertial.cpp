@@ -16,7 +16,7 @@ namespace {
 using flyball::Pose;
 using flyball::VisualFix;
 
-class VisualInertial final : public flyball::Localizer {
+class VisualInertial final : public flyball::SeeingLocalizer {
  public:
   void start(const flyball::GeodeticOrigin& /*origin*/) override {
     odometry_.start(std::nullopt);
@@ -46,17 +46,8 @@ class VisualInertial final : public flyball::Localizer {
     return fix;
   }
 
-  void correct(const VisualFix& fix) override { reckoning_.correct(fix); }
-
-  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
-                                 flyball::Work& work) override {
-    work.add("samples", 1.0);
-    return reckoning_.estimate(sample);
-  }
-
  private:
   flyball::InertialOdometry odometry_;
-  flyball::DeadReckoning reckoning_;
 };
 
 }  // namespace

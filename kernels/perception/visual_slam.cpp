@@ -18,7 +18,7 @@ using flyball::Pose;
 using flyball::Vec3;
 using flyball::VisualFix;
 
-class VisualSlam final : public flyball::Localizer {
+class VisualSlam final : public flyball::SeeingLocalizer {
  public:
   void start(const flyball::GeodeticOrigin& /*origin*/) override { place(Pose::Identity()); }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, true, false}; }
@@ -54,14 +54,6 @@ class VisualSlam final : public flyball::Localizer {
     return fix;
   }
 
-  void correct(const VisualFix& fix) override { reckoning_.correct(fix); }
-
-  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
-                                 flyball::Work& work) override {
-    work.add("samples", 1.0);
-    return reckoning_.estimate(sample);
-  }
-
  private:
   /// Half of the new difference quotient: a centimetre of noise in 50 ms is .2 m/s. A loop moves
   /// the pose, not the vehicle.
@@ -78,7 +70,6 @@ class VisualSlam final : public flyball::Localizer {
   }
 
   flyball::Slam slam_{flyball::SlamSettings{}};
-  flyball::DeadReckoning reckoning_;
   VisualFix last_{};
   bool has_begun_{};
 };

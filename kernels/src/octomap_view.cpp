@@ -122,11 +122,17 @@ CellState OctomapView::state(const Vec3& p_W) const {
       continue;
     }
     const octomap::OcTreeNode* node = tree.search(key);
-    if (node != nullptr && tree.isNodeOccupied(node)) {
+    if (node == nullptr) {
+      continue;
+    }
+    if (tree.isNodeOccupied(node)) {
       if (!is_vague(layer, Use::move)) {
         return CellState::occupied;
       }
-    } else if (node != nullptr && is_free(known(layer, Use::move), key)) {
+      continue;
+    }
+    const octomap::OcTree& trusted = known(layer, Use::move);
+    if (&trusted == &tree || is_free(trusted, key)) {
       return CellState::free;
     }
   }

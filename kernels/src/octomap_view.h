@@ -10,9 +10,9 @@
 /// unknown, so that a planner may look there for a door, and the guard still does not go. (Density
 /// and nearest obstacle take it as it is.) A coarse tree's free cube may hold a wall as well: a
 /// layer can name those that surely do not (bricks/clear_cells.h), and then the others stand for
-/// unknown, too, where it answers for a finer tree. What
-/// no tree knows is unknown, except inside the cylinders that were declared clear. A place that is
-/// not finite is unknown, a way there is blocked.
+/// unknown, too, where it answers for a finer tree. What no tree knows is unknown, except inside
+/// the cylinders that were declared clear. A place that is not finite is unknown, a way there is
+/// blocked.
 
 #include "flyball/runtime/occupancy.h"
 

@@ -4,6 +4,7 @@
 /// @file
 /// From the last visual fix to now.
 
+#include "flyball/kernels/localizer.h"
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/messages.h"
 
@@ -30,6 +31,19 @@ class DeadReckoning {
   std::deque<Attitude> attitudes_;  ///< Of the last seconds.
   std::optional<VisualFix> fix_{};  ///< The last one that was tracked.
   Pose X_WB_start_{Pose::Identity()};
+};
+
+/// A localizer that sees knows a place per frame; between frames it reckons.
+class SeeingLocalizer : public Localizer {
+ public:
+  void correct(const VisualFix& fix) final { reckoning_.correct(fix); }
+  PoseEstimate estimate(const NavigationSample& sample, Work& work) final {
+    work.add("samples", 1.0);
+    return reckoning_.estimate(sample);
+  }
+
+ protected:
+  DeadReckoning reckoning_;
 };
 
 }  // namespace flyball
