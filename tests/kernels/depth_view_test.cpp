@@ -44,6 +44,7 @@ TEST(DepthView, says_of_eight_cubes_at_once_no_more_than_of_each) {
       const Eigen::Vector3f centre_C = random_block(generator);
       const OctantSight sight = (*view).sight_of_octants(centre_C, level);
       ASSERT_EQ(sight.whole & sight.part, 0U);
+      ASSERT_EQ((*view).whole_octants(centre_C, level), sight.whole);
       for (unsigned octant = 0; octant < 8; ++octant) {
         const Sight expected =
             (*view).sight_of(centre_C + (*view).to_octant(level, octant), level - 1);
@@ -72,6 +73,7 @@ TEST(DepthView, says_of_eight_cubes_the_same_with_all_vector_instructions) {
       const OctantSight b = (*wide).sight_of_octants(centre_C, 2 + i % 4);
       ASSERT_EQ(a.whole, b.whole);
       ASSERT_EQ(a.part, b.part);
+      ASSERT_EQ((*wide).whole_octants(centre_C, 2 + i % 4), a.whole);
     }
   }
 }

@@ -30,6 +30,9 @@ class DepthView {
   [[nodiscard]] OctantSight sight_of_octants(const Eigen::Vector3f& centre_C, int level) const {
     return loops_.see_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());
   }
+  [[nodiscard]] std::uint32_t whole_octants(const Eigen::Vector3f& centre_C, int level) const {
+    return loops_.whole_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());
+  }
   /// From the centre of a block of `level` to that of its octant.
   [[nodiscard]] Eigen::Vector3f to_octant(int level, unsigned octant) const {
     const auto& offset_C = octants_[static_cast<std::size_t>(level)].offset_C;

@@ -52,6 +52,7 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace portable
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -73,6 +74,7 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
 namespace avx512 {
@@ -86,6 +88,7 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 constexpr bool has_avx = true;

@@ -189,6 +189,8 @@ struct InnerLoops {
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
   /// What the image says about the eighths of the cube around `centre_C`.
   OctantSight (*see_octants)(const OctantProbe& probe, const float* centre_C);
+  /// The same, when only those seen as a whole matter.
+  std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
   /// Takes sixteen points, three numbers each.
   void (*split_points)(const float* points, PointBlock& block);
 };

@@ -183,7 +183,7 @@ void PyramidScan::free_octants(const Block& block) {
 void PyramidScan::free_eighths(const Block& brick) {
   masks_.blocks += 8.0;
   std::uint64_t cells = 0;
-  for (std::uint64_t left = view_.sight_of_octants(brick.centre_C, brick_level).whole; left != 0;
+  for (std::uint64_t left = view_.whole_octants(brick.centre_C, brick_level); left != 0;
        left &= left - 1) {
     const std::size_t octant = lowest_bit(left);
     cells |= std::uint64_t{0x330033}
