@@ -9,7 +9,7 @@ namespace {
 constexpr double short_piece_m = 0.3;
 // Stock OctoMap at .15 m: 172 ns for a point, 2648 ns for a body (measured, 50 poses indoors).
 constexpr double queries_per_cell = 1.0 / 16.0;
-// A window of 24 x 24 x 6 m takes as long as some 700 motions (measured, see tests/bench): it is
+// A window of 24 x 24 x 6 m takes as long as some 500 motions (measured, see tests/bench): it is
 // made when as many have been asked, and more are likely to come.
 constexpr int many_motions = 500;
 constexpr double largest_window_m3 = 10000.0;
