@@ -14,7 +14,7 @@
 namespace flyball {
 namespace {
 
-// Arrived is who is so near to the goal, and it may be so on both ends of a leg.
+// Arrived is who is within .3 m of the goal and .1 m of the reference; so at both ends of a leg.
 constexpr double off_the_ends_m = 1.0;
 
 /// In steady level flight; a lower limit of the mean over any flight at this speed.
@@ -56,37 +56,44 @@ class LeastPower {
 double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
   Work pixels;
   pixels.add("pixels", static_cast<double>(scenario.camera.width_px) * scenario.camera.height_px);
-  const Guard guard{GuardSettings{}};
-  const Duration least =
-      guard.reaction_time() + setup.platform->job_time(scenario.kernels.point_cloud, pixels,
-                                                       setup.platform->frequencies().back());
+  const Duration least = Guard{GuardSettings{}}.reaction_time() +
+                         setup.platform->job_time(scenario.kernels.point_cloud, pixels,
+                                                  setup.platform->frequencies().back());
   const KnobSpec* range = setup.equipment.knobs.spec("map.range_m");
-  return std::min(scenario.mission.max_speed_m_s, safe_speed(guard.settings().max_deceleration_m_s2,
-                                                             to_seconds(least), range->max));
+  return std::min(scenario.mission.max_speed_m_s,
+                  safe_speed(scenario.mission.max_acceleration_m_s2, to_seconds(least),
+                             range->max - setup.equipment.airframe.body().radius_m));
 }
 
-double zone_limit_m_s(const World& world, const Vec3& p_W, double limit_m_s) {
+/// The least of the zones that hold all of a cell, from its floor to its ceiling.
+double zone_limit_m_s(const World& world, const Aabb& cell_W, double limit_m_s) {
+  // Whoever keeps a speed looks at his limit in steps, and may be late by one.
+  constexpr double border_m = 0.25;
+  const Vec3 border{border_m, border_m, 0.0};
+  const Vec3 low_W = (cell_W.min - border).cwiseMax(world.bounds_W.min);
+  const Vec3 high_W = (cell_W.max + border).cwiseMin(world.bounds_W.max);
   for (const SpeedZone& zone : world.zones) {
-    // A zone from above: who flies over it or under it may be outside.
-    if (zone.box_W.contains(p_W)) {
+    if (zone.box_W.contains(low_W) && zone.box_W.contains(high_W)) {
       limit_m_s = std::min(limit_m_s, zone.max_speed_m_s);
     }
   }
   return limit_m_s;
 }
 
-Result<BoundedLeg> bound_leg(const WayCells& cells,
-                             const World& world,
-                             bool is_out,
-                             const std::function<double(const Vec3&)>& joules_per_m) {
-  const Vec3& from_W = is_out ? world.start_W : world.goal_W;
-  const Vec3& to_W = is_out ? world.goal_W : world.start_W;
-  const auto way = cells.way(from_W, to_W, joules_per_m);
+double slowest_m_s(const World& world, double limit_m_s) {
+  for (const SpeedZone& zone : world.zones) {
+    limit_m_s = std::min(limit_m_s, zone.max_speed_m_s);
+  }
+  return limit_m_s;
+}
+
+/// @param end_j  Saved at most by whoever comes only near to the ends.
+Result<BoundedLeg> bound_leg(const std::optional<CheapestWay>& way, double end_j) {
   if (!way) {
     return Error{ErrorCode::failed, "no way leads from start to goal in this world"};
   }
-  const double share = std::max(0.0, 1.0 - off_the_ends_m / std::max(way->length_m, 1e-9));
-  return BoundedLeg{share * way->cost, share * way->length_m};
+  return BoundedLeg{std::max(0.0, way->cost - end_j),
+                    std::max(0.0, way->length_m - off_the_ends_m)};
 }
 
 }  // namespace
@@ -110,17 +117,21 @@ Result<EnergyBound> bound_energy(const Scenario& scenario) {
   if (!setup) {
     return setup.error();
   }
+  const World& world = setup->world;
   const Airframe& airframe = setup->equipment.airframe;
   const LeastPower power{scenario, airframe, *setup->platform};
   const double fastest = fastest_m_s(scenario, *setup);
-  const WayCells cells{setup->world, airframe.body()};
+  const WayCells cells{world, airframe.body()};
   EnergyBound bound;
   for (const bool is_out : {true, false}) {
     const double payload_kg = is_out ? scenario.vehicle.payload_kg : 0.0;
-    const auto leg = bound_leg(cells, setup->world, is_out, [&](const Vec3& p_W) {
-      const double v = zone_limit_m_s(setup->world, p_W, fastest);
-      return power.watts(v, payload_kg) / v;
-    });
+    const auto joules_per_m = [&](double v_m_s) { return power.watts(v_m_s, payload_kg) / v_m_s; };
+    const WayPrice price{
+        [&](const Aabb& cell_W) { return joules_per_m(zone_limit_m_s(world, cell_W, fastest)); },
+        joules_per_m(fastest)};
+    const auto leg = bound_leg(cells.way(is_out ? world.start_W : world.goal_W,
+                                         is_out ? world.goal_W : world.start_W, price),
+                               off_the_ends_m * joules_per_m(slowest_m_s(world, fastest)));
     if (!leg) {
       return leg.error();
     }

@@ -25,12 +25,13 @@ World walled(double opening_m) {
   return world;
 }
 
-double dear(const Vec3&) {
-  return 1.0;
+WayPrice one_a_metre() {
+  return {[](const Aabb&) { return 1.0; }, 1.0};
 }
 
 TEST(WayCells, a_way_in_the_open_is_an_under_estimate_and_not_a_bad_one) {
   const WayCells cells{field(), body};
+  const WayPrice dear = one_a_metre();
   for (const double angle : {0.0, 0.2, 0.4, 0.6}) {
     const Vec3 from{2.0, 2.0, 0.0};
     const Vec3 to = from + 30.0 * Vec3{std::cos(angle), std::sin(angle), 0.0};
@@ -44,7 +45,7 @@ TEST(WayCells, a_way_in_the_open_is_an_under_estimate_and_not_a_bad_one) {
 
 TEST(WayCells, a_wall_is_passed_where_it_is_open) {
   const WayCells cells{walled(1.0), body};
-  const auto way = cells.way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, dear);
+  const auto way = cells.way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, one_a_metre());
   ASSERT_TRUE(way);
   const double straight_m = 2.0 * std::hypot(18.0, 13.0);
   EXPECT_LE(way->length_m, straight_m);
@@ -52,7 +53,7 @@ TEST(WayCells, a_wall_is_passed_where_it_is_open) {
 }
 
 TEST(WayCells, there_is_no_way_through_a_wall) {
-  EXPECT_FALSE(WayCells(walled(0.0), body).way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, dear));
+  EXPECT_FALSE(WayCells(walled(0.0), body).way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, one_a_metre()));
 }
 
 TEST(WayCells, a_way_over_a_low_wall_counts) {
@@ -60,14 +61,31 @@ TEST(WayCells, a_way_over_a_low_wall_counts) {
   for (Aabb& box : world.boxes) {
     box.max.z() = 1.2;
   }
-  EXPECT_TRUE(WayCells(world, body).way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, dear));
+  EXPECT_TRUE(WayCells(world, body).way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, one_a_metre()));
+}
+
+TEST(WayCells, what_cannot_be_gone_round_costs_what_it_costs) {
+  const WayCells cells{field(), body};
+  const WayPrice price{[](const Aabb& cell_W) {
+                         return cell_W.min.x() >= 10.0 && cell_W.max.x() <= 20.0 ? 6.0 : 1.0;
+                       },
+                       1.0};
+  const auto way = cells.way({2.0, 15.0, 0.0}, {38.0, 15.0, 0.0}, price);
+  ASSERT_TRUE(way);
+  // 26 m at 1 and 10 m at 6; half a cell at both borders may count as cheap.
+  EXPECT_LE(way->cost, (26.0 + 60.0) / 1.0823);
+  EXPECT_GE(way->cost, (26.0 + 60.0 - 2.0 * 0.25 * 5.0 - 0.5) / 1.0824);
+  EXPECT_LE(way->length_m, 36.0);
 }
 
 TEST(WayCells, what_costs_more_is_gone_round) {
   const WayCells cells{field(), body};
-  const auto price = [](const Vec3& p_W) {
-    return p_W.x() > 10.0 && p_W.x() < 30.0 && p_W.y() < 10.0 ? 10.0 : 1.0;
-  };
+  const WayPrice price{[](const Aabb& cell_W) {
+                         const bool is_inside = cell_W.min.x() >= 10.0 && cell_W.max.x() <= 30.0 &&
+                                                cell_W.max.y() <= 10.0;
+                         return is_inside ? 10.0 : 1.0;
+                       },
+                       1.0};
   const auto way = cells.way({2.0, 2.0, 0.0}, {38.0, 2.0, 0.0}, price);
   ASSERT_TRUE(way);
   const double around_m = 2.0 * std::hypot(8.0, 8.0) + 20.0;
