@@ -36,6 +36,19 @@ TEST(EnergyBound, a_payload_costs_on_the_way_out_only) {
   EXPECT_GT(bound->legs[0].energy_j, 1.5 * bound->legs[1].energy_j);  // .197 W a gram by eq. 1.
 }
 
+TEST(EnergyBound, where_the_mission_is_slow_a_metre_costs_more) {
+  Scenario indoors;
+  indoors.world.generator = "outdoor_to_indoor";
+  indoors.world.parameters = {{"outdoors_m", 30.0}, {"indoors_m", 20.0}};
+  const auto slow = bound_energy(indoors);
+  indoors.world.parameters["indoor_speed_m_s"] = 10.0;
+  const auto fast = bound_energy(indoors);
+  ASSERT_TRUE(slow);
+  ASSERT_TRUE(fast);
+  // 20 m and more at 1 instead of 10 m/s, twice, at 250 W and more.
+  EXPECT_GT(slow->energy_j() - fast->energy_j(), 2.0 * (15.0 - 1.5) * 250.0);
+}
+
 TEST(EnergyBound, is_below_every_flight_that_succeeds) {
   for (const char* model : {"regression", "thrust"}) {
     for (const char* policy : {"fixed_coarse", "fixed_fine", "mission_energy"}) {
