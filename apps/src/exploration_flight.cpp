@@ -12,7 +12,6 @@ using namespace std::chrono_literals;
 
 constexpr double clear_radius_m = 1.0;  // Of the cylinder at the start that the scenario
 constexpr double clear_height_m = 2.5;  // declares free.
-constexpr double slow_m_s = 1.0;
 constexpr double facing_rad = 0.05;
 constexpr int most_failures = 3;     // Plans in a row: the view cannot be got to.
 constexpr double patience_s = 40.0;  // Standing on the way to a view, for whatever reason.
@@ -26,7 +25,7 @@ ExploreRequest explore_request(const MissionContext& context, const Viewpoint& f
   request.from = from;
   request.volume_W = context.brief.volume_W;
   request.bounds_W = context.brief.bounds_W;
-  request.body = context.body_at(slow_m_s);
+  request.body = context.narrow_body();
   request.settings = context.scenario.explore;
   request.field.horizontal_rad = 2.0 * std::atan(0.5 * camera.width_px / camera.focal_px);
   request.field.vertical_rad = 2.0 * std::atan(0.5 * camera.height_px / camera.focal_px);

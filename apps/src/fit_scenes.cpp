@@ -10,7 +10,6 @@
 namespace flyball {
 namespace {
 
-constexpr double slow_m_s = 1.0;
 constexpr int most_steps = 2000;  // A way that is blocked again and again ends here.
 
 Scenario delivery() {
@@ -84,7 +83,7 @@ class Delivery {
 
   PathCheck check(const Path& path, double from_m, Work& work) {
     const PathSpan span{&path, from_m, context_.scenario.map.range_m};
-    return context_.kernels.collision_check->check(context_.map(), span, context_.body_at(slow_m_s),
+    return context_.kernels.collision_check->check(context_.map(), span, context_.narrow_body(),
                                                    work);
   }
 

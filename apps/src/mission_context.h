@@ -37,6 +37,8 @@
 
 namespace flyball {
 
+inline constexpr double slow_m_s = 1.0;  ///< In narrow passages and rooms.
+
 /// What the scenario declares to the vehicle before take-off. Nothing else of the true world is
 /// known on board.
 struct MissionBrief {
@@ -135,6 +137,8 @@ class MissionContext {
   [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const;
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;
+  /// In a narrow passage: with less room nothing is planned, checked or flown.
+  [[nodiscard]] Cylinder narrow_body() const { return body_at(slow_m_s); }
   void event(MissionTime at, const std::string& what);
   /// Ends the mission; the first end counts.
   void finish(MissionTime at, MissionStatus status, MissionFailure failure);

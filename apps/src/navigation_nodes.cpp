@@ -11,7 +11,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
-constexpr double slow_m_s = 1.0;
 
 // What a frame's way through the graph takes by the platform's own price list, before one has been
 // measured: the frustum's volume over the cell's volume bounds the updates, the rays' length over
@@ -56,8 +55,8 @@ void add_check(Graph& graph,
       return work;
     }
     const PathSpan span{&follower.path(), follower.s_m(), context.knobs.value("map.range_m")};
-    const PathCheck check = context.kernels.collision_check->check(context.map(), span,
-                                                                   context.body_at(slow_m_s), work);
+    const PathCheck check =
+        context.kernels.collision_check->check(context.map(), span, context.narrow_body(), work);
     job.at_end([&navigator, check, number = navigator.path_number()](MissionTime now) {
       navigator.path_checked(now, check, number);
     });

@@ -163,9 +163,10 @@ void Navigator::start_from_path(PlanQuery& query) {
       follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
 }
 
-// Noise, or part of an obstacle, may fill a cell that the body reaches into. Yet its place is free.
+// Noise, or part of an obstacle, may fill a cell that body or tube reach into. Yet the place is
+// free.
 void Navigator::trust_own_place() {
-  context_.kernels.mapper->declare_clear(follower_.position_W(), context_.body_at(0.0));
+  context_.kernels.mapper->declare_clear(follower_.position_W(), context_.narrow_body());
 }
 
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {

@@ -11,7 +11,6 @@ using namespace std::chrono_literals;
 
 // The tube grows with speed, so a passage can be too narrow for cruise and wide enough for a crawl.
 // Three tiers of it: narrow passages, near obstacles, and the knob's largest speed.
-constexpr double slow_m_s = 1.0;
 constexpr double middle_m_s = 4.0;
 // Half of what the guard may brake with; the rest is for curves and for the guard.
 constexpr double comfort_m_s2 = 3.0;

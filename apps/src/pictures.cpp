@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// OpenCV's readers pull in half a hundred libraries, half a second at every start of the program.
-// So they are a module of their own, which is loaded when somebody wants to read a picture.
-
 #include "flyball/apps/pictures.h"
 
-#include "flyball/apps/files.h"
+#include "flyball/kernels/module.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include <dlfcn.h>
 #include <png.h>
 
 namespace flyball {
@@ -21,17 +16,9 @@ namespace fs = std::filesystem;
 
 using OpenPictures = PictureReader* (*)(const char* path);
 
-/// Beside the shared data: ../lib/flyball/pictures.so, seen from the program.
-std::string module_path() {
-  const fs::path share{share_folder("")};  // .../share/flyball/
-  return (share.parent_path().parent_path().parent_path() / "lib/flyball/pictures.so").string();
-}
-
 /// Null when the module is not there.
 OpenPictures load_module() {
-  // Never closed: the readers' libraries do not like to be unloaded.
-  void* module = dlopen(module_path().c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* entry = module == nullptr ? nullptr : dlsym(module, "flyball_open_pictures");
+  void* entry = module_function("pictures", "flyball_open_pictures");
   return reinterpret_cast<OpenPictures>(entry);  // NOLINT: what dlsym is for
 }
 
@@ -51,7 +38,7 @@ Result<std::unique_ptr<PictureReader>> open_pictures(const std::string& path) {
   const OpenPictures open = load_module();
   if (open == nullptr) {
     return Error{ErrorCode::unavailable, "this build reads no pictures: no module \"" +
-                                             module_path() +
+                                             module_path("pictures") +
                                              "\"; install libopencv-dev and build it again"};
   }
   std::unique_ptr<PictureReader> reader{open(path.c_str())};

@@ -6,7 +6,6 @@
 namespace flyball {
 namespace {
 
-constexpr double slow_m_s = 1.0;
 constexpr double middle_m_s = 4.0;
 
 constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
@@ -34,7 +33,7 @@ class Search {
 
  private:
   // First with the wide tube that cruise speed needs, for a part of the budget; then with a middle
-  // and the narrow one; and where noise has put a cell into the tube itself, with the bare body.
+  // and the narrow one.
   bool find_any() {
     const int budget = static_cast<int>(context_.knobs.value("planner.budget"));
     if (!query_.may_be_tight) {
@@ -44,10 +43,7 @@ class Search {
         return true;
       }
     }
-    if (try_with(context_.body_at(slow_m_s), budget)) {
-      return true;
-    }
-    return plan_.failure == "start blocked" && try_with(context_.airframe.body(), budget);
+    return try_with(context_.narrow_body(), budget);
   }
 
   void look_for_shorter() {
@@ -55,7 +51,7 @@ class Search {
     for (int i = 0; i < most_improvements; ++i) {
       const double now_m = length_m(plan_.waypoints_W);
       request_.shorter_than_m = now_m - worthwhile * (now_m - line_m);
-      if (now_m <= line_m + detour_m || !try_with(context_.body_at(slow_m_s), shorter_iterations)) {
+      if (now_m <= line_m + detour_m || !try_with(context_.narrow_body(), shorter_iterations)) {
         return;
       }
     }

@@ -11,13 +11,12 @@ constexpr int most_aside = 4;
 constexpr double half_band_m = 0.3;
 // What is unknown and nearer to an obstacle may be its inside: RoboRun's blocks are 4 m wide.
 constexpr double unknown_gap_m = 3.0;
-constexpr double slow_m_s = 1.0;
 
 bool may_be_there(const MissionContext& context, const Vec3& p_W) {
   if (!context.brief.bounds_W.contains(p_W)) {
     return false;
   }
-  const CellState state = context.map().body_state(p_W, context.body_at(slow_m_s));
+  const CellState state = context.map().body_state(p_W, context.narrow_body());
   return state == CellState::free ||
          (state == CellState::unknown &&
           context.map().nearest_obstacle_m(p_W, unknown_gap_m, half_band_m) >= unknown_gap_m);

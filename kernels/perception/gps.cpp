@@ -1,18 +1,17 @@
 // flyball-package: mrpt-topography
-// flyball-link: mrpt::topography
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Satellite fixes, with the Doppler velocity in between and the flight controller's attitude.
 // A complementary filter: the velocity carries the position, the fixes pull it back.
 
 #include "flyball/kernels/localizer.h"
+#include "flyball/kernels/module.h"
 #include "flyball/runtime/registry.h"
 
+#include <array>
 #include <cmath>
-#include <exception>
+#include <filesystem>
 #include <optional>
-
-#include <mrpt/topography/conversions.h>
 
 namespace {
 
@@ -22,34 +21,33 @@ using flyball::Vec3;
 // the .1 s between fixes: q/r = (.005/.05)^2, gain = (-q/r + sqrt((q/r)^2 + 4 q/r)) / 2 = .095.
 constexpr double position_gain = 0.1;
 
-mrpt::topography::TGeodeticCoords geodetic(double latitude_rad,
-                                           double longitude_rad,
-                                           double height_m) {
-  constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
-  return {latitude_rad * degrees_per_rad, longitude_rad * degrees_per_rad, height_m};
+/// What kernels/modules/geodesy.cpp offers.
+using GeodeticToEnu = bool (*)(const double* place, const double* origin, double* p_W);
+
+GeodeticToEnu load_conversion() {
+  void* function = flyball::module_function("geodesy", "flyball_geodetic_to_enu");
+  return reinterpret_cast<GeodeticToEnu>(function);  // NOLINT: what dlsym is for
 }
 
 /// Empty for a fix that is none: a receiver that lost its satellites, or a damaged message.
-std::optional<Vec3> to_world(const flyball::NavigationSample& sample,
+std::optional<Vec3> to_world(GeodeticToEnu convert,
+                             const flyball::NavigationSample& sample,
                              const flyball::GeodeticOrigin& origin) {
   if (!sample.has_fix || !std::isfinite(sample.latitude_rad) ||
       !std::isfinite(sample.longitude_rad) || !std::isfinite(sample.height_m) ||
       !sample.v_gps_W.allFinite()) {
     return std::nullopt;
   }
-  try {
-    mrpt::math::TPoint3D p;
-    mrpt::topography::geodeticToENU_WGS84(
-        geodetic(sample.latitude_rad, sample.longitude_rad, sample.height_m), p,
-        geodetic(origin.latitude_rad, origin.longitude_rad, origin.height_m));
-    return Vec3{p.x, p.y, p.z};
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
+  const std::array place{sample.latitude_rad, sample.longitude_rad, sample.height_m};
+  const std::array centre{origin.latitude_rad, origin.longitude_rad, origin.height_m};
+  Vec3 p_W;
+  return convert(place.data(), centre.data(), p_W.data()) ? std::optional{p_W} : std::nullopt;
 }
 
 class GpsLocalizer final : public flyball::Localizer {
  public:
+  explicit GpsLocalizer(GeodeticToEnu convert) : convert_{convert} {}
+
   void start(const flyball::GeodeticOrigin& origin) override {
     origin_ = origin;
     last_ = std::nullopt;
@@ -62,7 +60,7 @@ class GpsLocalizer final : public flyball::Localizer {
     if (last_) {
       p_WB_ += flyball::to_seconds(sample.stamp - *last_) * v_WB_;
     }
-    if (const auto fix_W = to_world(sample, origin_)) {
+    if (const auto fix_W = to_world(convert_, sample, origin_)) {
       p_WB_ += (last_ ? position_gain : 1.0) * (*fix_W - p_WB_);
       v_WB_ = sample.v_gps_W;
       last_ = sample.stamp;
@@ -76,6 +74,7 @@ class GpsLocalizer final : public flyball::Localizer {
   }
 
  private:
+  GeodeticToEnu convert_;
   flyball::GeodeticOrigin origin_{};
   std::optional<flyball::MissionTime> last_{};  ///< Newest sample; empty until the first fix.
   Vec3 p_WB_{Vec3::Zero()};
@@ -85,5 +84,11 @@ class GpsLocalizer final : public flyball::Localizer {
 }  // namespace
 
 FLYBALL_PLUGIN(gps) {
-  registry.add<flyball::Localizer>("gps", [] { return std::make_unique<GpsLocalizer>(); });
+  if (!std::filesystem::exists(flyball::module_path("geodesy"))) {
+    return;  // Left out, as without MRPT.
+  }
+  registry.add<flyball::Localizer>("gps", []() -> std::unique_ptr<flyball::Localizer> {
+    const GeodeticToEnu convert = load_conversion();
+    return convert == nullptr ? nullptr : std::make_unique<GpsLocalizer>(convert);
+  });
 }

@@ -198,7 +198,13 @@ class GridMap final : public OccupancyView {
                          const Eigen::Vector2d& q,
                          const Eigen::Vector2d& min,
                          const Eigen::Vector2d& max) {
+    const auto of_point = [&](const Eigen::Vector2d& x) {
+      return (min - x).cwiseMax(x - max).cwiseMax(0.0).norm();
+    };
     const Eigen::Vector2d d = q - p;
+    if (d.isZero(0.0)) {
+      return of_point(p);
+    }
     double from = 0.0;
     double to = 1.0;
     bool crosses = true;
@@ -215,9 +221,6 @@ class GridMap final : public OccupancyView {
     if (crosses && from <= to) {
       return 0.0;
     }
-    const auto of_point = [&](const Eigen::Vector2d& x) {
-      return (min - x).cwiseMax(x - max).cwiseMax(0.0).norm();
-    };
     const auto of_corner = [&](double x, double y) {
       const Eigen::Vector2d corner{x, y};
       const double u =

@@ -19,6 +19,7 @@ if(way STREQUAL "find_package")
 else()
   # What an embedder with kernels of his own takes: without kernels, simulator and workloads.
   list(APPEND settings -D FLYBALL_SOURCE=${flyball} -D FLYBALL_BUILD_SIM=OFF)
+  set(type "")  # As who sets nothing: it compiles in half the time.
 endif()
 run(${CMAKE_COMMAND} -S ${source} -B ${folder}/build -G ${generator} ${settings}
     -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_COMPILER_LAUNCHER=${launcher}

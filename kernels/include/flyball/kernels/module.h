@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Parts of Flyball that bring half a hundred libraries, a tenth of a second and more at every
+/// start of a program that links them. They are modules, `../lib/flyball/NAME.so` seen from the
+/// program, and loaded when somebody wants them.
+
+#include <string>
+
+namespace flyball {
+
+[[nodiscard]] std::string module_path(const std::string& name);
+
+/// A function of a module, which stays loaded; null when the module is not there or cannot be
+/// loaded.
+[[nodiscard]] void* module_function(const std::string& name, const char* function);
+
+}  // namespace flyball
