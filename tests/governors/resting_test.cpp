@@ -69,7 +69,7 @@ TEST(Resting, a_missed_deadline_raises_the_clock_until_it_ends) {
   EXPECT_EQ(resting.raised_by(), 1U);
   EXPECT_TRUE(resting.allowed_s(seen_at(2.5, MissionPhase::wait)));
   EXPECT_EQ(resting.raised_by(), 1U);
-  (void)resting.allowed_s(seen_at(3.0, MissionPhase::land));
+  (void)resting.allowed_s(seen_at(3.0, MissionPhase::take_off));
   EXPECT_EQ(resting.raised_by(), 0U);
 }
 
