@@ -51,10 +51,12 @@ TEST(EnergyBound, where_the_mission_is_slow_a_metre_costs_more) {
 
 TEST(EnergyBound, is_below_every_flight_that_succeeds) {
   for (const char* model : {"regression", "thrust"}) {
-    for (const char* policy : {"fixed_coarse", "fixed_fine", "mission_energy"}) {
+    for (const char* policy : {"fixed_coarse", "mission_energy"}) {
       Scenario scenario = kit::short_delivery(40.0);
       scenario.governor.policy = policy;
       scenario.vehicle.rotor_power = model;
+      scenario.camera.width_px = 64;
+      scenario.camera.height_px = 36;
       const Summary flown = kit::flown(scenario).summary;
       ASSERT_EQ(flown.status, MissionStatus::succeeded) << policy;
       const auto bound = bound_energy(scenario);
