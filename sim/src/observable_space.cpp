@@ -131,6 +131,7 @@ Pose level_camera(const Vec3& p_W, double yaw_rad) {
   return X_WC;
 }
 
+/// Looks from place to place. A cell that was seen is not asked for again, so most views are cheap.
 class Observer {
  public:
   Observer(const World& world, const ObservableRequest& request, const Lattice& lattice)
@@ -138,15 +139,15 @@ class Observer {
         range_m_{request.range_m},
         camera_{world, coarse_camera(request), 0},
         headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
-        seen_(lattice.size(), unseen) {}
+        seen_(lattice.size(), unseen) {
+    for (std::size_t i = 0; i < lattice.size(); ++i) {
+      missing_.push_back({i, centre_of(lattice.cell_at(i), lattice.cell_m())});
+    }
+  }
 
   void look_around(const Vec3& p_W) {
     for (int i = 0; i < headings_; ++i) {
-      const Pose X_WC = level_camera(p_W, two_pi * i / headings_);
-      const DepthImage image = camera_.capture(X_WC, MissionTime{}, 0);
-      for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
-        follow(image, pixel, X_WC);
-      }
+      look(level_camera(p_W, two_pi * i / headings_));
     }
   }
 
@@ -168,28 +169,58 @@ class Observer {
   static constexpr std::uint8_t unseen = 0;
   static constexpr std::uint8_t open = 1;
   static constexpr std::uint8_t surface = 2;
+  struct Missing {
+    std::size_t index;
+    Vec3 centre_W;
+  };
 
-  void follow(const DepthImage& image, std::size_t pixel, const Pose& X_WC) {
+  void look(const Pose& X_WC) {
+    const DepthImage image = camera_.capture(X_WC, MissionTime{}, 0);
+    for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+      mark_surface(image, pixel, X_WC);
+    }
+    const Pose X_CW = X_WC.inverse();
+    const auto is_found = [&](const Missing& cell) {
+      if (seen_[cell.index] == unseen && is_near(cell.centre_W, X_WC) &&
+          is_in_sight(image, X_CW * cell.centre_W)) {
+        seen_[cell.index] = open;
+      }
+      return seen_[cell.index] != unseen;
+    };
+    missing_.erase(std::remove_if(missing_.begin(), missing_.end(), is_found), missing_.end());
+  }
+
+  [[nodiscard]] bool is_near(const Vec3& p_W, const Pose& X_WC) const {
+    return (p_W - X_WC.translation()).squaredNorm() <= range_m_ * range_m_;
+  }
+
+  void mark_surface(const DepthImage& image, std::size_t pixel, const Pose& X_WC) {
     const Intrinsics& camera = image.camera;
     const int u = static_cast<int>(pixel) % camera.width_px;
     const int v = static_cast<int>(pixel) / camera.width_px;
     const Vec3 ray_C{(u - camera.centre_x_px) / camera.focal_px,
                      (v - camera.centre_y_px) / camera.focal_px, 1.0};
-    const double farthest_m = range_m_ / ray_C.norm();
     const double depth_m = static_cast<double>(image.depth_m[pixel]);
-    const bool hits = depth_m <= farthest_m;
-    const Vec3 end_W = X_WC * (ray_C * (hits ? depth_m : farthest_m));
-    walk_cells(X_WC.translation(), end_W, lattice_.cell_m(), [&](const GridCell& cell) {
-      if (lattice_.contains(cell)) {
-        auto& seen = seen_[lattice_.index(cell)];
-        seen = std::max(seen, open);
-      }
-      return true;
-    });
-    const GridCell end = grid_cell_of(end_W, lattice_.cell_m());
-    if (hits && lattice_.contains(end)) {
+    if (depth_m * ray_C.norm() > range_m_) {
+      return;
+    }
+    const GridCell end = grid_cell_of(X_WC * Vec3{ray_C * depth_m}, lattice_.cell_m());
+    if (lattice_.contains(end)) {
       seen_[lattice_.index(end)] = surface;
     }
+  }
+
+  [[nodiscard]] bool is_in_sight(const DepthImage& image, const Vec3& p_C) const {
+    if (p_C.z() <= 0.0) {
+      return false;
+    }
+    const Intrinsics& camera = image.camera;
+    const double scale = camera.focal_px / p_C.z();
+    const auto u = static_cast<int>(std::lround(camera.centre_x_px + scale * p_C.x()));
+    const auto v = static_cast<int>(std::lround(camera.centre_y_px + scale * p_C.y()));
+    return u >= 0 && v >= 0 && u < camera.width_px && v < camera.height_px &&
+           p_C.z() <= static_cast<double>(
+                          image.depth_m[static_cast<std::size_t>(v) * camera.width_px + u]);
   }
 
   const Lattice& lattice_;
@@ -197,6 +228,7 @@ class Observer {
   DepthCamera camera_;
   int headings_;
   std::vector<std::uint8_t> seen_;
+  std::vector<Missing> missing_{};
 };
 
 }  // namespace

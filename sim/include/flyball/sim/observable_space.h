@@ -24,7 +24,7 @@ struct ObservableRequest {
 /// Cells of a lattice in the world's volume, each at most once, in ascending order of (z, y, x).
 struct ObservableSpace {
   double cell_m{};
-  std::vector<GridCell> cells{};  ///< That can be seen: through which a ray goes, or where it ends.
+  std::vector<GridCell> cells{};  ///< That can be seen: their centre, or a solid's surface in them.
   std::vector<GridCell> surfaces{};  ///< Those of them where a ray ends on a solid.
 };
 
