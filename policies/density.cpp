@@ -24,6 +24,9 @@ class Density final : public flyball::Policy {
             {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."},
             {"failures_to_fine", 3.0, 0.0, 1000.0,
              "After so many failed plans in a row: fine, whatever the density. 0: never."},
+            // The first plan that is found there leads to what coarse cells close: a switch back on
+            // the way would block it again. 15 s are the 20 m of a long sensor at some 2 m/s.
+            {"stuck_fine_s", 15.0, 0.0, 3600.0, "Then fine lasts at least this long."},
             {"fine_range_m", 0.0, 0.0, 100.0, "Range where fine; 0: as the scenario says."},
             {"coarse_range_m", 0.0, 0.0, 100.0, "Range where coarse; 0: as the scenario says."}};
   }
@@ -35,10 +38,12 @@ class Density final : public flyball::Policy {
     enter_ = given.number("enter_density");
     leave_ = given.number("leave_density");
     min_fine_ = flyball::from_seconds(given.number("min_fine_s"));
+    stuck_fine_ = flyball::from_seconds(given.number("stuck_fine_s"));
     failures_to_fine_ = given.number("failures_to_fine");
     fine_range_m_ = given.number("fine_range_m");
     coarse_range_m_ = given.number("coarse_range_m");
     fine_since_.reset();
+    fine_until_ = flyball::MissionTime{};
     if (fine_m_ >= coarse_m_) {
       return refused("fine_m = " + std::to_string(fine_m_) +
                      " must be below coarse_m = " + std::to_string(coarse_m_));
@@ -64,10 +69,13 @@ class Density final : public flyball::Policy {
   [[nodiscard]] flyball::Decision decide(const flyball::Observation& seen) noexcept override {
     const bool is_stuck =
         failures_to_fine_ > 0.0 && static_cast<double>(seen.planner_failures) >= failures_to_fine_;
+    if (is_stuck) {
+      fine_until_ = seen.now + stuck_fine_;
+    }
     if (!fine_since_ && (is_stuck || seen.obstacle_density >= enter_)) {
       fine_since_ = seen.now;
-    } else if (fine_since_ && !is_stuck && seen.obstacle_density <= leave_ &&
-               seen.now - *fine_since_ >= min_fine_) {
+    } else if (fine_since_ && !is_stuck && seen.now >= fine_until_ &&
+               seen.obstacle_density <= leave_ && seen.now - *fine_since_ >= min_fine_) {
       fine_since_.reset();
     }
     flyball::Decision wish;
@@ -94,6 +102,8 @@ class Density final : public flyball::Policy {
   double fine_range_m_{};  ///< Both 0, or neither.
   double coarse_range_m_{};
   flyball::Duration min_fine_{};
+  flyball::Duration stuck_fine_{};
+  flyball::MissionTime fine_until_{};               ///< At least.
   std::optional<flyball::MissionTime> fine_since_;  ///< Empty: coarse.
 };
 

@@ -7,6 +7,7 @@
 //   search for it would keep the vehicle standing; so it gets a small budget there.
 // - Sight: where the world ends what is known to be free, a longer range buys nothing.
 // - The mission's own limit of speed, at which latency is worth nothing.
+// Where the vehicle waits, or flies without a map, only the clock is left to save.
 //
 // A mapper with a lattice of cells keeps what was hit at its finest level, so finer cells are
 // there as soon as they are asked for. Others start a map of their own: with them, what is narrow
@@ -15,6 +16,8 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/passability.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/resting.h"
+#include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -48,6 +51,7 @@ class MissionEnergy final : public flyball::Policy {
             {"coarse_budget", 200.0, 100.0, 1e6, "Of a plan in coarse cells, iterations."},
             {"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; learned later."},
             {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."},
+            {"rest_s", 1.0, 0.01, 3600.0, "While the vehicle waits: a map in so long is enough."},
             {"patience_s", 3.0, 0.1, 3600.0, "Standing for this long: fine."},
             {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
             {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
@@ -65,6 +69,8 @@ class MissionEnergy final : public flyball::Policy {
       return refused("there is no knob planner.budget; try: flyball list knobs");
     }
     full_budget_ = knobs.value(budget->name);
+    resting_.emplace(given.number("rest_s"));
+    home_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"), 0.0};
     coarse_budget_ = std::min(budget->nearest(given.number("coarse_budget")), full_budget_);
     if (flyball::Status set = set_levels(given, knobs); !set) {
       return set;
@@ -99,13 +105,16 @@ class MissionEnergy final : public flyball::Policy {
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
     search_->learn(seen);
-    const flyball::EnergyEstimate best = search_->choose(surroundings(seen), seen.now);
+    const auto within_s = resting_->allowed_s(seen);
+    const MapSetting best = within_s ? search_->rest(home_.resolution_m, home_.range_m, *within_s,
+                                                     resting_->raised_by(), seen.now)
+                                     : search_->choose(surroundings(seen), seen.now).setting;
     flyball::Decision wish;
     wish.reason = flyball::Reason::energy;
-    wish.set("map.resolution_m", best.setting.resolution_m);
-    wish.set("map.range_m", best.setting.range_m);
-    wish.set("cpu.frequency_hz", best.setting.clock_hz);
-    const bool is_finest = best.setting.resolution_m <= levels_m_.front();
+    wish.set("map.resolution_m", best.resolution_m);
+    wish.set("map.range_m", best.range_m);
+    wish.set("cpu.frequency_hz", best.clock_hz);
+    const bool is_finest = best.resolution_m <= levels_m_.front();
     wish.set("planner.budget", is_finest || !is_lattice_ ? full_budget_ : coarse_budget_);
     return wish;
   }
@@ -190,46 +199,33 @@ class MissionEnergy final : public flyball::Policy {
     return ranges_m;
   }
 
-  /// Latencies between the two that are known beforehand lie on a line in log-log.
   [[nodiscard]] std::vector<flyball::SearchLevel> map_levels(const flyball::Parameters& given,
                                                              double most_m) const {
-    constexpr double fine_slope = 2.2;
-    constexpr double coarse_slope = 1.0;
-    const double fine_s = given.number("fine_latency_s");
-    const double coarse_s = given.number("coarse_latency_s");
-    std::vector<flyball::SearchLevel> levels;
-    for (const double r_m : levels_m_) {
-      const double u =
-          std::log(r_m / levels_m_.front()) / std::log(levels_m_.back() / levels_m_.front());
-      const double latency_s = fine_s * std::pow(coarse_s / fine_s, u);
-      const double slope = fine_slope + (coarse_slope - fine_slope) * u;
-      // A mission that integrates farther than noise allows has a better camera.
-      const bool is_noisy = most_m <= 12.0;
-      levels.push_back(
-          {r_m, latency_s, slope, is_noisy ? noise_free_m(r_m, least_range_m_) : most_m});
+    auto levels = flyball::levels_between(levels_m_, given.number("fine_latency_s"),
+                                          given.number("coarse_latency_s"));
+    // A mission that integrates farther than noise allows has a better camera.
+    const bool is_noisy = most_m <= 12.0;
+    for (flyball::SearchLevel& level : levels) {
+      level.most_range_m = is_noisy ? noise_free_m(level.resolution_m, least_range_m_) : most_m;
     }
     return levels;
   }
 
   [[nodiscard]] flyball::Surroundings surroundings(const Observation& seen) noexcept {
-    constexpr double usual_m_s = 10.0;
     constexpr double no_limit = std::numeric_limits<double>::max();
     const flyball::Passability::Verdict way = passability_->judge(seen);
     const bool fine = way.coarsest_level == 0;
     const bool near = seen.speed_limit_m_s <= narrow_m_s_;
     const bool from_nearby = !is_lattice_ && (fine || near);
-    flyball::Surroundings around;
+    flyball::Surroundings around = flyball::limits_of(seen);
     around.coarsest_m = levels_m_[way.coarsest_level];
     around.least_range_m = way.look_m;
     // Noise from afar opens and closes gaps: what is narrow is looked at from nearby only.
     around.most_range_m = from_nearby && !(way.look_m > 0.0) ? least_range_m_ : no_limit;
     around.needs_top_clock = fine || near || seen.phase != flyball::MissionPhase::cruise;
-    const double limit_m_s = seen.speed_limit_m_s;
-    around.speed_limit_m_s =
-        std::isfinite(limit_m_s) && limit_m_s > 0.0 ? std::min(limit_m_s, 100.0) : usual_m_s;
-    const double brakes_m_s2 =
-        deceleration_m_s2_ > 0.0 ? deceleration_m_s2_ : seen.max_deceleration_m_s2;
-    around.deceleration_m_s2 = brakes_m_s2 > 0.1 && brakes_m_s2 < 100.0 ? brakes_m_s2 : 6.0;
+    if (deceleration_m_s2_ > 0.0) {
+      around.deceleration_m_s2 = deceleration_m_s2_;
+    }
     // Free nearly up to the end of the range: a longer one would show more.
     constexpr double nearly_m = 1.5;
     const MapSetting& now = search_->in_force();
@@ -245,6 +241,8 @@ class MissionEnergy final : public flyball::Policy {
   double least_range_m_{};
   double narrow_m_s_{};
   double deceleration_m_s2_{};
+  MapSetting home_{};  ///< The map as the scenario has it.
+  std::optional<flyball::Resting> resting_{};
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::Passability> passability_{};
 };

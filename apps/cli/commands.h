@@ -14,6 +14,7 @@ namespace flyball {
 void add_run(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_tournament(CLI::App& program, int& exit_code);
+void add_bound(CLI::App& program, int& exit_code);
 void add_drift(CLI::App& program, int& exit_code);
 void add_tune(CLI::App& program, int& exit_code);
 void add_list(CLI::App& program, int& exit_code);

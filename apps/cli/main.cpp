@@ -18,6 +18,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_tournament(program, exit_code);
   flyball::add_tune(program, exit_code);
   flyball::add_drift(program, exit_code);
+  flyball::add_bound(program, exit_code);
   flyball::add_list(program, exit_code);
   flyball::add_graph(program, exit_code);
   flyball::add_config(program, exit_code);

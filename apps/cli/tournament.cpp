@@ -2,6 +2,7 @@
 
 #include "flyball/apps/tournament.h"
 
+#include "flyball/apps/energy_bound.h"
 #include "flyball/apps/report.h"
 #include "flyball/apps/tournament_store.h"
 
@@ -26,6 +27,7 @@ struct TournamentOptions {
   std::string seeds{"1..3"};
   std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
   bool keeps_records{};
+  bool shows_bound{};
 };
 
 /// One mission of the tournament.
@@ -122,12 +124,32 @@ Flown fly_missing(const TournamentOptions& options, TournamentStore& store, Entr
   return flown;
 }
 
+/// Of each world and seed once; where none is known, of none.
+KnownBounds bounds_of(const Entries& entries) {
+  KnownBounds bounds;
+  std::set<std::string> told;
+  for (const Entry& entry : entries) {
+    const Scenario& scenario = entry.scenario;
+    if (bounds.count({scenario.name, scenario.seed}) > 0) {
+      continue;
+    }
+    const Result<EnergyBound> least = bound_energy(scenario);
+    if (least) {
+      bounds[{scenario.name, scenario.seed}] = least->energy_j();
+    } else if (told.insert(scenario.name).second) {
+      note(scenario.name + " has no bound: " + least.error().message);
+    }
+  }
+  return bounds;
+}
+
 int show(const TournamentOptions& options, const Entries& entries) {
   std::vector<Summary> flights;
   for (const Entry& entry : entries) {
     flights.push_back(*entry.summary);
   }
-  const std::vector<WorldResult> worlds = tournament_of(flights);
+  const std::vector<WorldResult> worlds =
+      tournament_of(flights, options.shows_bound ? bounds_of(entries) : KnownBounds{});
   const std::string report = out_folder(options) + "/tournament.html";
   if (const Status written = write_file(report, tournament_page("Tournament", worlds)); !written) {
     return refuse({written.error()});
@@ -200,6 +222,8 @@ void add_tournament(CLI::App& program, int& exit_code) {
       ->take_all();
   command->add_flag("--keep-records", options->keeps_records,
                     "keeps each flight's whole record, not only what it came to");
+  command->add_flag("--bound", options->shows_bound,
+                    "sets energy against the least that any delivery there takes");
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = hold_tournament(*options); });
 }

@@ -114,15 +114,25 @@ Status write_presets(const Race& race) {
   return Done{};
 }
 
+/// Enough to run the race again: what it was on, and the values that were tried.
+std::string told(const Race& race, const std::string& stem) {
+  std::string text = "Tuned for " + stem;
+  for (const std::string& setting : race.options.flight.settings) {
+    text += " " + setting;
+  }
+  text += ": the least energy of " + std::to_string(race.candidates.size()) + " settings (";
+  for (std::size_t i = 0; i < race.options.tried.size(); ++i) {
+    text += (i == 0 ? "" : " ") + race.options.tried[i];
+  }
+  return text + ") on seeds " + seeds_text(race.seeds);
+}
+
 int show(const Race& race) {
   const TuneOptions& options = race.options;
   const std::string stem = std::filesystem::path{options.flight.scenario}.stem().string();
   const std::string path = options.preset.empty() ? race.folder + "/tuned.toml" : options.preset;
-  const std::string description = "Tuned for " + stem + ": the least energy of " +
-                                  std::to_string(race.candidates.size()) + " settings on seeds " +
-                                  seeds_text(race.seeds);
   const Status written =
-      write_file(path, preset_text(options.policy, description, race.candidates.front()));
+      write_file(path, preset_text(options.policy, told(race, stem), race.candidates.front()));
   if (!written) {
     return refuse({written.error()});
   }

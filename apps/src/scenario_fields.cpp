@@ -126,6 +126,18 @@ Fields photography_fields() {
   };
 }
 
+Fields watch_fields() {
+  constexpr auto in = &Scenario::watch;
+  using W = WatchSettings;
+  return {
+      {"watch.time_s", &at<in, &W::time_s>, 1, 86400, "watched for so long"},
+      {"watch.height_m", &at<in, &W::height_m>, 0, 120,
+       "of the hover, above the ground; 0: standing there with the rotors off"},
+      {"watch.longest_s", &at<in, &W::longest_s>, 0.01, 3600,
+       "longer between two maps is a failure"},
+  };
+}
+
 Fields gps_fields() {
   constexpr auto in = &Scenario::gps;
   using G = GpsSpec;
@@ -244,6 +256,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, explore_fields());
   append(all, detector_fields());
   append(all, photography_fields());
+  append(all, watch_fields());
   append(all, computer_fields());
   return all;
 }

@@ -40,7 +40,20 @@ std::optional<MedianInterval> median_over(const Flights& flights, Quantity quant
   return bootstrap_median(values);
 }
 
-DecisionFigures decisions_of(const std::vector<Summary>& all, const std::string& policy) {
+std::optional<MedianInterval> over_bound(const Flights& flights, const KnownBounds& bounds) {
+  std::vector<double> ratios;
+  for (const Summary* flight : flights) {
+    const auto least_j = bounds.find({flight->scenario, flight->seed});
+    if (least_j != bounds.end() && least_j->second > 0.0) {
+      ratios.push_back(flight->energy_total_j() / least_j->second);
+    }
+  }
+  return bootstrap_median(ratios);
+}
+
+DecisionFigures decisions_of(const std::vector<Summary>& all,
+                             const std::string& policy,
+                             const KnownBounds& bounds) {
   const Flights flights = flights_of(all, policy);
   DecisionFigures figures;
   figures.policy = policy;
@@ -52,6 +65,7 @@ DecisionFigures decisions_of(const std::vector<Summary>& all, const std::string&
   figures.budget_use = median_over(flights, [](const Summary& s) { return s.budget_use_p50; });
   figures.decision_us =
       median_over(flights, [](const Summary& s) { return s.decision_host_us_p99; });
+  figures.over_bound = over_bound(flights, bounds);
   return figures;
 }
 
@@ -68,6 +82,7 @@ PairedDifference difference_of(const std::vector<Summary>& all,
   std::vector<double> energy_j;
   std::vector<double> battery;
   std::vector<double> percent;
+  std::vector<double> computer;
   for (const Summary* flight : flights_of(all, policy)) {
     const auto found = others.find(flight->seed);
     if (found == others.end()) {
@@ -78,6 +93,9 @@ PairedDifference difference_of(const std::vector<Summary>& all,
     energy_j.push_back(flight->energy_total_j() - other.energy_total_j());
     battery.push_back(flight->battery_used_percent() - other.battery_used_percent());
     percent.push_back(100.0 * energy_j.back() / other.energy_total_j());
+    if (other.energy_computer_j > 0.0) {
+      computer.push_back(100.0 * (flight->energy_computer_j / other.energy_computer_j - 1.0));
+    }
     difference.wins += energy_j.back() < 0.0 ? 1 : 0;
   }
   difference.pairs = static_cast<int>(energy_j.size());
@@ -85,14 +103,15 @@ PairedDifference difference_of(const std::vector<Summary>& all,
   difference.energy_j = bootstrap_median(energy_j);
   difference.battery_percent = bootstrap_median(battery);
   difference.energy_percent = bootstrap_median(percent);
+  difference.computer_percent = bootstrap_median(computer);
   return difference;
 }
 
-WorldResult result_of(const std::vector<Summary>& flights) {
+WorldResult result_of(const std::vector<Summary>& flights, const KnownBounds& bounds) {
   WorldResult world;
   world.comparison = compare_flights(flights);
   for (const ComparisonRow& row : world.comparison.rows) {
-    world.decisions.push_back(decisions_of(flights, row.policy));
+    world.decisions.push_back(decisions_of(flights, row.policy, bounds));
     if (row.policy != world.comparison.rows.front().policy) {
       world.differences.push_back(
           difference_of(flights, row.policy, world.comparison.rows.front().policy));
@@ -113,6 +132,9 @@ Json json_of(const WorldResult& world) {
     row["overrun_percent"] = json_of(world.decisions[i].overrun_percent);
     row["budget_use"] = json_of(world.decisions[i].budget_use);
     row["decision_us"] = json_of(world.decisions[i].decision_us);
+    if (world.decisions[i].over_bound) {
+      row["energy_over_bound"] = json_of(world.decisions[i].over_bound);
+    }
   }
   json["differences"] = Json::array();
   for (const PairedDifference& difference : world.differences) {
@@ -123,6 +145,7 @@ Json json_of(const WorldResult& world) {
                                    {"mission_time_s", json_of(difference.time_s)},
                                    {"energy_total_j", json_of(difference.energy_j)},
                                    {"energy_percent", json_of(difference.energy_percent)},
+                                   {"computer_percent", json_of(difference.computer_percent)},
                                    {"battery_used_percent", json_of(difference.battery_percent)}});
   }
   return json;
@@ -146,24 +169,35 @@ std::string differences_text(const WorldResult& world) {
   for (const PairedDifference& d : world.differences) {
     lines.push_back({d.policy, std::to_string(d.pairs), std::to_string(d.wins),
                      figure(d.time_s, 1.0, 1), figure(d.energy_j, 1e-3, 1),
-                     figure(d.energy_percent, 1.0, 1), figure(d.battery_percent, 1.0, 1)});
+                     figure(d.energy_percent, 1.0, 1), figure(d.computer_percent, 1.0, 1),
+                     figure(d.battery_percent, 1.0, 1)});
   }
   return aligned(lines);
 }
 
 std::string decisions_text(const WorldResult& world) {
+  const bool has_bound =
+      std::any_of(world.decisions.begin(), world.decisions.end(),
+                  [](const DecisionFigures& d) { return d.over_bound.has_value(); });
   std::vector<std::vector<std::string>> lines{
       {"decisions", "late maps %", "budget use", "99 % within us"}};
+  if (has_bound) {
+    lines.front().emplace_back("energy / bound");
+  }
   for (const DecisionFigures& d : world.decisions) {
     lines.push_back({d.policy, figure(d.overrun_percent, 1.0, 2), figure(d.budget_use, 1.0, 2),
                      figure(d.decision_us, 1.0, 1)});
+    if (has_bound) {
+      lines.back().push_back(figure(d.over_bound, 1.0, 2));
+    }
   }
   return aligned(lines);
 }
 
 }  // namespace
 
-std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights) {
+std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights,
+                                       const KnownBounds& bounds) {
   std::vector<std::vector<Summary>> by_world;
   for (const Summary& flight : flights) {
     const auto same = [&](const std::vector<Summary>& world) {
@@ -178,7 +212,7 @@ std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights) {
   std::vector<WorldResult> worlds;
   worlds.reserve(by_world.size());
   for (const std::vector<Summary>& world : by_world) {
-    worlds.push_back(result_of(world));
+    worlds.push_back(result_of(world, bounds));
   }
   return worlds;
 }

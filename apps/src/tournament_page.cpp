@@ -56,12 +56,12 @@ std::string differences_html(const WorldResult& world) {
   std::string table =
       "<h3>Less " + html_text(world.comparison.rows.front().policy) +
       ", seed by seed</h3><table><tr><th>policy</th><th>pairs</th><th>less energy in</th><th>time "
-      "s</th><th>energy kJ</th><th>energy %</th><th>battery %</th></tr>\n";
+      "s</th><th>energy kJ</th><th>energy %</th><th>computer %</th><th>battery %</th></tr>\n";
   for (const PairedDifference& d : world.differences) {
     table += "<tr><td>" + html_text(d.policy) + "</td><td>" + std::to_string(d.pairs) +
              "</td><td>" + std::to_string(d.wins) + "</td>" + cell(d.time_s, 1.0, 1) +
              cell(d.energy_j, 1e-3, 1) + cell(d.energy_percent, 1.0, 1) +
-             cell(d.battery_percent, 1.0, 1) + "</tr>\n";
+             cell(d.computer_percent, 1.0, 1) + cell(d.battery_percent, 1.0, 1) + "</tr>\n";
   }
   return table + "</table>\n";
 }
@@ -69,7 +69,7 @@ std::string differences_html(const WorldResult& world) {
 std::string decisions_html(const WorldResult& world) {
   std::string table =
       "<h3>Decisions</h3><table><tr><th>policy</th><th>maps later than bounded %</th><th>budget "
-      "use</th><th>99 % within us, on the host</th></tr>\n";
+      "use</th><th>99 % within us, on the host</th><th>energy over its bound</th></tr>\n";
   for (const DecisionFigures& d : world.decisions) {
     table += "<tr><td>" + html_text(d.policy) + "</td>" + cell(d.overrun_percent, 1.0, 2) +
              cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) + "</tr>\n";

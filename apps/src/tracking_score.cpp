@@ -13,8 +13,6 @@ namespace {
 constexpr double least_overlap = 0.2;
 constexpr double longest_gap_s = 1.0;
 constexpr double keep_every_s = 15.0;
-constexpr Rgb on_target_colour{40, 220, 40};
-constexpr Rgb off_target_colour{255, 40, 40};
 
 /// From the middle of the frame, 1 in its corners.
 double centre_error(const Target& target) {
@@ -72,11 +70,10 @@ void TrackingScore::keep(const Kept& seen) {
 std::vector<MissionFrame> TrackingScore::frames() const {
   std::vector<MissionFrame> frames;
   for (const Kept& kept : kept_) {
-    ColourImage image = kept.target.frame.image.value();
-    draw_box(image, *kept.target.box, kept.on_target ? on_target_colour : off_target_colour);
-    frames.push_back({"at " + rounded(to_seconds(kept.target.frame.captured), 1) + " s, " +
-                          (kept.on_target ? "on the person" : "beside the person"),
-                      std::move(image)});
+    const ColourFrame& frame = kept.target.frame;
+    frames.push_back(boxed(frame.image.value(), *kept.target.box, kept.on_target,
+                           "at " + rounded(to_seconds(frame.captured), 1) + " s, " +
+                               (kept.on_target ? "on the person" : "beside the person")));
   }
   return frames;
 }

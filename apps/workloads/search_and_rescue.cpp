@@ -4,6 +4,8 @@
 // is found, flies home and lands. Dataflow as in MAVBench (MICRO 2018), figure of search and
 // rescue.
 
+#include "flyball/apps/pictures.h"
+#include "flyball/apps/text_table.h"
 #include "flyball/apps/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -20,6 +22,7 @@ using namespace std::chrono_literals;
 constexpr auto judging_period = 1s;
 constexpr double found_within_m = 1.0;  // Of a real person, along the ground.
 constexpr double same_place_m = 1.0;    // A second look at what was taken for a person is no news.
+constexpr std::size_t most_frames = 6;  // For the report; the person is the last of them.
 
 class SearchAndRescue final : public Workload {
  public:
@@ -60,6 +63,7 @@ class SearchAndRescue final : public Workload {
     }
     return figures;
   }
+  [[nodiscard]] std::vector<MissionFrame> frames() const override { return frames_; }
 
  private:
   void step(JobContext& job) {
@@ -115,10 +119,19 @@ class SearchAndRescue final : public Workload {
       found_s_ = to_seconds(now);
       found_error_m_ = error_m;
       context_->event(now, "person found");
+      keep(frame, sighting, "the person, " + rounded(error_m, 2) + " m from the place given");
       flight_->go_home(now);
     } else if (is_new(sighting.p_W)) {
       mistaken_W_.push_back(sighting.p_W);
+      if (frames_.size() + 1 < most_frames) {
+        keep(frame, sighting, "nobody");
+      }
     }
+  }
+
+  void keep(const ColourFrame& frame, const Sighting& sighting, const std::string& what) {
+    frames_.push_back(boxed(frame.image.value(), sighting.box, found_s_.has_value(),
+                            "at " + rounded(to_seconds(frame.captured), 1) + " s: " + what));
   }
 
   [[nodiscard]] double distance_to_person_m(MissionTime at, const Vec3& p_W) const {
@@ -144,6 +157,7 @@ class SearchAndRescue final : public Workload {
   std::optional<double> found_s_{};
   double found_error_m_{};
   std::vector<Vec3> mistaken_W_{};
+  std::vector<MissionFrame> frames_{};
 };
 
 }  // namespace

@@ -200,8 +200,8 @@ bool EnergySearch::is_allowed(const MapSetting& candidate,
   // Where nothing is fine enough, the finest is the best there is.
   const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
-  return candidate.resolution_m <= coarsest_m && candidate.range_m <= most_range_m &&
-         !(candidate.range_m < least_range_m) &&
+  return candidate.resolution_m <= coarsest_m && candidate.resolution_m >= around.finest_m &&
+         candidate.range_m <= most_range_m && !(candidate.range_m < least_range_m) &&
          (!around.needs_top_clock ||
           candidate.clock_hz == points_.axes()[clock_axis].values.back());
 }
@@ -234,11 +234,32 @@ EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now)
     best = best_of(around, 0.0);
   }
   FLYBALL_ASSERT(std::isfinite(best.joules_per_m), "no setting of %zu is finite", points_.size());
-  if (best.setting != in_force_) {
-    in_force_ = best.setting;
+  put_in_force(best.setting, now);
+  return best;
+}
+
+MapSetting EnergySearch::rest(
+    double resolution_m, double range_m, double within_s, std::size_t raised_by, MissionTime now) {
+  const std::vector<double>& clocks_hz = points_.axes()[clock_axis].values;
+  const double factor = bound_.tracker(level(resolution_m)).factor();
+  std::size_t slowest = 0;
+  while (slowest + 1 < clocks_hz.size() &&
+         factor * predicted_s({resolution_m, range_m, clocks_hz[slowest]}) > within_s) {
+    ++slowest;
+  }
+  const std::size_t chosen = std::min(slowest + raised_by, clocks_hz.size() - 1);
+  for (EnergyEstimate& none : estimates_) {
+    none.joules_per_m = std::numeric_limits<double>::infinity();  // No metre is made.
+  }
+  put_in_force({resolution_m, range_m, clocks_hz[chosen]}, now);
+  return in_force_;
+}
+
+void EnergySearch::put_in_force(const MapSetting& setting, MissionTime now) {
+  if (setting != in_force_) {
+    in_force_ = setting;
     in_force_since_ = now;
   }
-  return best;
 }
 
 }  // namespace flyball

@@ -30,6 +30,18 @@ TEST(FrameFiles, are_written_beside_the_record_and_shown_in_its_page) {
   EXPECT_NE(html->find("&lt;on the person"), std::string::npos);
 }
 
+TEST(FrameFiles, show_what_was_right_in_green_and_what_was_not_in_red) {
+  ColourImage image;
+  image.camera = {8, 8, 0.0, 0.0, 0.0};
+  image.rgb.assign(192, 0);
+  const MissionFrame right = boxed(image, {1, 1, 6, 6}, true, "right");
+  const MissionFrame wrong = boxed(image, {1, 1, 6, 6}, false, "wrong");
+  const std::size_t corner = 3 * (8 + 1);
+  EXPECT_GT(right.image.rgb[corner + 1], right.image.rgb[corner]);
+  EXPECT_GT(wrong.image.rgb[corner], wrong.image.rgb[corner + 1]);
+  EXPECT_EQ(right.caption, "right");
+}
+
 TEST(FrameFiles, are_none_for_a_mission_without_pictures) {
   const ScratchFolder folder;
   EXPECT_EQ(*write_frames(folder.path(), {}), "");

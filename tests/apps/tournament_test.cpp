@@ -51,6 +51,23 @@ TEST(Tournament, counts_what_came_later_than_bounded) {
   EXPECT_DOUBLE_EQ(worlds[0].decisions[0].decision_us->median, 2.75);
 }
 
+TEST(Tournament, sets_energy_against_a_bound_that_is_known) {
+  const KnownBounds bounds{{{"hills", 1}, 40e3}, {{"hills", 2}, 50e3}};
+  const std::vector<WorldResult> worlds = tournament_of(two_worlds(), bounds);
+  EXPECT_DOUBLE_EQ(worlds[0].decisions[0].over_bound->median, 0.5 * (100.0 / 40.0 + 200.0 / 50.0));
+  EXPECT_DOUBLE_EQ(worlds[0].decisions[1].over_bound->median, 0.5 * (80.0 / 40.0 + 150.0 / 50.0));
+  EXPECT_FALSE(worlds[1].decisions[0].over_bound);
+  EXPECT_NE(to_text(worlds).find("energy / bound"), std::string::npos);
+  EXPECT_EQ(to_text(tournament_of(two_worlds())).find("energy / bound"), std::string::npos);
+}
+
+TEST(Tournament, tells_the_computers_energy_apart) {
+  std::vector<Summary> flights{flight("hills", "first", 1, 100), flight("hills", "other", 1, 99)};
+  flights[0].energy_computer_j = 2000.0;
+  flights[1].energy_computer_j = 1500.0;
+  EXPECT_DOUBLE_EQ(tournament_of(flights)[0].differences[0].computer_percent->median, -25.0);
+}
+
 TEST(Tournament, prints_an_object_for_each_world_in_the_shape_of_a_comparison) {
   const auto json = nlohmann::json::parse(to_json(tournament_of(two_worlds())));
   ASSERT_EQ(json.size(), 2U);

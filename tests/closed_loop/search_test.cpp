@@ -31,6 +31,8 @@ TEST(SearchAndRescue, finds_the_person_who_is_there_and_comes_home) {
   EXPECT_LE(summary.quality.at("position_error_m"), 1.0);
   EXPECT_LT(summary.quality.at("time_to_find_s"), summary.mission_time_s);
   EXPECT_GE(summary.kernels.at("hog").calls, 1U);
+  ASSERT_FALSE(record->frames.empty());
+  EXPECT_NE(record->frames.back().caption.find("the person"), std::string::npos);
 }
 
 }  // namespace

@@ -84,7 +84,20 @@ TEST(Density, is_fine_after_three_failed_plans_in_a_row_until_one_succeeds) {
   EXPECT_EQ(0.80, after(0.0, 2));
   EXPECT_EQ(0.15, after(1.0, 3));
   EXPECT_EQ(0.15, after(20.0, 4)) << "the minimum time is over";
-  EXPECT_EQ(0.80, after(21.0, 0));
+  EXPECT_EQ(0.15, after(34.0, 0)) << "the plan that was found leads to what coarse cells close";
+  EXPECT_EQ(0.80, after(36.0, 0));
+}
+
+TEST(Density, after_failed_plans_stays_fine_for_as_long_as_it_is_told) {
+  Given given = two_levels;
+  given["stuck_fine_s"] = 0.0;
+  const auto density = start_policy("density", given);
+  flyball::Observation seen;
+  seen.planner_failures = 3;
+  EXPECT_EQ(0.15, density.policy->decide(seen).begin()->value);
+  seen.planner_failures = 0;
+  seen.now = flyball::MissionTime{flyball::from_seconds(5.5)};  // `min_fine_s` is over.
+  EXPECT_EQ(0.80, density.policy->decide(seen).begin()->value);
 }
 
 TEST(Density, can_be_told_not_to_care_about_failed_plans) {

@@ -15,4 +15,10 @@ struct MissionFrame {
   ColourImage image{};  ///< With whatever was drawn on it.
 };
 
+/// With the box drawn: in green what was right, in red what was not.
+[[nodiscard]] MissionFrame boxed(ColourImage image,
+                                 const ImageBox& box,
+                                 bool is_right,
+                                 std::string caption);
+
 }  // namespace flyball

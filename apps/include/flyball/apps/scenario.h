@@ -105,6 +105,13 @@ struct PhotographySettings {
   double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
 };
 
+/// What the workload `watch` does.
+struct WatchSettings {
+  double time_s{60.0};    ///< That it watches for.
+  double height_m{};      ///< Where it hovers, above the ground; 0: it stands with its rotors off.
+  double longest_s{2.0};  ///< Between two maps; a longer time without news is a failure.
+};
+
 struct PlatformSettings {
   std::string name{"jetson_tx2"};
   int cores{4};
@@ -147,6 +154,7 @@ struct Scenario {
   ExploreSettings explore{};
   DetectorSettings detector{};
   PhotographySettings photography{};
+  WatchSettings watch{};
   PlatformSettings platform{};
   GovernorSettings governor{};
   std::vector<ComputerEvent> events{};

@@ -7,8 +7,11 @@
 
 #include "flyball/apps/comparison.h"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flyball {
@@ -22,7 +25,8 @@ struct PairedDifference {
   std::optional<MedianInterval> time_s{};
   std::optional<MedianInterval> energy_j{};
   std::optional<MedianInterval> battery_percent{};
-  std::optional<MedianInterval> energy_percent{};  ///< Of the first one's energy.
+  std::optional<MedianInterval> energy_percent{};    ///< Of the first one's energy.
+  std::optional<MedianInterval> computer_percent{};  ///< The computer's alone, of the first one's.
 };
 
 /// How a policy decided; medians over its succeeded flights.
@@ -31,7 +35,11 @@ struct DecisionFigures {
   std::optional<MedianInterval> overrun_percent{};  ///< Maps later than their bound.
   std::optional<MedianInterval> budget_use{};       ///< Latency over its bound.
   std::optional<MedianInterval> decision_us{};      ///< 99th percentile, on the host.
+  std::optional<MedianInterval> over_bound{};       ///< Energy over what any flight takes at least.
 };
+
+/// What a mission takes at least [J], by world and seed; see energy_bound.h.
+using KnownBounds = std::map<std::pair<std::string, std::uint64_t>, double>;
 
 struct WorldResult {
   Comparison comparison{};
@@ -40,7 +48,9 @@ struct WorldResult {
 };
 
 /// @param flights  World by world, as `compare_flights` wants them; a world is a scenario's name.
-[[nodiscard]] std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights);
+/// @param bounds   May be empty: then nothing is said of them.
+[[nodiscard]] std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights,
+                                                     const KnownBounds& bounds = {});
 
 /// An array with one object for each world: that of `compare`, and `differences` beside `rows`.
 [[nodiscard]] std::string to_json(const std::vector<WorldResult>& worlds);

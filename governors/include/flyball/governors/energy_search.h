@@ -57,6 +57,7 @@ struct Surroundings {
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   double sight_m{};        ///< Beyond this the world, not the range, ends what is known to be free.
   double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
+  double finest_m{};       ///< No smaller one: somebody else chooses the cells, or 0.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
 };
 
@@ -89,6 +90,13 @@ class EnergySearch {
   void learn(const Observation& seen);
   /// The best setting there is; it is taken to be in force from now on.
   [[nodiscard]] EnergyEstimate choose(const Surroundings& around, MissionTime now);
+  /// Where latency buys no speed: a map of these cells and this range at the lowest clock that
+  /// still makes it within `within_s`, or at the highest; `raised_by` clocks higher than that. (The
+  /// computer takes a constant, a part in proportion to its clock, and per operation the more the
+  /// higher the clock is: while time itself costs nothing, slower is cheaper.) In force from now
+  /// on.
+  [[nodiscard]] MapSetting rest(
+      double resolution_m, double range_m, double within_s, std::size_t raised_by, MissionTime now);
   [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
                                         const Surroundings& around) const;
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
@@ -114,6 +122,7 @@ class EnergySearch {
                                 const Surroundings& around,
                                 double least_range_m) const;
   [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m);
+  void put_in_force(const MapSetting& setting, MissionTime now);
 
   EnergySearchSettings settings_;
   OperatingPoints points_;

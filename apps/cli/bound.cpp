@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/apps/energy_bound.h"
+#include "flyball/apps/text_table.h"
+
+#include "commands.h"
+#include "console.h"
+#include "flight_options.h"
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace flyball {
+namespace {
+
+struct BoundOptions {
+  FlightOptions flight{};
+  std::string seed{};
+};
+
+int bound(const BoundOptions& options) {
+  std::vector<std::string> settings = options.flight.settings;
+  if (!options.seed.empty()) {
+    settings.push_back("seed=" + options.seed);
+  }
+  const auto loaded = load_scenario(options.flight.scenario, settings);
+  if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+    return refuse(*errors);
+  }
+  const Scenario& scenario = std::get<LoadedScenario>(loaded).scenario;
+  const Result<EnergyBound> least = bound_energy(scenario);
+  if (!least) {
+    return refuse({least.error()});
+  }
+  if (options.flight.json) {
+    print(to_json(*least, scenario) + "\n");
+    return exit_success;
+  }
+  std::string text = scenario.name + ", seed " + std::to_string(scenario.seed) + ": at least " +
+                     rounded(1e-3 * least->energy_j(), 1) + " kJ\n";
+  for (const BoundedLeg& leg : least->legs) {
+    text += "  " + rounded(leg.length_m, 1) + " m, " + rounded(1e-3 * leg.energy_j, 1) + " kJ\n";
+  }
+  print(text);
+  return exit_success;
+}
+
+}  // namespace
+
+void add_bound(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "bound", "the energy that a delivery takes at least, whoever flies it");
+  const auto options = std::make_shared<BoundOptions>();  // Owners: the parser's callbacks.
+  add_scenario(*command, options->flight);
+  refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")
+                    ->type_name("N"));
+  command->add_flag("--json", options->flight.json, "as JSON");
+  command->callback([options, &exit_code] { exit_code = bound(*options); });
+}
+
+}  // namespace flyball

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a policy knows before an energy search has learned anything, and what a mission says
+/// itself.
+
+#include "flyball/governors/energy_search.h"
+
+#include <vector>
+
+namespace flyball {
+
+/// Cells with the latencies that are expected of them: those of the finest and of the coarsest are
+/// given, the others lie between them on a line in log-log, and so do the slopes over range.
+/// @pre `resolutions_m` is not empty and ascends; both latencies are positive.
+[[nodiscard]] std::vector<SearchLevel> levels_between(const std::vector<double>& resolutions_m,
+                                                      double fine_s,
+                                                      double coarse_s);
+
+/// Limits of speed and braking; usual ones where an observation says nothing of sense. All else is
+/// as `Surroundings` has it, with a world that lets see to any distance.
+[[nodiscard]] Surroundings limits_of(const Observation& seen);
+
+}  // namespace flyball

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/search_space.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flyball {
+
+std::vector<SearchLevel> levels_between(const std::vector<double>& resolutions_m,
+                                        double fine_s,
+                                        double coarse_s) {
+  FLYBALL_ASSERT(!resolutions_m.empty() && fine_s > 0.0 && coarse_s > 0.0, "%zu levels, %g s, %g s",
+                 resolutions_m.size(), fine_s, coarse_s);
+  constexpr double fine_slope = 2.2;  // Volume dominates in small cells, rays in large ones.
+  constexpr double coarse_slope = 1.0;
+  const double span = std::log(resolutions_m.back() / resolutions_m.front());
+  std::vector<SearchLevel> levels;
+  for (const double r_m : resolutions_m) {
+    const double u = span > 0.0 ? std::log(r_m / resolutions_m.front()) / span : 0.0;
+    SearchLevel level;
+    level.resolution_m = r_m;
+    level.latency_s = fine_s * std::pow(coarse_s / fine_s, u);
+    level.range_slope = fine_slope + (coarse_slope - fine_slope) * u;
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+Surroundings limits_of(const Observation& seen) {
+  constexpr double usual_m_s = 10.0;
+  constexpr double usual_m_s2 = 6.0;
+  const double limit_m_s = seen.speed_limit_m_s;
+  const double brakes_m_s2 = seen.max_deceleration_m_s2;
+  Surroundings around;
+  around.speed_limit_m_s =
+      std::isfinite(limit_m_s) && limit_m_s > 0.0 ? std::min(limit_m_s, 100.0) : usual_m_s;
+  around.deceleration_m_s2 = brakes_m_s2 > 0.1 && brakes_m_s2 < 100.0 ? brakes_m_s2 : usual_m_s2;
+  around.sight_m = std::numeric_limits<double>::max();
+  return around;
+}
+
+}  // namespace flyball

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The clock alone, by mission_energy's reckoning, for an application that sets its map itself: the
+// clock with the least joules per metre for the cells in force. Where the vehicle waits, or flies
+// without a map, the lowest clock that is soon enough.
+
+#include "flyball/governors/energy_search.h"
+#include "flyball/governors/policy.h"
+#include "flyball/governors/resting.h"
+#include "flyball/governors/search_space.h"
+#include "flyball/runtime/registry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
+
+namespace {
+
+using flyball::MissionPhase;
+using flyball::Observation;
+
+class EnergyClock final : public flyball::Policy {
+ public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"fine_latency_s", 0.5, 0.001, 60.0,
+             "Sensor to map, .15 m, 7 m, top clock; learned later."},
+            {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarsest map."},
+            {"rest_s", 1.0, 0.01, 3600.0, "While the vehicle waits: a map in so long is enough."}};
+  }
+
+  flyball::Status start(const flyball::Parameters& given,
+                        const flyball::KnobSettings& knobs) override {
+    for (const char* name : {"map.resolution_m", "map.range_m", "cpu.frequency_hz"}) {
+      if (knobs.spec(name) == nullptr) {
+        return flyball::Error{flyball::ErrorCode::invalid_input,
+                              "policy \"energy_clock\": there is no knob " + std::string{name} +
+                                  "; try: flyball list knobs"};
+      }
+    }
+    const flyball::KnobSpec& cells = *knobs.spec("map.resolution_m");
+    cells_m_ = cells.legal;
+    if (cells_m_.empty()) {  // Those that presets have, and the scenario's own.
+      const std::set<double> usual_m{0.15, 0.30, 0.60, 0.80, 1.20, knobs.value(cells.name)};
+      std::copy_if(usual_m.begin(), usual_m.end(), std::back_inserter(cells_m_),
+                   [&](double one_m) { return cells.is_legal(one_m); });
+    }
+    range_m_ = knobs.value("map.range_m");
+    const auto levels = flyball::levels_between(cells_m_, given.number("fine_latency_s"),
+                                                given.number("coarse_latency_s"));
+    auto search = flyball::EnergySearch::make({}, levels, {range_m_}, knobs);
+    if (!search) {
+      return flyball::Error{search.error().code,
+                            "policy \"energy_clock\": " + search.error().message};
+    }
+    search_.emplace(std::move(*search));
+    resting_.emplace(given.number("rest_s"));
+    return flyball::Done{};
+  }
+
+  [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
+    search_->learn(seen);
+    flyball::Decision wish;
+    wish.reason = flyball::Reason::energy;
+    wish.set("cpu.frequency_hz", clock_hz(seen));
+    return wish;
+  }
+
+  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
+    return search_->promises();
+  }
+
+ private:
+  [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
+    const double cells_m = nearest_cells_m(seen.map_resolution_m);
+    if (const auto within_s = resting_->allowed_s(seen)) {
+      return search_->rest(cells_m, range_m_, *within_s, resting_->raised_by(), seen.now).clock_hz;
+    }
+    // Who stands in flight waits for a plan: those are not in the model.
+    constexpr double standing_m_s = 0.5;
+    const bool waits = !(seen.speed_m_s > standing_m_s) || seen.planner_failures > 0;
+    flyball::Surroundings around = flyball::limits_of(seen);
+    around.coarsest_m = around.finest_m = cells_m;
+    around.needs_top_clock = waits || seen.phase != MissionPhase::cruise;
+    return search_->choose(around, seen.now).setting.clock_hz;
+  }
+
+  [[nodiscard]] double nearest_cells_m(double in_force_m) const noexcept {
+    double best_m = cells_m_.front();
+    for (const double one_m : cells_m_) {
+      if (std::abs(one_m - in_force_m) < std::abs(best_m - in_force_m)) {
+        best_m = one_m;
+      }
+    }
+    return best_m;
+  }
+
+  std::vector<double> cells_m_{};
+  double range_m_{};
+  std::optional<flyball::EnergySearch> search_{};
+  std::optional<flyball::Resting> resting_{};
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(energy_clock) {
+  registry.add<flyball::Policy>("energy_clock", [] { return std::make_unique<EnergyClock>(); });
+}

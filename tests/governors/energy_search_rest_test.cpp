@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/governors/energy_search.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double top_hz = 2e9;
+
+EnergySearch search() {
+  KnobSpec resolution;
+  resolution.name = "map.resolution_m";
+  resolution.min = 0.05;
+  resolution.max = 2.0;
+  resolution.fallback = 0.15;
+  KnobSpec range;
+  range.name = "map.range_m";
+  range.min = 2.0;
+  range.max = 25.0;
+  range.fallback = 7.0;
+  KnobSpec clock;
+  clock.name = "cpu.frequency_hz";
+  clock.legal = {0.25e9, 0.5e9, 1e9, 1.5e9, top_hz};
+  clock.fallback = top_hz;
+  const std::vector<SearchLevel> levels{{0.15, 0.4, 2.2, 25.0, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  return *EnergySearch::make({}, levels, {7.0, 12.0}, KnobSettings{{resolution, range, clock}});
+}
+
+TEST(EnergySearchRest, takes_the_lowest_clock_that_is_soon_enough) {
+  // t ~ .9 / f + .05 and the first bound is e^.1 times what is expected: .442 s at the top, .84 s
+  // at 1 GHz, 1.64 s at .5 GHz.
+  EnergySearch one = search();
+  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 0, {}).clock_hz, 1e9);
+  EXPECT_EQ(one.rest(0.15, 7.0, 1.7, 0, {}).clock_hz, 0.5e9);
+  EXPECT_EQ(one.rest(0.80, 7.0, 1.0, 0, {}).clock_hz, 0.25e9);
+}
+
+TEST(EnergySearchRest, takes_the_highest_clock_where_none_is_soon_enough) {
+  EXPECT_EQ(search().rest(0.15, 7.0, 0.1, 0, {}).clock_hz, top_hz);
+}
+
+TEST(EnergySearchRest, takes_the_lowest_clock_of_all_where_no_map_is_made) {
+  const double never = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(search().rest(0.15, 7.0, never, 0, {}).clock_hz, 0.25e9);
+}
+
+TEST(EnergySearchRest, is_raised_by_as_many_clocks_as_there_are_at_most) {
+  EnergySearch one = search();
+  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 1, {}).clock_hz, 1.5e9);
+  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 9, {}).clock_hz, top_hz);
+}
+
+TEST(EnergySearchRest, is_in_force_and_weighs_no_joules_per_metre) {
+  EnergySearch one = search();
+  const MapSetting resting = one.rest(0.15, 7.0, 1.0, 0, {});
+  EXPECT_EQ(one.in_force(), resting);
+  for (const EnergyEstimate& weighed : one.weighed()) {
+    EXPECT_TRUE(std::isinf(weighed.joules_per_m));
+  }
+}
+
+TEST(EnergySearchRest, somebody_elses_cells_are_kept) {
+  EnergySearch one = search();
+  Surroundings around;
+  around.speed_limit_m_s = 10.0;
+  around.sight_m = 1e9;
+  around.coarsest_m = around.finest_m = 0.15;
+  EXPECT_EQ(one.choose(around, {}).setting.resolution_m, 0.15);
+  around.coarsest_m = around.finest_m = 0.80;
+  EXPECT_EQ(one.choose(around, {}).setting.resolution_m, 0.80);
+}
+
+}  // namespace
+}  // namespace flyball

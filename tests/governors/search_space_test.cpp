@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/search_space.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(SearchSpace, latencies_lie_on_a_line_between_the_two_that_are_known) {
+  const auto levels = levels_between({0.15, 0.30, 0.60}, 0.8, 0.2);
+  ASSERT_EQ(levels.size(), 3U);
+  EXPECT_DOUBLE_EQ(levels[0].latency_s, 0.8);
+  EXPECT_NEAR(levels[1].latency_s, 0.4, 1e-12);  // Their geometric mean.
+  EXPECT_DOUBLE_EQ(levels[2].latency_s, 0.2);
+  EXPECT_NEAR(levels[1].range_slope, 0.5 * (levels[0].range_slope + levels[2].range_slope), 1e-12);
+  EXPECT_GT(levels[0].range_slope, levels[2].range_slope);
+}
+
+TEST(SearchSpace, a_single_level_has_the_fine_latency) {
+  const auto levels = levels_between({0.3}, 0.8, 0.2);
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_DOUBLE_EQ(levels[0].latency_s, 0.8);
+}
+
+TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
+  Observation seen;
+  seen.speed_limit_m_s = 4.0;
+  seen.max_deceleration_m_s2 = 3.0;
+  EXPECT_EQ(limits_of(seen).speed_limit_m_s, 4.0);
+  EXPECT_EQ(limits_of(seen).deceleration_m_s2, 3.0);
+  for (const double nonsense : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    seen.speed_limit_m_s = seen.max_deceleration_m_s2 = nonsense;
+    EXPECT_EQ(limits_of(seen).speed_limit_m_s, 10.0) << nonsense;
+    EXPECT_EQ(limits_of(seen).deceleration_m_s2, 6.0) << nonsense;
+  }
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "started_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double lowest_hz = 806.4e6;  // Of `conformance_knobs`.
+constexpr double top_hz = 2035.2e6;
+
+std::unique_ptr<Policy> energy_clock() {
+  StartedPolicy started = start_policy("energy_clock", {});
+  EXPECT_TRUE(started.status);
+  return std::move(started.policy);
+}
+
+double clock_hz(const Decision& wish) {
+  EXPECT_EQ(wish.size(), 1U) << "the map is the application's";
+  return wish.size() == 1 ? wish.begin()->value : 0.0;
+}
+
+Observation cruising(double t_s, double resolution_m, double rotor_w) {
+  Observation seen;
+  seen.now = MissionTime{from_seconds(t_s)};
+  seen.phase = MissionPhase::cruise;
+  seen.speed_m_s = 3.0;
+  seen.speed_limit_m_s = 10.0;
+  seen.max_deceleration_m_s2 = 6.0;
+  seen.map_resolution_m = resolution_m;
+  seen.frequency = Hertz{top_hz};
+  seen.busy_cores = 2.0;
+  seen.rotor_power = Watts{rotor_w};
+  return seen;
+}
+
+TEST(EnergyClock, where_latency_limits_the_speed_of_a_heavy_vehicle_it_is_the_highest) {
+  EXPECT_EQ(clock_hz(energy_clock()->decide(cruising(1.0, 0.15, 350.0))), top_hz);
+}
+
+TEST(EnergyClock, at_the_missions_own_limit_of_speed_it_drops) {
+  Observation seen = cruising(1.0, 0.80, 20.0);
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
+}
+
+TEST(EnergyClock, who_stands_and_waits_for_a_plan_has_the_highest) {
+  const auto policy = energy_clock();
+  Observation seen = cruising(1.0, 0.80, 20.0);
+  seen.speed_limit_m_s = 1.0;
+  seen.speed_m_s = 0.0;
+  EXPECT_EQ(clock_hz(policy->decide(seen)), top_hz);
+}
+
+TEST(EnergyClock, while_the_vehicle_waits_it_is_as_low_as_the_news_allows) {
+  const auto policy = energy_clock();
+  Observation seen = cruising(0.0, 0.15, 0.0);
+  seen.phase = MissionPhase::wait;
+  (void)policy->decide(seen);
+  seen.now = MissionTime{from_seconds(2.0)};
+  const double fine_hz = clock_hz(policy->decide(seen));
+  EXPECT_LT(fine_hz, top_hz);
+  EXPECT_GT(fine_hz, lowest_hz);  // .5 s at the top clock; a second is allowed.
+  seen.map_resolution_m = 0.80;
+  EXPECT_EQ(clock_hz(policy->decide(seen)), lowest_hz);
+}
+
+TEST(EnergyClock, without_a_map_it_is_the_lowest) {
+  const auto policy = energy_clock();
+  Observation seen = cruising(0.0, 0.15, 250.0);
+  seen.known_free_m = 100.0;
+  (void)policy->decide(seen);
+  seen.now = MissionTime{from_seconds(2.0)};
+  EXPECT_EQ(clock_hz(policy->decide(seen)), lowest_hz);
+}
+
+TEST(EnergyClock, is_refused_without_a_map_to_reckon_with) {
+  const StartedPolicy started = start_policy("energy_clock", {}, KnobSettings{});
+  ASSERT_FALSE(started.status);
+  EXPECT_NE(started.status.error().message.find("no knob map.resolution_m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flyball
