@@ -4,7 +4,10 @@
 /// @file
 /// What a planner asks of a map, and how often it asked.
 
+#include "flyball/kernels/inflated_window.h"
 #include "flyball/runtime/occupancy.h"
+
+#include <optional>
 
 namespace flyball {
 
@@ -12,6 +15,11 @@ class MotionChecker {
  public:
   /// The map outlives the checker.
   MotionChecker(const OccupancyView& map, const Cylinder& body, double max_slope_rad);
+
+  /// Says where the next motions will be. When there have been many of them and the map can be
+  /// grown by the body, that is done once, and a line that crosses no bit of the window is free
+  /// without a closer look. The answers, and what is counted, stay the same.
+  void expect_motions_in(const Aabb& box_W);
 
   /// No occupied cube overlaps the body; unknown space counts as free.
   [[nodiscard]] bool is_free(const Vec3& p_WB);
@@ -29,10 +37,16 @@ class MotionChecker {
   [[nodiscard]] double queries() const { return queries_; }
 
  private:
+  [[nodiscard]] bool hits(const Vec3& from_W, const Vec3& to_W);
+
   const OccupancyView& map_;
+  const Inflatable* inflatable_;  ///< The same map; null if it cannot be grown.
   Cylinder body_;
   double max_rise_;  ///< Height per horizontal distance.
   double queries_{};
+  std::optional<Aabb> expected_{};
+  int motions_{};  ///< Since they are expected there.
+  InflatedWindow window_{};
 };
 
 }  // namespace flyball

@@ -62,6 +62,7 @@ StageResult search_all(const PlanRequest& request,
   StageResult result;
   int iterations = 0;
   for (const SearchStage& stage : search_stages(request)) {
+    checker.expect_motions_in(stage.box_W);
     result = search(stage, checker);
     iterations += result.iterations;
     if (!result.points_W.empty() || !result.error.empty()) {

@@ -19,7 +19,12 @@ constexpr Cylinder body{0.45, 0.25};
 struct Questions {
   std::vector<Vec3> places;
   std::vector<Vec3> ends;  ///< At most 5 m away.
+  /// As many points on the first of these ways, a decimetre apart, as a mission asks for them;
+  /// `places` is harder on the caches than any mission.
+  std::vector<Vec3> on_ways;
 };
+
+constexpr double step_m = 0.1;
 
 Questions questions(Scene scene, std::size_t count) {
   std::mt19937 generator{5};
@@ -34,6 +39,13 @@ Questions questions(Scene scene, std::size_t count) {
     asked.places.push_back(place());
     const Vec3 way = place() - asked.places.back();
     asked.ends.push_back(asked.places.back() + std::min(1.0, 5.0 / way.norm()) * way);
+  }
+  for (std::size_t i = 0; asked.on_ways.size() < count; ++i) {
+    const Vec3 way = asked.ends[i] - asked.places[i];
+    const int steps = static_cast<int>(way.norm() / step_m);
+    for (int step = 0; step <= steps && asked.on_ways.size() < count; ++step) {
+      asked.on_ways.push_back(asked.places[i] + step * step_m * way.normalized());
+    }
   }
   return asked;
 }
@@ -74,6 +86,11 @@ Answer answer_of(const std::string& kind) {
       return static_cast<int>(view.state(asked.places[i]));
     };
   }
+  if (kind == "way") {
+    return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
+      return static_cast<int>(view.state(asked.on_ways[i]));
+    };
+  }
   if (kind == "body") {
     return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
       return static_cast<int>(view.body_state(asked.places[i], body));
@@ -89,7 +106,8 @@ void ask(benchmark::State& state, const Plan& plan, Scene scene, const Question&
   const Maps& both = maps(scene, question.level, plan.sizes.front());
   const OccupancyView& view =
       question.stock ? static_cast<const OccupancyView&>(both.tree_view) : both.brick_view;
-  const std::size_t count = question.kind == "point" ? plan.questions : plan.questions / 20;
+  const std::size_t count =
+      question.kind == "point" || question.kind == "way" ? plan.questions : plan.questions / 20;
   const Questions asked = questions(scene, count);
   const Answer answer = answer_of(question.kind);
   int sum = 0;
@@ -144,7 +162,7 @@ void switch_level(benchmark::State& state, const Plan& plan) {
 
 void register_questions(const Plan& plan, Scene scene) {
   for (int level = 0; level < plan.levels; ++level) {
-    for (const char* kind : {"point", "body", "segment"}) {
+    for (const char* kind : question_kinds) {
       for (const bool stock : {false, true}) {
         const Question question{name_of(scene), level, kind, stock};
         benchmark::RegisterBenchmark(

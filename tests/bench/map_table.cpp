@@ -150,13 +150,15 @@ void TableReporter::write_row(std::ostream& out, Insertion row) const {
 
 void TableReporter::write_questions(std::ostream& out, const Plan& plan) const {
   out << "\n# Questions\n\nNanoseconds; `differing`: answers unlike stock's, of " << plan.questions
-      << " points and of " << plan.questions / 20
+      << " points (`point`: at random in the whole map; `way`: a decimetre apart on straight ways) "
+         "and of "
+      << plan.questions / 20
       << " bodies and segments (at most 5 m long), at one resolution.\n\n"
          "| scene | m | kind | stock | bricks | times as fast | differing |\n"
          "|---|---|---|---|---|---|---|\n";
   for (const char* scene : {"indoor", "outdoor"}) {
     for (int level = 0; level < plan.levels; ++level) {
-      for (const char* kind : {"point", "body", "segment"}) {
+      for (const char* kind : question_kinds) {
         const Least* stock = find(question_name({scene, level, kind, true}));
         const Least* ours = find(question_name({scene, level, kind, false}));
         if (stock == nullptr || ours == nullptr) {

@@ -24,6 +24,8 @@ struct Insertion {
   bool writes_record;
   std::string simd;
 };
+inline constexpr const char* question_kinds[] = {"point", "way", "body", "segment"};
+
 struct Question {
   std::string scene;
   int level;

@@ -2,8 +2,9 @@
 #pragma once
 
 /// @file
-/// A small box of cells, read brick by brick: one word of occupied and one of unknown cells each.
-/// For bodies, which are a few bricks wide, this is faster than walking down the levels.
+/// A small box of cells, held against the map 64 bricks at a time: one word says which of them have
+/// occupied cells, one which have unknown ones. Only the cells of bricks that have a bit there are
+/// looked at. For bodies, which are a few bricks wide, this is faster than walking down the levels.
 
 #include "bits.h"
 #include "brick_map.h"
@@ -28,49 +29,82 @@ namespace flyball {
   return level == 0 ? cells : whole_eighths(cells);
 }
 
-class BoxWords {
+/// Finest cells between two keys on each axis, both included.
+struct KeyBox {
+  std::array<int, 3> low{};
+  std::array<int, 3> high{};
+
+  [[nodiscard]] bool is_empty() const {
+    return high[0] < low[0] || high[1] < low[1] || high[2] < low[2];
+  }
+};
+
+/// Keys of the finest cells of which `region` covers more than `margin_m`.
+/// @return  False when the lattice does not have them all.
+[[nodiscard]] bool keys_in(const Lattice& lattice,
+                           const Aabb& region,
+                           double margin_m,
+                           KeyBox& keys);
+
+/// The bricks that a box of keys touches, and which of their cells it covers.
+class BoxBricks {
  public:
   static constexpr int most_bricks = 4;  ///< Along each axis.
-  static constexpr int most_cells = 4 * most_bricks;
 
-  /// Reads the finest cells of which `region` covers more than `margin_m`.
-  BoxWords(const BrickMap& map, int level, const Aabb& region, double margin_m);
+  /// @pre The box is not empty. Only `fits` may be asked when it is too large.
+  explicit BoxBricks(const KeyBox& keys);
 
-  /// False when the box is too large, or not all in the lattice: then nothing was read.
   [[nodiscard]] bool fits() const { return fits_; }
-  [[nodiscard]] bool has_occupied() const { return has_occupied_; }
-  [[nodiscard]] bool has_unknown() const { return has_unknown_; }
-
-  /// Whether any such cell is in a column for which `is(x, y)`: finest cells from the first brick.
-  template <class Is>
-  [[nodiscard]] bool any_occupied(Is&& is) const {
-    return has_occupied_ && any_column(occupied_, is);
-  }
-  template <class Is>
-  [[nodiscard]] bool any_unknown(Is&& is) const {
-    return has_unknown_ && any_column(unknown_, is);
-  }
-  /// The cells of the box's bricks along x and y, also of those parts that it does not cover.
-  [[nodiscard]] CellKey first_cell() const { return {4 * first_.x, 4 * first_.y, 4 * first_.z}; }
-  [[nodiscard]] int cells_along_x() const { return 4 * size_.x; }
-  [[nodiscard]] int cells_along_y() const { return 4 * size_.y; }
+  /// Of the 4 x 4 x 4 bricks with a key of level 4, those in the box, in Morton order.
+  [[nodiscard]] std::uint64_t bricks_in(const CellKey& block) const;
+  /// The covered cells of a brick of the box.
+  [[nodiscard]] std::uint64_t cells_of(const CellKey& brick) const;
+  [[nodiscard]] const CellKey& first_block() const { return first_block_; }
+  [[nodiscard]] const CellKey& last_block() const { return last_block_; }
 
  private:
-  using Words = std::array<std::uint64_t, most_bricks * most_bricks * most_bricks>;
-  using AxisCells = std::array<std::uint64_t, most_bricks>;
+  KeyBox keys_;
+  CellKey first_block_;
+  CellKey last_block_;
+  bool fits_;
+};
 
-  void read(const BrickMap& map, int level, const std::array<AxisCells, 3>& cells);
+/// What the map has of the bricks of a box, at a level.
+class BoxWords {
+ public:
+  /// A block of 4 x 4 x 4 bricks of which the box holds some.
+  struct Block {
+    const Chunk* chunk;
+    CellKey key;             ///< At level 4.
+    std::size_t word;        ///< In the chunk's BrickBits.
+    std::uint64_t occupied;  ///< Bricks of the box that have such cells, covered or not.
+    std::uint64_t unknown;
+  };
 
-  template <class Is>
-  [[nodiscard]] bool any_column(const Words& words, Is&& is) const {
-    const int count = size_.x * size_.y * size_.z;
-    // From the middle, where columns are most likely in question.
-    for (int i = 0, at = count / 2; i < count; ++i, at = at + 1 < count ? at + 1 : 0) {
-      const int x = 4 * (at % size_.x);
-      const int y = 4 * (at / size_.x % size_.y);
-      for (std::uint64_t left = words[static_cast<std::size_t>(at)]; left != 0; left &= left - 1) {
-        const auto bit = static_cast<int>(lowest_bit(left));
-        if (is(x + (bit & 3), y + (bit >> 2 & 3))) {
+  /// @pre `bricks.fits()`; both outlive this.
+  BoxWords(const BrickMap& map, int level, const BoxBricks& bricks);
+
+  [[nodiscard]] bool may_have_occupied() const { return has_occupied_; }
+  [[nodiscard]] bool may_have_unknown() const { return has_unknown_; }
+  /// Whether nothing at all is known of these bricks.
+  [[nodiscard]] bool is_blank() const { return !has_known_ && !has_occupied_; }
+
+  /// Shows each brick with occupied or unknown cells that the box covers: its key, the former, the
+  /// latter. Ends when `show` returns true, and says whether it did.
+  template <class Show>
+  [[nodiscard]] bool any_brick(Show&& show) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Block& block = blocks_[i];
+      for (std::uint64_t left = block.occupied | block.unknown; left != 0; left &= left - 1) {
+        const std::size_t offset = lowest_bit(left);
+        const std::size_t number = 64 * block.word + offset;
+        const CellKey brick{4 * block.key.x + brick_offset(offset, 0),
+                            4 * block.key.y + brick_offset(offset, 1),
+                            4 * block.key.z + brick_offset(offset, 2)};
+        const std::uint64_t cells = bricks_.cells_of(brick);
+        const std::uint64_t occupied = occupied_at(level_, *block.chunk, number) & cells;
+        const std::uint64_t unknown = block.chunk->masks[number].unknown & cells;
+        if ((occupied | unknown) != 0 && show(brick, occupied, unknown)) {
           return true;
         }
       }
@@ -78,13 +112,16 @@ class BoxWords {
     return false;
   }
 
-  bool fits_{};
+ private:
+  void read(const BrickMap& map, const CellKey& block);
+
+  int level_;
+  const BoxBricks& bricks_;
+  std::array<Block, 8> blocks_;  // not filled here: each body would pay for it
+  std::size_t count_{};
   bool has_occupied_{};
   bool has_unknown_{};
-  CellKey first_{};  ///< Brick.
-  CellKey size_{};   ///< In bricks.
-  Words occupied_;   ///< Brick by brick, x fastest.
-  Words unknown_;
+  bool has_known_{};
 };
 
 }  // namespace flyball

@@ -16,18 +16,41 @@ std::uint64_t cells_around(unsigned bit, int level) {
   return level == 0 ? std::uint64_t{1} << bit : eight << (bit & first_of_eight);
 }
 
+/// Its tag has to be none in particular.
 const Chunk& unknown_chunk() {
-  static const Chunk nothing{CellKey{-1, -1, -1}};
+  static const Chunk nothing = [] {
+    Chunk chunk{CellKey{-1, -1, -1}};
+    chunk.tag_bits = 0;
+    return chunk;
+  }();
   return nothing;
 }
 
+/// Places of bricks (see packed::brick_place) by their numbers.
+constexpr std::array<std::uint16_t, 512> places_of_numbers() {
+  std::array<std::uint16_t, 512> places{};
+  for (std::size_t place = 0; place < 512; ++place) {
+    places[packed::brick_number_at[place]] = static_cast<std::uint16_t>(place);
+  }
+  return places;
+}
+constexpr std::array<std::uint16_t, 512> place_of = places_of_numbers();
+
 }  // namespace
 
-Chunk::Chunk(const CellKey& at) : key{at} {
+Chunk::Chunk(const CellKey& at) {
+  set_key(at);
+  codes.fill(brick_code::all_unknown);
   has_unknown.fill(~std::uint64_t{0});
   for (Brick& brick : bricks) {
     brick.cells.fill(log_odds::unknown);
   }
+}
+
+void Chunk::set_key(const CellKey& at) {
+  key = at;
+  tag = packed::chunk(at);
+  tag_bits = ~std::uint64_t{0};
 }
 
 void Chunk::set_masks(std::size_t brick, const CellMasks& cells) {
@@ -37,16 +60,41 @@ void Chunk::set_masks(std::size_t brick, const CellMasks& cells) {
     std::uint64_t& word = bits[brick >> 6U];
     word = is ? word | bit : word & ~bit;
   };
-  set(has_occupied, cells.occupied != 0);
   set(has_unknown, cells.unknown != 0);
   set(has_known, ~cells.unknown != 0);
+  const unsigned unknown = cells.unknown == 0    ? brick_code::none_unknown
+                           : ~cells.unknown == 0 ? brick_code::all_unknown
+                                                 : brick_code::some_unknown;
+  std::uint8_t& code = codes[place_of[brick]];
+  code = static_cast<std::uint8_t>((code & ~3U) | unknown);
+  if ((cells.occupied != 0) != ((has_occupied[brick >> 6U] & bit) != 0)) {
+    flip_occupied(brick);
+  }
+}
+
+/// Seldom: in the codes of all bricks of its coarser blocks, as far as these change.
+void Chunk::flip_occupied(std::size_t brick) {
+  const auto any_at = [&](int level) { return any(has_occupied, level, brick); };
+  const std::array<bool, 4> before{any_at(2), any_at(3), any_at(4), any_at(5)};
+  has_occupied[brick >> 6U] ^= std::uint64_t{1} << (brick & 63U);
+  for (int level = brick_level; level <= chunk_level; ++level) {
+    if (any_at(level) == before[static_cast<std::size_t>(level - brick_level)]) {
+      return;  // nor do the coarser ones
+    }
+    const std::size_t width = std::size_t{1} << 3 * static_cast<unsigned>(level - brick_level);
+    const std::size_t first = brick & ~(width - 1);
+    for (std::size_t i = first; i < first + width; ++i) {
+      std::uint8_t& code = codes[place_of[i]];
+      code = static_cast<std::uint8_t>(code ^ brick_code::occupied(level));
+    }
+  }
 }
 
 BrickMap::BrickMap(double finest_m, Simd simd)
     : lattice_{finest_m},
       loops_{&inner_loops(simd)},
       nothing_{&unknown_chunk()},
-      near_(near_slots, NearSlot{0, 0, nothing_}),
+      near_(near_slots, nothing_),
       slots_(first_slots, Slot{}) {}
 
 void BrickMap::reserve(std::size_t chunks) {
@@ -110,12 +158,17 @@ std::size_t BrickMap::drop_beyond(const Vec3& p_W, double radius_m) {
   chunks_.resize(kept);
   if (dropped > 0) {
     rehash(slots_.size());
-    near_.assign(near_slots, NearSlot{0, 0, nothing_});
+    near_.assign(near_slots, nothing_);
     for (const auto& chunk : chunks_) {
       take_near_slot(*chunk);
     }
   }
   return dropped;
+}
+
+const Chunk& BrickMap::far_chunk(std::uint64_t key) const {
+  const Chunk* found = slots_[slot_of(key)].chunk;
+  return found == nullptr ? *nothing_ : *found;
 }
 
 BlockSummary BrickMap::summary(const CellKey& cell, int level) const {
@@ -140,12 +193,12 @@ CellState BrickMap::state(const CellKey& cell, int level) const {
 }
 
 std::size_t BrickMap::bytes() const {
-  return (chunks_.size() + spare_.size()) * sizeof(Chunk) + near_.size() * sizeof(NearSlot) +
+  return (chunks_.size() + spare_.size()) * sizeof(Chunk) + near_.size() * sizeof(const Chunk*) +
          slots_.size() * sizeof(Slot);
 }
 
 Chunk& BrickMap::at(const CellKey& chunk) {
-  const std::uint64_t key = packed(chunk);
+  const std::uint64_t key = packed::chunk(chunk);
   const std::size_t slot = slot_of(key);
   if (slots_[slot].chunk != nullptr) {
     return *slots_[slot].chunk;
@@ -155,7 +208,7 @@ Chunk& BrickMap::at(const CellKey& chunk) {
   } else {
     chunks_.push_back(std::move(spare_.back()));
     spare_.pop_back();
-    chunks_.back()->key = chunk;
+    chunks_.back()->set_key(chunk);
   }
   Chunk& made = *chunks_.back();
   slots_[slot] = {key, &made};
@@ -167,16 +220,16 @@ Chunk& BrickMap::at(const CellKey& chunk) {
 }
 
 void BrickMap::take_near_slot(const Chunk& chunk) {
-  NearSlot& near = near_[near_slot(chunk.key)];
-  if (near.relevant == 0) {
-    near = {packed(chunk.key), ~std::uint64_t{0}, &chunk};
+  const Chunk*& near = near_[packed::near_number(chunk.tag)];
+  if (near == nothing_) {
+    near = &chunk;
   }
 }
 
 void BrickMap::rehash(std::size_t slots) {
   slots_.assign(slots, Slot{});
   for (const auto& chunk : chunks_) {
-    const std::uint64_t key = packed(chunk->key);
+    const std::uint64_t key = packed::chunk(chunk->key);
     slots_[slot_of(key)] = {key, chunk.get()};
   }
 }

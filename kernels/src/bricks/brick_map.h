@@ -8,12 +8,15 @@
 /// bricks in Morton order, so that the eight bricks of a coarser cell are neighbours. Beside the
 /// log-odds it keeps, with every change, which cells are occupied and which are unknown (a bit
 /// each), and which bricks hold such cells. Questions look at bits only: at a level above 0 the
-/// bits of a cell are neighbours in one word (or, for the whole chunk, in eight).
+/// bits of a cell are neighbours in one word (or, for the whole chunk, in eight). Most bricks are
+/// all free or all unknown, which stands in a byte each, so that a question about a point seldom
+/// looks at a brick's own masks.
 
 #include "flyball/runtime/occupancy.h"
 
 #include "inner_loops.h"
 #include "lattice.h"
+#include "packed_cell.h"
 #include "scan_masks.h"
 #include <array>
 #include <memory>
@@ -24,11 +27,27 @@ namespace flyball {
 /// A bit for each brick of a chunk.
 using BrickBits = std::array<std::uint64_t, 8>;
 
+/// What is known of a brick without a look at its masks, in a byte.
+namespace brick_code {
+/// The lowest two bits: none, all or some of its cells are unknown.
+inline constexpr unsigned none_unknown = 0;
+inline constexpr unsigned all_unknown = 1;
+inline constexpr unsigned some_unknown = 2;
+/// Whether any cell is occupied in the block of `level` (2..5) that contains the brick.
+[[nodiscard]] constexpr unsigned occupied(int level) {
+  return 1U << static_cast<unsigned>(level);
+}
+inline constexpr unsigned count = 64;
+}  // namespace brick_code
+
 /// 32^3 finest cells.
 struct Chunk {
   static constexpr int bricks_per_edge = 8;
 
   CellKey key{};
+  std::uint64_t tag{};       ///< `packed::chunk(key)`.
+  std::uint64_t tag_bits{};  ///< Which bits of a tag have to be those: all, or none for `nothing`.
+  std::array<std::uint8_t, 512> codes;  ///< By places of bricks, see packed::brick_place.
   BrickBits has_occupied{};
   BrickBits has_unknown;
   BrickBits has_known{};
@@ -37,6 +56,11 @@ struct Chunk {
 
   explicit Chunk(const CellKey& at);
   void set_masks(std::size_t brick, const CellMasks& cells);
+  void set_key(const CellKey& at);
+  /// Whether it is the chunk with this tag, or the one of unknown cells.
+  [[nodiscard]] bool answers(std::uint64_t of_tag) const {
+    return ((tag ^ of_tag) & tag_bits) == 0;
+  }
   /// Of the block of `level` (2..5) that contains the brick with this number.
   [[nodiscard]] BlockSummary block(int level, std::size_t brick) const {
     return {any(has_occupied, level, brick), any(has_unknown, level, brick),
@@ -50,6 +74,9 @@ struct Chunk {
     const std::uint64_t block = ~std::uint64_t{0} >> (64 - width);
     return (bits[brick >> 6U] >> (brick & 63U & ~(width - 1)) & block) != 0;
   }
+
+ private:
+  void flip_occupied(std::size_t brick);
 };
 
 class BrickMap {
@@ -78,13 +105,15 @@ class BrickMap {
   /// A chunk of unknown cells where nothing is known. What is found there decides no branch, so
   /// that questions about random places do not wait for wrong guesses.
   [[nodiscard]] const Chunk& chunk_at(const CellKey& chunk) const {
-    const std::uint64_t key = packed(chunk);
-    const NearSlot& near = near_[near_slot(chunk)];
-    if (((near.key ^ key) & near.relevant) == 0) {
-      return *near.chunk;
-    }
-    const Chunk* found = slots_[slot_of(key)].chunk;
-    return found == nullptr ? *nothing_ : *found;
+    return chunk_with(packed::chunk(chunk));
+  }
+  /// The same, of a cell of the lattice.
+  [[nodiscard]] const Chunk& chunk_of(PackedCell cell) const {
+    return chunk_with(packed::chunk(cell));
+  }
+  /// Most often the cell's chunk, or the one of unknown cells: if it `answers`.
+  [[nodiscard]] const Chunk& near_chunk(PackedCell cell) const {
+    return *near_[packed::near_number(packed::chunk(cell))];
   }
   /// Null where nothing is known.
   [[nodiscard]] const Chunk* find(const CellKey& chunk) const {
@@ -100,11 +129,11 @@ class BrickMap {
     std::uint64_t key;
     Chunk* chunk;  ///< Null where the slot is empty.
   };
-  [[nodiscard]] static std::uint64_t packed(const CellKey& chunk) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.x)) << 42U ^
-           static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.y)) << 21U ^
-           static_cast<std::uint64_t>(static_cast<std::uint32_t>(chunk.z));
+  [[nodiscard]] const Chunk& chunk_with(std::uint64_t key) const {
+    const Chunk& near = *near_[packed::near_number(key)];
+    return near.answers(key) ? near : far_chunk(key);
   }
+  [[nodiscard]] const Chunk& far_chunk(std::uint64_t key) const;
   /// The slot with this chunk, or the empty one where it belongs.
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
     constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;  // 2^64 / golden ratio: Knuth, TAOCP 6.4
@@ -114,16 +143,6 @@ class BrickMap {
       slot = (slot + 1) & mask;
     }
     return slot;
-  }
-  /// The first chunk that came to this place, or none at all.
-  struct NearSlot {
-    std::uint64_t key{};
-    std::uint64_t relevant{};  ///< Bits of the key: all of them, or none where no chunk came.
-    const Chunk* chunk{};
-  };
-  /// Chunks have places of their own as long as the map is not wider than 32 x 32 x 8 of them.
-  [[nodiscard]] static std::size_t near_slot(const CellKey& chunk) {
-    return static_cast<std::size_t>((chunk.z & 7) << 10 | (chunk.y & 31) << 5 | (chunk.x & 31));
   }
   Chunk& at(const CellKey& chunk);
   /// Unless another one has it.
@@ -135,7 +154,9 @@ class BrickMap {
   std::vector<std::unique_ptr<Chunk>> chunks_{};
   std::vector<std::unique_ptr<Chunk>> spare_{};
   const Chunk* nothing_;
-  std::vector<NearSlot> near_;
+  /// The first chunk that came to a place, or the one of unknown cells. Chunks have places of their
+  /// own as long as the map is not wider than 32 x 32 x 8 of them.
+  std::vector<const Chunk*> near_;
   std::vector<Slot> slots_;  ///< All chunks. Open addressing; a power of two, at most half full.
 };
 

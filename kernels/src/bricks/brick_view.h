@@ -16,18 +16,20 @@
 #include "brick_map.h"
 #include "clear_spaces.h"
 #include <functional>
+#include <optional>
 
 namespace flyball {
 
+class BodyShape;
 class BoxWords;
 
 class BrickView final : public OccupancyView, public Inflatable {
  public:
   /// The map outlives the view.
-  explicit BrickView(const BrickMap& map) : map_{map} {}
+  explicit BrickView(const BrickMap& map) : map_{map} { activate(0); }
 
   /// Which cells block from now on: 0..5. Costs nothing.
-  void activate(int level) { level_ = level; }
+  void activate(int level);
   [[nodiscard]] int level() const { return level_; }
   /// Ignored when an earlier cylinder contains it.
   void declare_clear(const Vec3& centre_W, const Cylinder& space) {
@@ -57,12 +59,17 @@ class BrickView final : public OccupancyView, public Inflatable {
   void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
 
  private:
-  [[nodiscard]] CellState seen_at(const CellKey& cell) const;
-  [[nodiscard]] CellState seen_by(const BodyShape& shape, const BoxWords& words) const;
+  [[nodiscard]] CellState seen_at(const Chunk& chunk, PackedCell cell) const;
+  [[nodiscard]] CellState far_state(const Vec3& p_W, PackedCell cell) const;
+  [[nodiscard]] CellState unseen_state(const Vec3& p_W) const;
+  [[nodiscard]] std::optional<CellState> seen_by(const BodyShape& shape) const;
+  [[nodiscard]] CellState seen_by_disc(const BodyShape& shape, const BoxWords& words) const;
+  [[nodiscard]] CellState beyond_clear(const BodyShape& shape) const;
 
   const BrickMap& map_;
   ClearSpaces clear_{};
   int level_{};
+  const std::uint8_t* answers_{};  ///< By codes of bricks, at this level.
 };
 
 }  // namespace flyball

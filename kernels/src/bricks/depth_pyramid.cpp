@@ -7,6 +7,11 @@
 #include <limits>
 
 namespace flyball {
+namespace {
+
+constexpr std::size_t spare = 4;  // four are read from the last one on
+
+}  // namespace
 
 void DepthPyramid::build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops) {
   FLYBALL_ASSERT(cloud_C.camera.has_value(), "scan %llu has no camera",
@@ -32,10 +37,16 @@ void DepthPyramid::lay_out(const Intrinsics& camera) {
     texels += static_cast<std::size_t>(scales_.back().width) *
               static_cast<std::size_t>(scales_.back().height);
   }
-  depth_m_.resize(
-      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px) + 1);
-  least_m_.resize(texels);
-  most_m_.resize(texels);
+  depth_m_.resize(static_cast<std::size_t>(camera.width_px) *
+                      static_cast<std::size_t>(camera.height_px) +
+                  spare);
+  least_m_.resize(texels + spare);
+  most_m_.resize(texels + spare);
+  views_.clear();
+  for (std::size_t scale = 0; scale < scales_.size(); ++scale) {
+    const DepthRows first = rows(scale, 0, 0);
+    views_.push_back({first.least[0], first.most[0], scales_[scale].width});
+  }
 }
 
 void DepthPyramid::put(const std::vector<Eigen::Vector3f>& points_C,
@@ -44,13 +55,8 @@ void DepthPyramid::put(const std::vector<Eigen::Vector3f>& points_C,
   for (std::size_t first = 0; first < points_C.size(); first += lanes) {
     const std::size_t count = std::min(lanes, points_C.size() - first);
     PointBlock points;
-    points.take(&points_C[first], count);
-    Lanes<std::int32_t> pixels;
-    Lanes<float> depths_m;
-    loops.project_points(points, grid_, range_m * range_m, pixels, depths_m);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {  // beyond the last point it repeats that
-      depth_m_[static_cast<std::size_t>(pixels[lane])] = depths_m[lane];
-    }
+    take_points(loops, &points_C[first], count, points);
+    loops.put_depths(points, grid_, range_m * range_m, depth_m_.data());
   }
 }
 

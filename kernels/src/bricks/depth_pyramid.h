@@ -38,6 +38,8 @@ class DepthPyramid {
   [[nodiscard]] const PixelGrid& grid() const { return grid_; }
   /// The finest scale, row by row.
   [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }
+  /// From the finest scale to a single texel.
+  [[nodiscard]] const std::vector<DepthScale>& scales() const { return views_; }
   /// @pre The block lies in the image. May look at pixels beside it.
   [[nodiscard]] DepthSpan span(const PixelBlock& block) const;
 
@@ -54,8 +56,9 @@ class DepthPyramid {
 
   PixelGrid grid_{};
   std::vector<Scale> scales_{};
-  std::vector<float> depth_m_{};  ///< The finest scale, and one spare pixel.
-  std::vector<float> least_m_{};  ///< The others, one after the other.
+  std::vector<DepthScale> views_{};  ///< Of `scales_`.
+  std::vector<float> depth_m_{};     ///< The finest scale, and spare pixels.
+  std::vector<float> least_m_{};     ///< The others, one after the other, and spare texels.
   std::vector<float> most_m_{};
 };
 

@@ -15,6 +15,7 @@ void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m
   depth_.build(cloud_C, range_m, loops_);
   const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
   measure_cubes(R_CW, range_m);
+  aim_octants(R_CW);
   aim_probe(R_CW, range_m);
 }
 
@@ -26,11 +27,29 @@ void DepthView::measure_cubes(const Eigen::Matrix3d& R_CW, double range_m) {
     const double far_m = range_m + ball_m;
     extents_[level] = {(R_CW.cwiseAbs() * Vec3::Constant(half_m)).cast<float>(),
                        static_cast<float>(near_m * near_m), static_cast<float>(far_m * far_m)};
+  }
+}
+
+void DepthView::aim_octants(const Eigen::Matrix3d& R_CW) {
+  for (std::size_t level = 1; level < octants_.size(); ++level) {
+    OctantProbe& probe = octants_[level];
+    const Extent& extent = extents_[level - 1];
+    const double half_m = 0.5 * finest_m_ * (1 << (level - 1));
     for (unsigned octant = 0; octant < 8; ++octant) {
       const auto side = [&](unsigned axis) { return (octant >> axis & 1U) != 0 ? 1.0 : -1.0; };
-      to_octant_C_[level][octant] =
-          (R_CW * (0.5 * half_m * Vec3{side(0), side(1), side(2)})).cast<float>();
+      const Eigen::Vector3f offset_C =
+          (R_CW * (half_m * Vec3{side(0), side(1), side(2)})).cast<float>();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        probe.offset_C[axis][octant] = offset_C[static_cast<int>(axis)];
+      }
     }
+    probe.half_C = {extent.half.x(), extent.half.y(), extent.half.z()};
+    probe.nearest_m = nearest_depth_m;
+    probe.squared_near_m2 = extent.squared_near;
+    probe.squared_far_m2 = extent.squared_far;
+    probe.grid = depth_.grid();
+    probe.scales = depth_.scales().data();
+    probe.scales_count = static_cast<int>(depth_.scales().size());
   }
 }
 

@@ -26,9 +26,17 @@ class DepthView {
   void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
   /// A cube of level 1..5 around a point of C.
   [[nodiscard]] Sight sight_of(const Eigen::Vector3f& centre_C, int level) const;
+  /// Of the eight cubes in a cube of level 2..5.
+  [[nodiscard]] OctantSight sight_of_octants(const Eigen::Vector3f& centre_C, int level) const {
+    return loops_.see_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());
+  }
+  [[nodiscard]] std::uint32_t whole_octants(const Eigen::Vector3f& centre_C, int level) const {
+    return loops_.whole_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());
+  }
   /// From the centre of a block of `level` to that of its octant.
-  [[nodiscard]] const Eigen::Vector3f& to_octant(int level, unsigned octant) const {
-    return to_octant_C_[static_cast<std::size_t>(level)][octant];
+  [[nodiscard]] Eigen::Vector3f to_octant(int level, unsigned octant) const {
+    const auto& offset_C = octants_[static_cast<std::size_t>(level)].offset_C;
+    return {offset_C[0][octant], offset_C[1][octant], offset_C[2][octant]};
   }
   /// For the single cells of a brick; see InnerLoops::seen_cells.
   [[nodiscard]] const CellProbe& probe() const { return probe_; }
@@ -41,13 +49,14 @@ class DepthView {
     float squared_far{};   ///< Centres farther than this: it is out of range.
   };
   void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
+  void aim_octants(const Eigen::Matrix3d& R_CW);
   void aim_probe(const Eigen::Matrix3d& R_CW, double range_m);
 
   double finest_m_;
   const InnerLoops& loops_;
   DepthPyramid depth_{};
   std::array<Extent, chunk_level + 1> extents_{};
-  std::array<std::array<Eigen::Vector3f, 8>, chunk_level + 1> to_octant_C_{};
+  std::array<OctantProbe, chunk_level + 1> octants_{};  ///< By the level of the outer cube.
   CellProbe probe_{};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -50,6 +51,8 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 #endif
 }
 #include "inner_loops.inc"
+#include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace portable
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -70,6 +73,8 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
   return static_cast<std::uint32_t>(_mm256_movemask_epi8(reinterpret_cast<__m256i>(bytes)));
 }
 #include "inner_loops.inc"
+#include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
 namespace avx512 {
@@ -82,6 +87,8 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
   return _mm512_movepi8_mask(reinterpret_cast<__m512i>(bytes));
 }
 #include "inner_loops.inc"
+#include "view_loops.inc"
+#include "view_octants.inc"
 }  // namespace avx512
 #pragma GCC pop_options
 constexpr bool has_avx = true;
@@ -124,18 +131,9 @@ Simd widest_simd() {
 }
 
 const InnerLoops& inner_loops(Simd simd) {
-  static constexpr InnerLoops of_portable{
-      portable::update_brick, portable::locate_hits,    portable::cut_rays,   portable::aim_rays,
-      portable::walk_rays,    portable::project_points, portable::halve_rows, portable::join_words,
-      portable::widen_words,  portable::seen_cells};
-  static constexpr InnerLoops of_avx2{avx2::update_brick, avx2::locate_hits, avx2::cut_rays,
-                                      avx2::aim_rays,     avx2::walk_rays,   avx2::project_points,
-                                      avx2::halve_rows,   avx2::join_words,  avx2::widen_words,
-                                      avx2::seen_cells};
-  static constexpr InnerLoops of_avx512{
-      avx512::update_brick, avx512::locate_hits,    avx512::cut_rays,   avx512::aim_rays,
-      avx512::walk_rays,    avx512::project_points, avx512::halve_rows, avx512::join_words,
-      avx512::widen_words,  avx512::seen_cells};
+  static constexpr InnerLoops of_portable = portable::loops;
+  static constexpr InnerLoops of_avx2 = avx2::loops;
+  static constexpr InnerLoops of_avx512 = avx512::loops;
   return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
 }
 

@@ -121,6 +121,31 @@ struct alignas(64) CellProbe {
   const float* depth_m;
 };
 
+/// One scale of a depth pyramid. Four numbers may be read from any texel on.
+struct DepthScale {
+  const float* least;
+  const float* most;
+  int width;
+};
+
+/// A depth image, set up for the eighths of cubes of one level.
+struct alignas(32) OctantProbe {
+  std::array<std::array<float, 8>, 3> offset_C;  ///< From a cube's centre to its octants' [m].
+  std::array<float, 3> half_C;                   ///< Of the box of C around an octant [m].
+  float nearest_m;
+  float squared_near_m2;  ///< Centres nearer than this: the octant is in range as a whole.
+  float squared_far_m2;   ///< Centres farther than this: it is out of range.
+  PixelGrid grid;
+  const DepthScale* scales;
+  int scales_count;
+};
+
+/// A bit for each octant; none where it is behind every surface, out of view or out of range.
+struct OctantSight {
+  std::uint32_t whole;  ///< In view, in range, and nearer than the least depth behind it.
+  std::uint32_t part;   ///< Perhaps some of it is seen.
+};
+
 /// Words, those that stand before them and those that stand after them.
 struct WordColumns {
   const std::uint64_t* words;
@@ -144,13 +169,12 @@ struct InnerLoops {
                    RayBlock& rays);
   /// Writes the first `steps` places of each lane: lane l of step k to `places[16 k + l]`.
   void (*walk_rays)(RayBlock& rays, const WindowAxes& axes, int steps, std::uint32_t* places);
-  /// The pixels in which points of C are seen, and their depths, infinite where they are farther
+  /// Sets the depths of the pixels in which points of C are seen, infinite where they are farther
   /// than the range. Outside the image and behind it: the pixel after the last.
-  void (*project_points)(const PointBlock& points,
-                         const PixelGrid& grid,
-                         float squared_range_m2,
-                         Lanes<std::int32_t>& pixels,
-                         Lanes<float>& depths_m);
+  void (*put_depths)(const PointBlock& points,
+                     const PixelGrid& grid,
+                     float squared_range_m2,
+                     float* depth_m);
   /// Least and greatest depths of 2 x 2 blocks: `blocks` of them, each from two texels of a row.
   void (*halve_rows)(const DepthRows& rows, std::size_t blocks, float* least, float* most);
   /// Adds the bits of two rows of words to a third.
@@ -163,7 +187,27 @@ struct InnerLoops {
   /// Which cells of the brick around `centre_C` are in view, in range, and nearer by half a cell
   /// than the depth of the pixel in which their centre is.
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
+  /// What the image says about the eighths of the cube around `centre_C`.
+  OctantSight (*see_octants)(const OctantProbe& probe, const float* centre_C);
+  /// The same, when only those seen as a whole matter.
+  std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
+  /// Takes sixteen points, three numbers each.
+  void (*split_points)(const float* points, PointBlock& block);
 };
+
+/// @param count  1 to 16. The lanes beyond the last point repeat it.
+template <class Point>
+void take_points(const InnerLoops& loops,
+                 const Point* points,
+                 std::size_t count,
+                 PointBlock& block) {
+  static_assert(sizeof(Point) == 3 * sizeof(float));
+  if (count == lanes) {
+    loops.split_points(&points->x(), block);
+  } else {
+    block.take(points, count);
+  }
+}
 
 /// By how many units the gap of two rounded crossings may be wrong: each began half a unit off, and
 /// went half a unit further off with every step.

@@ -51,6 +51,7 @@ class Lattice {
   explicit Lattice(double finest_m) : finest_m_{finest_m}, cells_per_m_{1.0 / finest_m} {}
 
   [[nodiscard]] double cell_m(int level) const { return finest_m_ * (1 << level); }
+  [[nodiscard]] double cells_per_m() const { return cells_per_m_; }
   [[nodiscard]] double edge_m() const { return half_keys * finest_m_; }
   /// OctoMap's arithmetic: a product, and not a quotient, decides at the borders of cells.
   /// @pre The result fits into an integer.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pyramid_scan.h"
 
+#include "bits.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +21,11 @@ float greatest_square(double length) {
     square = std::nextafter(square, infinity);
   }
   return square;
+}
+
+/// In a block of a level from `brick_level` on.
+std::size_t bricks_in(int level) {
+  return std::size_t{1} << 3 * static_cast<unsigned>(level - brick_level);
 }
 
 }  // namespace
@@ -89,17 +95,30 @@ void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double 
   frame.squared_range_m2 = greatest_square(range_m);
   frame.cells_per_m = 1.0 / lattice_.cell_m(0);
   frame.window = window_.chunks();
+  std::size_t brick = 0;  // Neighbours in the image are most often in one brick.
+  std::uint64_t hit = 0;
   for (std::size_t first = 0; first < cloud_C.hits_C.size(); first += lanes) {
     PointBlock points;
-    points.take(&cloud_C.hits_C[first], std::min(lanes, cloud_C.hits_C.size() - first));
+    take_points(loops_, &cloud_C.hits_C[first], std::min(lanes, cloud_C.hits_C.size() - first),
+                points);
     Lanes<std::int32_t> cells;
     loops_.locate_hits(points, frame, cells);
     for (const std::int32_t cell : cells) {  // beyond the last point it repeats that
-      if (cell >= 0) {
-        const auto place = static_cast<std::size_t>(cell);
-        window_.add_hit(place >> 6U, std::uint64_t{1} << (place & 63U));
+      const auto place = static_cast<std::size_t>(cell);
+      if (cell >= 0 && place >> 6U != brick) {
+        mark_hits_of(brick, hit);
+        brick = place >> 6U;
+        hit = 0;
       }
+      hit |= (cell >= 0 ? std::uint64_t{1} : 0) << (place & 63U);
     }
+  }
+  mark_hits_of(brick, hit);
+}
+
+void PyramidScan::mark_hits_of(std::size_t brick, std::uint64_t hit) {
+  if (hit != 0) {
+    window_.add_hit(brick, hit);
   }
 }
 
@@ -111,9 +130,16 @@ void PyramidScan::mark_origin(const Vec3& p_WC) {
 }
 
 void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
+  ++masks_.blocks;
   const Aabb cube = lattice_.cube(chunk, chunk_level);
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
-  free_block({(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level});
+  const Block block{(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level};
+  const Sight sight = view_.sight_of(block.centre_C, block.level);
+  if (sight == Sight::whole) {
+    window_.free_block(block.place, bricks_in(chunk_level));
+  } else if (sight == Sight::part) {
+    free_inside(block);
+  }
 }
 
 int PyramidScan::floor_at(float depth_m) const {
@@ -125,38 +151,46 @@ int PyramidScan::floor_at(float depth_m) const {
   return level;
 }
 
-void PyramidScan::free_block(const Block& block) {
-  ++masks_.blocks;
-  const Sight sight = view_.sight_of(block.centre_C, block.level);
-  if (sight == Sight::whole) {
-    window_.free_block(block.place,
-                       std::size_t{1} << 3 * static_cast<unsigned>(block.level - brick_level));
-  }
-  if (sight != Sight::part) {
-    return;
-  }
+/// Of a block that is perhaps seen in part.
+void PyramidScan::free_inside(const Block& block) {
   const int floor_level = floor_at(block.centre_C.z());
-  if (block.level == brick_level && floor_level < brick_level) {
-    floor_level == 0 ? free_cells(block) : free_eighths(block);
-  }
-  if (block.level <= std::max(floor_level, brick_level)) {
+  if (block.level <= floor_level) {
     return;
   }
-  const int below = block.level - 1;
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    const std::size_t first = std::size_t{octant} << 3 * static_cast<unsigned>(below - brick_level);
-    free_block({block.centre_C + view_.to_octant(block.level, octant), block.place + first, below});
+  if (block.level > brick_level) {
+    free_octants(block);
+  } else if (floor_level > 0) {
+    free_eighths(block);
+  } else {
+    free_cells(block);
+  }
+}
+
+void PyramidScan::free_octants(const Block& block) {
+  masks_.blocks += 8.0;
+  const OctantSight sight = view_.sight_of_octants(block.centre_C, block.level);
+  const std::size_t bricks = bricks_in(block.level - 1);
+  for (std::uint64_t left = sight.whole; left != 0; left &= left - 1) {
+    window_.free_block(block.place + lowest_bit(left) * bricks, bricks);
+  }
+  for (std::uint64_t left = sight.part; left != 0; left &= left - 1) {
+    const std::size_t octant = lowest_bit(left);
+    free_inside({block.centre_C + view_.to_octant(block.level, static_cast<unsigned>(octant)),
+                 block.place + octant * bricks, block.level - 1});
   }
 }
 
 void PyramidScan::free_eighths(const Block& brick) {
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    ++masks_.blocks;
-    const Eigen::Vector3f centre_C = brick.centre_C + view_.to_octant(brick_level, octant);
-    if (view_.sight_of(centre_C, 1) == Sight::whole) {
-      const unsigned shift = (octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32;
-      window_.add_free(brick.place, std::uint64_t{0x330033} << shift);
-    }
+  masks_.blocks += 8.0;
+  std::uint64_t cells = 0;
+  for (std::uint64_t left = view_.whole_octants(brick.centre_C, brick_level); left != 0;
+       left &= left - 1) {
+    const std::size_t octant = lowest_bit(left);
+    cells |= std::uint64_t{0x330033}
+             << ((octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32);
+  }
+  if (cells != 0) {
+    window_.add_free(brick.place, cells);
   }
 }
 

@@ -44,10 +44,12 @@ class PyramidScan {
   };
   void span_window(const Pose& X_WC, double range_m);
   void mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  void mark_hits_of(std::size_t brick, std::uint64_t hit);
   void mark_origin(const Vec3& p_WC);
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   [[nodiscard]] int floor_at(float depth_m) const;
-  void free_block(const Block& block);
+  void free_inside(const Block& block);
+  void free_octants(const Block& block);
   void free_eighths(const Block& brick);
   void free_cells(const Block& brick);
 

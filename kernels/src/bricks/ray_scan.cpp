@@ -59,7 +59,7 @@ void RayScan::cut_rays(const Scan& scan) {
       const std::size_t ray = block * lanes + lane;
       points[lane] = ray < hits ? scan.hits_W[ray] : scan.clear_W[ray - hits];
     }
-    ends_[block].take(points.data(), rays_in(block));
+    take_points(loops_, points.data(), rays_in(block), ends_[block]);
     loops_.cut_rays(ends_[block], frame_);
   }
 }
