@@ -165,7 +165,7 @@ std::string differences_text(const WorldResult& world) {
   }
   std::vector<std::vector<std::string>> lines{{"less " + world.comparison.rows.front().policy,
                                                "pairs", "wins", "time s", "energy kJ", "energy %",
-                                               "battery %"}};
+                                               "computer %", "battery %"}};
   for (const PairedDifference& d : world.differences) {
     lines.push_back({d.policy, std::to_string(d.pairs), std::to_string(d.wins),
                      figure(d.time_s, 1.0, 1), figure(d.energy_j, 1e-3, 1),
@@ -176,9 +176,7 @@ std::string differences_text(const WorldResult& world) {
 }
 
 std::string decisions_text(const WorldResult& world) {
-  const bool has_bound =
-      std::any_of(world.decisions.begin(), world.decisions.end(),
-                  [](const DecisionFigures& d) { return d.over_bound.has_value(); });
+  const bool has_bound = world.has_bound();
   std::vector<std::vector<std::string>> lines{
       {"decisions", "late maps %", "budget use", "99 % within us"}};
   if (has_bound) {
@@ -195,6 +193,11 @@ std::string decisions_text(const WorldResult& world) {
 }
 
 }  // namespace
+
+bool WorldResult::has_bound() const {
+  return std::any_of(decisions.begin(), decisions.end(),
+                     [](const DecisionFigures& d) { return d.over_bound.has_value(); });
+}
 
 std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights,
                                        const KnownBounds& bounds) {

@@ -67,12 +67,15 @@ std::string differences_html(const WorldResult& world) {
 }
 
 std::string decisions_html(const WorldResult& world) {
+  const bool has_bound = world.has_bound();
   std::string table =
       "<h3>Decisions</h3><table><tr><th>policy</th><th>maps later than bounded %</th><th>budget "
-      "use</th><th>99 % within us, on the host</th><th>energy over its bound</th></tr>\n";
+      "use</th><th>99 % within us, on the host</th>";
+  table += has_bound ? "<th>energy over its bound</th></tr>\n" : "</tr>\n";
   for (const DecisionFigures& d : world.decisions) {
     table += "<tr><td>" + html_text(d.policy) + "</td>" + cell(d.overrun_percent, 1.0, 2) +
-             cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) + "</tr>\n";
+             cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) +
+             (has_bound ? cell(d.over_bound, 1.0, 2) : "") + "</tr>\n";
   }
   return table + "</table>\n";
 }

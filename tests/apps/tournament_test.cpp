@@ -59,6 +59,12 @@ TEST(Tournament, sets_energy_against_a_bound_that_is_known) {
   EXPECT_FALSE(worlds[1].decisions[0].over_bound);
   EXPECT_NE(to_text(worlds).find("energy / bound"), std::string::npos);
   EXPECT_EQ(to_text(tournament_of(two_worlds())).find("energy / bound"), std::string::npos);
+  const std::string page = tournament_page("Tournament", worlds);
+  const auto column = page.find("energy over its bound");
+  ASSERT_NE(column, std::string::npos);
+  EXPECT_EQ(page.find("energy over its bound", column + 1), std::string::npos)
+      << "the other world has no bound";
+  EXPECT_NE(page.find("3.25", column), std::string::npos);
 }
 
 TEST(Tournament, tells_the_computers_energy_apart) {
@@ -66,6 +72,9 @@ TEST(Tournament, tells_the_computers_energy_apart) {
   flights[0].energy_computer_j = 2000.0;
   flights[1].energy_computer_j = 1500.0;
   EXPECT_DOUBLE_EQ(tournament_of(flights)[0].differences[0].computer_percent->median, -25.0);
+  const std::string text = to_text(tournament_of(flights));
+  EXPECT_LT(text.find("energy %"), text.find("computer %"));
+  EXPECT_LT(text.find("computer %"), text.find("battery %", text.find("less first")));
 }
 
 TEST(Tournament, prints_an_object_for_each_world_in_the_shape_of_a_comparison) {

@@ -45,6 +45,8 @@ struct WorldResult {
   Comparison comparison{};
   std::vector<PairedDifference> differences{};  ///< Without the first policy.
   std::vector<DecisionFigures> decisions{};     ///< In the order of the comparison's rows.
+  /// Whether one of the policies' energies is set against a bound.
+  [[nodiscard]] bool has_bound() const;
 };
 
 /// @param flights  World by world, as `compare_flights` wants them; a world is a scenario's name.
