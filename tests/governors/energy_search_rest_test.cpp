@@ -2,6 +2,7 @@
 
 #include "flyball/governors/energy_search.h"
 
+#include "search_knobs.h"
 #include <cmath>
 #include <limits>
 
@@ -13,23 +14,10 @@ namespace {
 constexpr double top_hz = 2e9;
 
 EnergySearch search() {
-  KnobSpec resolution;
-  resolution.name = "map.resolution_m";
-  resolution.min = 0.05;
-  resolution.max = 2.0;
-  resolution.fallback = 0.15;
-  KnobSpec range;
-  range.name = "map.range_m";
-  range.min = 2.0;
-  range.max = 25.0;
-  range.fallback = 7.0;
-  KnobSpec clock;
-  clock.name = "cpu.frequency_hz";
-  clock.legal = {0.25e9, 0.5e9, 1e9, 1.5e9, top_hz};
-  clock.fallback = top_hz;
   const std::vector<SearchLevel> levels{{0.15, 0.4, 2.2, 25.0, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make({}, levels, {7.0, 12.0}, KnobSettings{{resolution, range, clock}});
+  return *EnergySearch::make({}, levels, {7.0, 12.0},
+                             kit::search_knobs({0.25e9, 0.5e9, 1e9, 1.5e9, top_hz}));
 }
 
 TEST(EnergySearchRest, takes_the_lowest_clock_that_is_soon_enough) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/energy_search.h"
 
+#include "search_knobs.h"
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,21 +12,7 @@ namespace {
 constexpr double top_hz = 2e9;
 
 KnobSettings knobs() {
-  KnobSpec resolution;
-  resolution.name = "map.resolution_m";
-  resolution.min = 0.05;
-  resolution.max = 2.0;
-  resolution.fallback = 0.15;
-  KnobSpec range;
-  range.name = "map.range_m";
-  range.min = 2.0;
-  range.max = 25.0;
-  range.fallback = 7.0;
-  KnobSpec clock;
-  clock.name = "cpu.frequency_hz";
-  clock.legal = {0.5e9, 1e9, top_hz};
-  clock.fallback = top_hz;
-  return KnobSettings{{resolution, range, clock}};
+  return kit::search_knobs({0.5e9, 1e9, top_hz});
 }
 
 EnergySearch search(double fine_most_range_m = 25.0) {
