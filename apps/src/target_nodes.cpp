@@ -19,6 +19,15 @@ double between_px(const ImageBox& a, const ImageBox& b) {
   return std::sqrt(x * x + y * y);
 }
 
+/// Shows the tracker what it reads of the frame, and no more: the rest need not be rendered.
+Status begin_tracking(Tracker& tracker, const ColourFrame& frame, const ImageBox& box, Work& work) {
+  return tracker.begin(frame.image.part(tracker.learns_from(box, frame.camera)), box, work);
+}
+
+Result<std::optional<ImageBox>> track(Tracker& tracker, const ColourFrame& frame, Work& work) {
+  return tracker.update(frame.image.part(tracker.looks_at(frame.camera)), work);
+}
+
 void add_detect(Graph& graph,
                 const VehicleTopics& vehicle,
                 const TargetTopics& topics,
@@ -93,8 +102,8 @@ class BufferedTracking {
   }
 
   void begin(JobContext& job, CaughtUp& caught_up, Work& work) {
-    const Status begun = context_.kernels.buffered_tracker->begin(caught_up.frame.image.value(),
-                                                                  *caught_up.box, work);
+    const Status begun =
+        begin_tracking(*context_.kernels.buffered_tracker, caught_up.frame, *caught_up.box, work);
     if (!begun) {
       context_.event(job.now(), "not tracked: " + begun.error().message);
       caught_up.box = std::nullopt;
@@ -106,7 +115,7 @@ class BufferedTracking {
     if (!caught_up.box) {
       return;
     }
-    auto box = context_.kernels.buffered_tracker->update(frame.image.value(), work);
+    auto box = track(*context_.kernels.buffered_tracker, frame, work);
     if (!box) {
       context_.event(job.now(), "not tracked: " + box.error().message);
     }
@@ -153,12 +162,12 @@ class RealTimeTracking {
     Target target{*frame, std::nullopt};
     const auto caught_up = job.take(topics_.caught_up);
     if (caught_up && caught_up->box) {
-      is_following_ = tracker().begin(caught_up->frame.image.value(), *caught_up->box, work).ok();
+      is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
       target.box = is_following_ ? caught_up->box : std::nullopt;
     }
     const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
     if (is_following_ && is_newer) {
-      const auto box = tracker().update(frame->image.value(), work);
+      const auto box = track(tracker(), *frame, work);
       target.box = box ? *box : std::nullopt;
     }
     job.publish(topics_.target, target);

@@ -35,31 +35,44 @@ class ByteDetector final : public Detector {
   }
 };
 
+constexpr PixelRegion corner{0, 0, 8, 8};
+
 /// Sees the target where the frame's first byte says; remembers which frames it was shown.
 class ByteTracker final : public Tracker {
  public:
   explicit ByteTracker(std::vector<std::uint64_t>& shown) : shown_{shown} {}
-  Status begin(const ColourImage& image, const ImageBox&, Work& work) override {
+  PixelRegion learns_from(const ImageBox&, const Intrinsics&) const override { return corner; }
+  PixelRegion looks_at(const Intrinsics&) const override { return corner; }
+  Status begin(const ColourPatch& patch, const ImageBox&, Work& work) override {
     work.add("starts", 1.0);
-    shown_.push_back(image.sequence);
+    shown_.push_back(patch.sequence);
     return Done{};
   }
-  Result<std::optional<ImageBox>> update(const ColourImage& image, Work& work) override {
+  Result<std::optional<ImageBox>> update(const ColourPatch& patch, Work& work) override {
     work.add("updates", 1.0);
-    shown_.push_back(image.sequence);
-    return std::optional{ImageBox{static_cast<double>(image.rgb.front()), 5, 10, 20}};
+    shown_.push_back(patch.sequence);
+    return std::optional{ImageBox{static_cast<double>(patch.rgb.front()), 5, 10, 20}};
   }
 
  private:
   std::vector<std::uint64_t>& shown_;
 };
 
-ColourFrame frame_at(MissionTime now, std::uint64_t sequence) {
-  ColourImage image;
-  image.sequence = sequence;
-  image.rgb = {static_cast<std::uint8_t>(sequence)};
-  return {now, sequence, {256, 100, 100.0, 128.0, 50.0},
-          {},  {},       Deferred<ColourImage>::of(std::move(image))};
+/// All bytes are the frame's number. `rendered` counts pixels.
+ColourFrame frame_at(MissionTime now, std::uint64_t sequence, int& rendered) {
+  const Intrinsics camera{256, 100, 100.0, 128.0, 50.0};
+  return {now,
+          sequence,
+          camera,
+          {},
+          {},
+          {{now, sequence, camera, {}},
+           [&rendered](const std::vector<PixelRegion>& regions, ColourImage& into) {
+             std::fill(into.rgb.begin(), into.rgb.end(), static_cast<std::uint8_t>(into.sequence));
+             for (const PixelRegion& region : regions) {
+               rendered += region.width_px * region.height_px;
+             }
+           }}};
 }
 
 /// A camera of 20 Hz before a computer on which a detection takes 320 ms and tracking nothing.
@@ -81,7 +94,7 @@ class TargetGraph : public testing::Test {
                                [this](const Target& target) { targets.push_back(target); });
     std::uint64_t sequence = 0;
     queue.every(MissionTime{50ms}, 50ms, EventOrder::sensor, [&] {
-      const ColourFrame frame = frame_at(queue.now(), sequence++);
+      const ColourFrame frame = frame_at(queue.now(), sequence++, rendered);
       executor.publish(vehicle.colour, frame);
       executor.publish(vehicle.colour_buffer, frame);
     });
@@ -106,6 +119,7 @@ class TargetGraph : public testing::Test {
   std::vector<std::uint64_t> buffered;
   std::vector<std::uint64_t> real_time;
   std::vector<Target> targets;
+  int rendered{};
 };
 
 TEST_F(TargetGraph, works_through_exactly_the_frames_that_came_while_the_detector_ran) {
@@ -128,6 +142,14 @@ TEST_F(TargetGraph, hands_the_newest_buffered_frame_on_to_the_real_time_tracker)
   EXPECT_FALSE(targets.front().box.has_value());
   ASSERT_TRUE(targets.back().box.has_value());
   EXPECT_EQ(targets.back().box->x_px, 18.0);
+}
+
+TEST_F(TargetGraph, has_the_frames_between_detections_rendered_where_the_trackers_look) {
+  fly(1500ms);
+  // Detection begins in frames 0, 6, 12, 18 and 24: whole pictures. Of all others the corner, from
+  // the first one that was tracked on.
+  EXPECT_EQ(log.looks, 4U);
+  EXPECT_EQ(rendered, 5 * 256 * 100 + 24 * 64);
 }
 
 }  // namespace

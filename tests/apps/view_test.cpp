@@ -51,7 +51,7 @@ TEST(View, turns_colour_into_grey_as_the_eye_weighs_it) {
   colour.camera = depth.camera;
   colour.rgb = {255, 0, 0, 0, 255, 0, 255, 255, 255};
   view.depth.image = Deferred<DepthImage>{[depth] { return depth; }};
-  view.colour.image = Deferred<ColourImage>{[colour] { return colour; }};
+  view.colour.image = DeferredImage::of(colour);
   const VisualFrame frame = visual_frame(view);
   EXPECT_EQ(frame.grey, (std::vector<std::uint8_t>{76, 150, 255}));
 }
