@@ -51,7 +51,7 @@ std::vector<std::uint8_t> grey_of(std::vector<std::uint8_t> rgb) {
   colour.camera = depth.camera;
   colour.rgb = std::move(rgb);
   view.depth.image = Deferred<DepthImage>{[depth] { return depth; }};
-  view.colour.image = Deferred<ColourImage>{[colour] { return colour; }};
+  view.colour.image = DeferredImage::of(colour);
   return visual_frame(view).grey;
 }
 
