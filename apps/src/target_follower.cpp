@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "target_follower.h"
 
+#include "person_range.h"
 #include <algorithm>
 #include <cmath>
 
 namespace flyball {
 namespace {
 
-constexpr double coast_s = 3.0;
 constexpr double max_yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees/s
 // Tuned by hand on the park's walk at the top operating point: own choices.
 constexpr Pid::Gains distance_gains{1.0, 0.1, 0.2, 6.0};
 constexpr Pid::Gains yaw_gains{2.0, 0.0, 0.1, max_yaw_rate_rad_s};
-// Per frame of 50 ms; longer gaps count as several. beta = alpha^2 / (2 - alpha) damps critically
-// (Kalata 1984, doi:10.1109/TAES.1984.310438). Boxes jitter by a tenth of their size.
-constexpr double alpha = 0.2;
-constexpr double beta = alpha * alpha / (2.0 - alpha);
+// Per frame of 50 ms; a longer gap counts as several. beta = alpha^2 / (2 - alpha) damps critically
+// (Kalata 1984, doi:10.1109/TAES.1984.310438). Boxes jitter by some pixels.
+constexpr double alpha_of_frame = 0.2;
 constexpr double nominal_frame_s = 0.05;
-constexpr double longest_gap_s = 1.0;  // After more than that, somebody may have turned round.
 constexpr double fastest_person_m_s = 5.0;
+// Nobody keeps a direction for long: in expectation a velocity fades, here within a few steps of a
+// sprint. Own choice.
+constexpr double keeps_going_s = 2.0;
+constexpr double search_speed_m_s = 2.0;  // Own choice: a walker's, and a bit.
 
 Vec3 direction_L(const Target& target, double x_px, double y_px) {
   const Intrinsics& camera = target.frame.camera;
@@ -56,45 +58,42 @@ void TargetFollower::start(const PoseEstimate& pose) {
 }
 
 void TargetFollower::see(const Target& target, const PoseEstimate& pose) {
-  if (!target.box) {
+  if (!target.box || (seen_ && target.frame.captured <= *seen_)) {
     return;
   }
-  const ImageBox& box = *target.box;
-  // The angle between head and feet tells the distance: the person stands upright, and the
-  // tangents of the two lines of sight differ by height over distance.
-  const auto slope = [&](double y_px) {
-    const Vec3 ray_L = direction_L(target, box.centre_x_px(), y_px);
-    return ray_L.z() / ray_L.head<2>().norm();
-  };
-  const double difference = slope(box.y_px) - slope(box.y_px + box.height_px);
-  const double distance_m = settings_.person_height_m / std::max(difference, 1e-2);
-  const Vec3 middle_L = direction_L(target, box.centre_x_px(), box.centre_y_px());
-  const Vec3 out_L = middle_L * (distance_m / middle_L.head<2>().norm());
+  const Vec3 middle_L = direction_L(target, target.box->centre_x_px(), target.box->centre_y_px());
+  const PersonRange range =
+      person_range(*target.box, target.frame,
+                   {settings_.person_height_m, pose.X_WB.translation().z() - settings_.ground_z_m});
+  // Boxes jitter by a tenth of their size; their middles do not.
+  const double away_m = range.by_ground_m.value_or(range.by_size_m);
+  const Vec3 out_L = middle_L * (away_m / middle_L.head<2>().norm());
   believe(level_frame(pose.X_WB) * out_L, target.frame.captured);
 }
 
 void TargetFollower::believe(const Vec3& measured_W, MissionTime at) {
   const double dt_s = seen_ ? to_seconds(at - *seen_) : 0.0;
-  const bool is_first = !seen_ || dt_s > coast_s;
+  const bool is_first = !seen_ || dt_s > settings_.coast_s;
   seen_ = at;
   if (is_first) {
     person_W_ = measured_W;
     v_person_W_ = Vec3::Zero();
     return;
   }
-  const Vec3 foreseen_W = person_W_ + dt_s * v_person_W_;
+  const Vec3 foreseen_W = foreseen(dt_s);
   const Vec3 surprise = measured_W - foreseen_W;
-  const double frames = std::max(dt_s, nominal_frame_s) / nominal_frame_s;
-  person_W_ = foreseen_W + std::min(alpha * frames, 1.0) * surprise;
-  if (dt_s < longest_gap_s) {
-    v_person_W_ += beta / nominal_frame_s * surprise;
-  } else {
-    v_person_W_ = Vec3::Zero();
-  }
+  const double alpha = 1.0 - std::pow(1.0 - alpha_of_frame, dt_s / nominal_frame_s);
+  const double beta = alpha * alpha / (2.0 - alpha);
+  person_W_ = foreseen_W + alpha * surprise;
+  v_person_W_ += beta / dt_s * surprise;
   v_person_W_.z() = 0.0;
   if (v_person_W_.norm() > fastest_person_m_s) {
     v_person_W_ *= fastest_person_m_s / v_person_W_.norm();
   }
+}
+
+Vec3 TargetFollower::foreseen(double after_s) const {
+  return person_W_ + keeps_going_s * (1.0 - std::exp(-after_s / keeps_going_s)) * v_person_W_;
 }
 
 void TargetFollower::point_at(const Vec3& person_W) {
@@ -115,28 +114,43 @@ void TargetFollower::steer(const Vec3& wish_W, double dt_s, Setpoint& setpoint) 
   setpoint.v_WB = v_W_;
 }
 
+Vec3 TargetFollower::follow(double age_s, double dt_s, Setpoint& setpoint) {
+  const Vec3 foreseen_W = foreseen(age_s);
+  const Vec3 v_foreseen_W = std::exp(-age_s / keeps_going_s) * v_person_W_;
+  Vec3 out_W = foreseen_W - p_W_;
+  out_W.z() = 0.0;
+  const double away_m = std::max(out_W.norm(), 1e-3);
+  const double speed_m_s = distance_pid_.update(away_m - settings_.distance_m, dt_s);
+  const Vec3 wish_W = v_foreseen_W + out_W * (speed_m_s / away_m);
+  setpoint.yaw_rate_rad_s = yaw_pid_.update(wrap_angle(yaw_of(out_W) - yaw_rad_), dt_s);
+  point_at(foreseen_W);
+  side_ = std::copysign(1.0, out_W.x() * v_person_W_.y() - out_W.y() * v_person_W_.x());
+  return wish_W * std::min(settings_.max_speed_m_s / std::max(wish_W.norm(), 1e-3), 1.0);
+}
+
+Vec3 TargetFollower::look_around(Setpoint& setpoint) {
+  distance_pid_.reset();
+  yaw_pid_.reset();
+  if (!seen_ || settings_.search_rate_rad_s <= 0.0) {
+    return Vec3::Zero();
+  }
+  Vec3 out_W = foreseen(settings_.coast_s) - p_W_;
+  out_W.z() = 0.0;
+  setpoint.yaw_rate_rad_s = side_ * settings_.search_rate_rad_s;
+  gimbal_.pan_rad = 0.0;
+  gimbal_.tilt_rad =
+      std::atan2(settings_.height_m - 0.5 * settings_.person_height_m, settings_.distance_m);
+  return out_W * std::min(search_speed_m_s / std::max(out_W.norm(), 1e-3), 1.0);
+}
+
 Setpoint TargetFollower::tick(MissionTime now, Duration period) {
   const double dt_s = to_seconds(period);
-  const double age_s = seen_ ? to_seconds(now - *seen_) : coast_s;
+  const double age_s = seen_ ? to_seconds(now - *seen_) : settings_.coast_s;
   Setpoint setpoint;
   setpoint.stamp = now;
-  Vec3 wish_W = Vec3::Zero();
-  if (age_s < coast_s) {
-    const Vec3 foreseen_W = person_W_ + age_s * v_person_W_;
-    Vec3 out_W = foreseen_W - p_W_;
-    out_W.z() = 0.0;
-    const double distance_m = std::max(out_W.norm(), 1e-3);
-    const double speed_m_s = distance_pid_.update(distance_m - settings_.distance_m, dt_s);
-    wish_W = v_person_W_ + out_W * (speed_m_s / distance_m);
-    const double most = settings_.max_speed_m_s / std::max(wish_W.norm(), 1e-3);
-    wish_W *= std::min(most, 1.0);
-    setpoint.yaw_rate_rad_s = yaw_pid_.update(wrap_angle(yaw_of(out_W) - yaw_rad_), dt_s);
-    yaw_rad_ = wrap_angle(yaw_rad_ + setpoint.yaw_rate_rad_s * dt_s);
-    point_at(foreseen_W);
-  } else {
-    distance_pid_.reset();
-    yaw_pid_.reset();
-  }
+  const Vec3 wish_W =
+      age_s < settings_.coast_s ? follow(age_s, dt_s, setpoint) : look_around(setpoint);
+  yaw_rad_ = wrap_angle(yaw_rad_ + setpoint.yaw_rate_rad_s * dt_s);
   steer(wish_W, dt_s, setpoint);
   setpoint.yaw_rad = yaw_rad_;
   return setpoint;

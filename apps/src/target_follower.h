@@ -15,7 +15,10 @@ namespace flyball {
 struct FollowSettings {
   double distance_m{7.0};  ///< Along the ground.
   double person_height_m{1.75};
-  double height_m{4.5};  ///< Of the vehicle above the person's feet.
+  double height_m{4.5};           ///< Of the vehicle above the person's feet.
+  double ground_z_m{};            ///< Where people stand, in the world.
+  double coast_s{3.0};            ///< So long after somebody was last seen they are followed on.
+  double search_rate_rad_s{0.8};  ///< Of turning round after that; 0: the vehicle stands.
   double max_speed_m_s{6.0};
   double max_acceleration_m_s2{3.0};
 };
@@ -41,21 +44,26 @@ class Pid {
 
 /// Believes where the person is and goes (alpha-beta filter over what the boxes say), and stays at
 /// its distance from there. While nothing is seen the belief goes on straight ahead: people come
-/// out again behind a tree.
+/// out again behind a tree. When they do not, the vehicle goes to where they should be and turns
+/// round there, first to the side on which they went.
 class TargetFollower {
  public:
   explicit TargetFollower(const FollowSettings& settings);
 
   /// Where the flight goes on from.
   void start(const PoseEstimate& pose);
-  /// A new measurement; one without a box says nothing. `pose` is that of its capture.
+  /// A new measurement; one without a box, or older than the last, says nothing. `pose` is that of
+  /// its capture.
   void see(const Target& target, const PoseEstimate& pose);
-  /// Without a measurement for 3 s the vehicle brakes and stands.
   [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
 
  private:
   void believe(const Vec3& measured_W, MissionTime at);
+  [[nodiscard]] Vec3 follow(double age_s, double dt_s, Setpoint& setpoint);
+  [[nodiscard]] Vec3 look_around(Setpoint& setpoint);
+  /// Where the person is so long after they were last seen.
+  [[nodiscard]] Vec3 foreseen(double after_s) const;
   void point_at(const Vec3& person_W);
   void steer(const Vec3& wish_W, double dt_s, Setpoint& setpoint);
 
@@ -69,6 +77,7 @@ class TargetFollower {
   Vec3 p_W_{Vec3::Zero()};  ///< Of the vehicle, as commanded.
   Vec3 v_W_{Vec3::Zero()};
   double yaw_rad_{};
+  double side_{1.0};  ///< To which the person goes, seen from the vehicle: 1 left, -1 right.
 };
 
 }  // namespace flyball

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "target_nodes.h"
 
+#include "person_range.h"
 #include "seeing_setup.h"
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace flyball {
@@ -17,6 +20,15 @@ double between_px(const ImageBox& a, const ImageBox& b) {
   const double x = a.centre_x_px() - b.centre_x_px();
   const double y = a.centre_y_px() - b.centre_y_px();
   return std::sqrt(x * x + y * y);
+}
+
+/// Shows the tracker what it reads of the frame, and no more: the rest need not be rendered.
+Status begin_tracking(Tracker& tracker, const ColourFrame& frame, const ImageBox& box, Work& work) {
+  return tracker.begin(frame.image.part(tracker.learns_from(box, frame.camera)), box, work);
+}
+
+Result<std::optional<ImageBox>> track(Tracker& tracker, const ColourFrame& frame, Work& work) {
+  return tracker.update(frame.image.part(tracker.looks_at(frame.camera)), work);
 }
 
 void add_detect(Graph& graph,
@@ -63,6 +75,7 @@ class BufferedTracking {
     }
     CaughtUp caught_up{seen->frame, chosen(job, *seen), 0};
     if (caught_up.box) {
+      job.publish(topics_.sighting, Target{seen->frame, caught_up.box});
       begin(job, caught_up, work);
     }
     // Taken in any case: the next detection's frames are those that come from now on.
@@ -80,7 +93,8 @@ class BufferedTracking {
   std::optional<ImageBox> chosen(JobContext& job, const Detections& seen) {
     const auto target = job.latest(topics_.target);
     const auto last = target ? target->box : std::nullopt;
-    const auto person = pick(seen.people, last, reach_share * seen.frame.camera.width_px);
+    const auto person = pick(plausible(seen, job.latest(topics_.pose).get(), context_), last,
+                             reach_share * seen.frame.camera.width_px);
     ++log_.looks;
     log_.detections += person ? 1 : 0;
     log_.missed_in_row = person ? 0 : log_.missed_in_row + 1;
@@ -93,8 +107,8 @@ class BufferedTracking {
   }
 
   void begin(JobContext& job, CaughtUp& caught_up, Work& work) {
-    const Status begun = context_.kernels.buffered_tracker->begin(caught_up.frame.image.value(),
-                                                                  *caught_up.box, work);
+    const Status begun =
+        begin_tracking(*context_.kernels.buffered_tracker, caught_up.frame, *caught_up.box, work);
     if (!begun) {
       context_.event(job.now(), "not tracked: " + begun.error().message);
       caught_up.box = std::nullopt;
@@ -106,7 +120,7 @@ class BufferedTracking {
     if (!caught_up.box) {
       return;
     }
-    auto box = context_.kernels.buffered_tracker->update(frame.image.value(), work);
+    auto box = track(*context_.kernels.buffered_tracker, frame, work);
     if (!box) {
       context_.event(job.now(), "not tracked: " + box.error().message);
     }
@@ -130,8 +144,8 @@ void add_buffered(Graph& graph,
   spec.cost = context.scenario.kernels.tracker + "_buffered";
   spec.trigger = OnMessage{topics.detections.index};
   spec.priority = 20;
-  spec.reads = {vehicle.colour_buffer.index, topics.target.index};
-  spec.writes = {topics.caught_up.index};
+  spec.reads = {vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
+  spec.writes = {topics.sighting.index, topics.caught_up.index};
   auto tracking = std::make_shared<BufferedTracking>(vehicle, topics, context, log);
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
@@ -153,12 +167,12 @@ class RealTimeTracking {
     Target target{*frame, std::nullopt};
     const auto caught_up = job.take(topics_.caught_up);
     if (caught_up && caught_up->box) {
-      is_following_ = tracker().begin(caught_up->frame.image.value(), *caught_up->box, work).ok();
+      is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
       target.box = is_following_ ? caught_up->box : std::nullopt;
     }
     const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
     if (is_following_ && is_newer) {
-      const auto box = tracker().update(frame->image.value(), work);
+      const auto box = track(tracker(), *frame, work);
       target.box = box ? *box : std::nullopt;
     }
     job.publish(topics_.target, target);
@@ -207,12 +221,31 @@ std::optional<Detection> pick(const std::vector<Detection>& people,
   return best;
 }
 
+std::vector<Detection> plausible(const Detections& seen,
+                                 const PoseEstimate* pose,
+                                 const MissionContext& context) {
+  if (pose == nullptr) {
+    return seen.people;
+  }
+  const PersonGeometry geometry{context.scenario.photography.person_height_m,
+                                pose->X_WB.translation().z() - context.brief.ground_z_m};
+  std::vector<Detection> people;
+  std::copy_if(seen.people.begin(), seen.people.end(), std::back_inserter(people),
+               [&](const Detection& person) {
+                 return is_plausible(person_range(person.box, seen.frame, geometry));
+               });
+  return people;
+}
+
 TargetTopics add_target(Graph& graph,
                         const VehicleTopics& vehicle,
+                        Topic<PoseEstimate> pose,
                         MissionContext& context,
                         TargetLog& log) {
   TargetTopics topics;
+  topics.pose = pose;
   topics.detections = graph.topic<Detections>("detections");
+  topics.sighting = graph.topic<Target>("sighting");
   topics.caught_up = graph.topic<CaughtUp>("caught_up");
   topics.target = graph.topic<Target>("target");
   add_detect(graph, vehicle, topics, context);

@@ -30,7 +30,9 @@ struct Target {
 };
 
 struct TargetTopics {
+  Topic<PoseEstimate> pose;
   Topic<Detections> detections;
+  Topic<Target> sighting;  ///< The person as detected, in the detector's frame.
   Topic<CaughtUp> caught_up;
   Topic<Target> target;
 };
@@ -49,9 +51,16 @@ struct TargetLog {
                                             const std::optional<ImageBox>& last,
                                             double reach_px);
 
+/// Those that have the size of a person where they stand on the ground. Everybody, when the height
+/// of the camera is not known yet.
+[[nodiscard]] std::vector<Detection> plausible(const Detections& seen,
+                                               const PoseEstimate* pose,
+                                               const MissionContext& context);
+
 /// Adds the nodes `detect`, `track_buffered` and `track_real_time`. `log` outlives the graph.
 TargetTopics add_target(Graph& graph,
                         const VehicleTopics& vehicle,
+                        Topic<PoseEstimate> pose,
                         MissionContext& context,
                         TargetLog& log);
 

@@ -33,12 +33,15 @@ class AerialPhotography final : public Workload {
     follow.distance_m = wanted.distance_m;
     follow.person_height_m = wanted.person_height_m;
     follow.height_m = context.brief.cruise_height_m;
+    follow.ground_z_m = context.brief.ground_z_m;
+    follow.coast_s = wanted.coast_s;
+    follow.search_rate_rad_s = wanted.search_rate_rad_s;
     follow.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
     follow.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
     follower_ = std::make_unique<TargetFollower>(follow);
     score_ = std::make_unique<TrackingScore>(context);
     pose_ = add_localization(graph, vehicle, context);
-    target_ = add_target(graph, vehicle, context, log_);
+    target_ = add_target(graph, vehicle, pose_, context, log_);
     add_history(graph);
     add_control(graph);
     add_score(graph);
@@ -82,7 +85,7 @@ class AerialPhotography final : public Workload {
     spec.priority = 40;
     spec.deadline = control_period;
     spec.on_miss = OnMiss::brake;
-    spec.reads = {target_.target.index};
+    spec.reads = {target_.target.index, target_.sighting.index};
     spec.writes = {vehicle_.setpoint.index, vehicle_.gimbal.index};
     graph.node(std::move(spec), [this](JobContext& job) { return control(job); });
   }
@@ -90,16 +93,22 @@ class AerialPhotography final : public Workload {
   Work control(JobContext& job) {
     Work work;
     work.add("ticks", 1.0);
-    if (const auto target = job.take(target_.target)) {
-      if (const auto pose = history_.at(target->frame.captured)) {
-        follower_->see(*target, *pose);
-      }
-    }
+    // Older than what a tracker says, but all there is when none could hold whom the detector saw:
+    // somebody who turns round, or a view that swings.
+    see(job.take(target_.sighting).get());
+    see(job.take(target_.target).get());
     if (stage_ == Stage::following) {
       job.publish(vehicle_.setpoint, follower_->tick(job.now(), control_period));
     }
     job.publish(vehicle_.gimbal, follower_->gimbal());
     return work;
+  }
+
+  void see(const Target* target) {
+    const auto pose = target != nullptr ? history_.at(target->frame.captured) : std::nullopt;
+    if (pose) {
+      follower_->see(*target, *pose);
+    }
   }
 
   /// Free of charge: it is the referee's, not the vehicle's.

@@ -16,9 +16,17 @@
 
 namespace {
 
+using flyball::ColourPatch;
 using flyball::ImageBox;
+using flyball::PixelRegion;
 
 constexpr int least_px = 4;
+// OpenCV's filter (tracking/src/trackerKCF.cpp) learns from a window twice as wide and high as the
+// box and with its centre. It looks for the peak of its response in such a window about the last
+// box, moves by half of it at most, and learns again there.
+constexpr double learning_widths = 2.0;
+constexpr double looking_widths = 4.0;
+constexpr double rounding_px = 6.0;  // Boxes are cut to whole pixels, of an image halved perhaps.
 
 flyball::Error failed(const std::exception& error) {
   return {flyball::ErrorCode::failed, std::string{"tracker kcf: "} + error.what()};
@@ -35,17 +43,26 @@ class Kcf final : public flyball::Tracker {
     settings_.detect_thresh = static_cast<float>(chosen.number("threshold"));
   }
 
-  [[nodiscard]] flyball::Status begin(const flyball::ColourImage& image,
+  [[nodiscard]] PixelRegion learns_from(const ImageBox& box,
+                                        const flyball::Intrinsics& camera) const override {
+    return around(box, learning_widths, camera);
+  }
+
+  [[nodiscard]] PixelRegion looks_at(const flyball::Intrinsics& camera) const override {
+    return filter_ ? around(last_, looking_widths, camera) : PixelRegion{};
+  }
+
+  [[nodiscard]] flyball::Status begin(const ColourPatch& patch,
                                       const ImageBox& box,
                                       flyball::Work& work) override {
     filter_ = nullptr;
-    if (const auto checked = flyball::check_detector_input(image, 1.0); !checked) {
+    if (const auto checked = check(patch, learns_from(box, patch.camera)); !checked) {
       return checked.error();
     }
-    size_ = {image.camera.width_px, image.camera.height_px};
+    const cv::Size size{patch.camera.width_px, patch.camera.height_px};
     const cv::Rect inside = cv::Rect{cvRound(box.x_px), cvRound(box.y_px), cvRound(box.width_px),
                                      cvRound(box.height_px)} &
-                            cv::Rect{{0, 0}, size_};
+                            cv::Rect{{0, 0}, size};
     if (inside.width < least_px || inside.height < least_px) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             "less than 4 x 4 pixels of the box are inside the image"};
@@ -53,12 +70,13 @@ class Kcf final : public flyball::Tracker {
     work.add("starts", 1.0);
     try {
       cv::setNumThreads(1);
+      bgr_ = cv::Mat::zeros(size, CV_8UC3);
       filter_ = cv::TrackerKCF::create(settings_);
-      const cv::Mat first = as_trained(image);
-      filter_->init(first, inside);
+      filter_->init(as_trained(patch), inside);
       // OpenCV's learns at the first update, without looking where the thing is: so on this image.
       cv::Rect learnt = inside;
-      filter_->update(first, learnt);
+      filter_->update(bgr_, learnt);
+      last_ = box_of(inside);
       return flyball::Done{};
     } catch (const std::exception& error) {
       filter_ = nullptr;
@@ -66,42 +84,82 @@ class Kcf final : public flyball::Tracker {
     }
   }
 
-  [[nodiscard]] flyball::Result<std::optional<ImageBox>> update(const flyball::ColourImage& image,
+  [[nodiscard]] flyball::Result<std::optional<ImageBox>> update(const ColourPatch& patch,
                                                                 flyball::Work& work) override {
     if (!filter_) {
       return std::optional<ImageBox>{};
     }
-    if (cv::Size{image.camera.width_px, image.camera.height_px} != size_ ||
-        !flyball::check_detector_input(image, 1.0)) {
+    if (cv::Size{patch.camera.width_px, patch.camera.height_px} != bgr_.size()) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             "the image is not of the size that the tracker began on"};
+    }
+    if (const auto checked = check(patch, looks_at(patch.camera)); !checked) {
+      return checked.error();
     }
     work.add("updates", 1.0);
     try {
       cv::setNumThreads(1);
       cv::Rect box;
-      if (!filter_->update(as_trained(image), box)) {
+      if (!filter_->update(as_trained(patch), box)) {
         return std::optional<ImageBox>{};
       }
-      return std::optional<ImageBox>{
-          ImageBox{static_cast<double>(box.x), static_cast<double>(box.y),
-                   static_cast<double>(box.width), static_cast<double>(box.height)}};
+      last_ = box_of(box);
+      return std::optional{last_};
     } catch (const std::exception& error) {
       return failed(error);
     }
   }
 
  private:
-  /// Its colour names were learnt on blue, green, red.
-  static cv::Mat as_trained(const flyball::ColourImage& image) {
-    cv::Mat bgr;
-    cv::cvtColor(flyball::borrowed(image), bgr, cv::COLOR_RGB2BGR);
-    return bgr;
+  static ImageBox box_of(const cv::Rect& box) {
+    return {static_cast<double>(box.x), static_cast<double>(box.y), static_cast<double>(box.width),
+            static_cast<double>(box.height)};
+  }
+
+  static PixelRegion around(const ImageBox& box, double widths, const flyball::Intrinsics& camera) {
+    const double more = 0.5 * (widths - 1.0);
+    return pixels_of(
+        {box.x_px - more * box.width_px - rounding_px,
+         box.y_px - more * box.height_px - rounding_px, widths * box.width_px + 2.0 * rounding_px,
+         widths * box.height_px + 2.0 * rounding_px},
+        camera);
+  }
+
+  static flyball::Status check(const ColourPatch& patch, const PixelRegion& needed) {
+    const PixelRegion& given = patch.region;
+    const std::size_t pixels = given.is_empty() ? 0
+                                                : static_cast<std::size_t>(given.width_px) *
+                                                      static_cast<std::size_t>(given.height_px);
+    if (patch.camera.width_px < 1 || patch.camera.height_px < 1 ||
+        !whole(patch.camera).covers(given) || patch.rgb.size() != 3 * pixels) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "a patch of " + std::to_string(patch.rgb.size()) +
+                                " bytes is none of " + std::to_string(pixels) + " pixels of " +
+                                std::to_string(patch.camera.width_px) + " x " +
+                                std::to_string(patch.camera.height_px)};
+    }
+    if (!given.covers(needed)) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "the patch lacks pixels that the tracker reads; ask looks_at"};
+    }
+    return flyball::Done{};
+  }
+
+  /// Its colour names were learnt on blue, green, red. Outside of the patch the image keeps what it
+  /// held: OpenCV copies, and may halve, all of it, but nothing of that reaches the windows.
+  const cv::Mat& as_trained(const ColourPatch& patch) {
+    if (!patch.region.is_empty()) {
+      const PixelRegion& at = patch.region;
+      cv::Mat part = bgr_({at.x_px, at.y_px, at.width_px, at.height_px});
+      cv::cvtColor(flyball::borrowed(patch), part, cv::COLOR_RGB2BGR);
+    }
+    return bgr_;
   }
 
   cv::TrackerKCF::Params settings_{};
   cv::Ptr<cv::TrackerKCF> filter_{};
-  cv::Size size_{};
+  cv::Mat bgr_{};
+  ImageBox last_{};  ///< The filter's windows are about it.
 };
 
 }  // namespace

@@ -17,6 +17,12 @@ namespace flyball {
           const_cast<std::uint8_t*>(image.rgb.data())};  // NOLINT(*-const-cast)
 }
 
+/// The same of a patch.
+[[nodiscard]] inline cv::Mat borrowed(const ColourPatch& patch) {
+  return {patch.region.height_px, patch.region.width_px, CV_8UC3,
+          const_cast<std::uint8_t*>(patch.rgb.data())};  // NOLINT(*-const-cast)
+}
+
 /// A copy of another size. One thread, so that results do not depend on the host's cores.
 [[nodiscard]] inline cv::Mat resized(const cv::Mat& image, cv::Size size) {
   cv::setNumThreads(1);

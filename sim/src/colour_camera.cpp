@@ -121,15 +121,26 @@ ColourImage ColourCamera::capture(const Pose& X_WC, MissionTime now, std::uint64
   ColourImage image{now, sequence, scene_->camera, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(image.camera.width_px) *
                    static_cast<std::size_t>(image.camera.height_px));
+  render(X_WC, {whole(image.camera)}, image);
+  return image;
+}
+
+void ColourCamera::render(const Pose& X_WC,
+                          const std::vector<PixelRegion>& regions,
+                          ColourImage& into) const {
   const FlushDenormals flush;
-  scene_->things.move_people(now);
+  scene_->things.move_people(into.captured);
   const Eigen::Isometry3f X_WC_single = X_WC.cast<float>();
-  for (int y = 0; y < image.camera.height_px; y += tile_rows) {
-    for (int x = 0; x < image.camera.width_px; x += tile_columns) {
-      scene_->render_tile(X_WC_single, {x, y}, image);
+  for (const PixelRegion& region : regions) {
+    // Always the tiles of the whole image: which rays travel together may show in the last bit.
+    const int left = region.x_px - region.x_px % tile_columns;
+    const int top = region.y_px - region.y_px % tile_rows;
+    for (int y = top; y < region.y_px + region.height_px; y += tile_rows) {
+      for (int x = left; x < region.x_px + region.width_px; x += tile_columns) {
+        scene_->render_tile(X_WC_single, {x, y}, into);
+      }
     }
   }
-  return image;
 }
 
 ColourFrame ColourCamera::frame(const CameraPose& pose,
@@ -140,8 +151,10 @@ ColourFrame ColourCamera::frame(const CameraPose& pose,
           scene_->camera,
           pose.X_LC,
           pose.X_WC,
-          Deferred<ColourImage>{
-              [this, X_WC = pose.X_WC, now, sequence] { return capture(X_WC, now, sequence); }}};
+          {{now, sequence, scene_->camera, {}},
+           [this, X_WC = pose.X_WC](const std::vector<PixelRegion>& regions, ColourImage& into) {
+             render(X_WC, regions, into);
+           }}};
 }
 
 std::optional<ImageBox> box_of(const Person& person,

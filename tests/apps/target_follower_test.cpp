@@ -60,6 +60,15 @@ class Follower : public testing::Test {
     }
     return setpoint;
   }
+  /// Some seconds without a measurement.
+  Setpoint unseen(double time_s) {
+    Setpoint setpoint;
+    for (int i = 0; i < static_cast<int>(std::lround(time_s / 0.02)); ++i) {
+      now += 20ms;
+      setpoint = follower.tick(now, 20ms);
+    }
+    return setpoint;
+  }
   TargetFollower follower{FollowSettings{}};
   MissionTime now{};
   Vec3 person_W{Vec3::Zero()};
@@ -86,20 +95,84 @@ TEST_F(Follower, backs_off_from_somebody_who_comes_near) {
   EXPECT_LT(last.p_WB.x(), -1.0);
 }
 
-TEST_F(Follower, goes_on_for_a_while_when_it_sees_nobody_and_then_stops) {
+TEST_F(Follower, goes_on_for_a_while_when_it_sees_nobody_but_slower_and_slower) {
   fly(10.0, {7.0, 0.0, 0.0}, {1.2, 0.0, 0.0});
-  Setpoint last;
-  for (int i = 0; i < 100; ++i) {  // 2 s: behind a tree, perhaps.
-    now += 20ms;
-    last = follower.tick(now, 20ms);
+  const double start_x_m = unseen(0.02).p_WB.x();
+  const Setpoint second = unseen(1.0);
+  EXPECT_GT(second.p_WB.x() - start_x_m, 0.7);
+  const Setpoint third = unseen(1.5);  // Behind a tree, perhaps.
+  EXPECT_GT(third.p_WB.x(), second.p_WB.x() + 0.5);
+  EXPECT_LT(third.v_WB.x(), 0.7);
+  EXPECT_NEAR(third.yaw_rate_rad_s, 0.0, 0.05);
+}
+
+TEST_F(Follower,
+       then_goes_where_the_person_should_be_and_turns_round_to_the_side_on_which_they_went) {
+  for (const double side : {1.0, -1.0}) {
+    follower = TargetFollower{FollowSettings{}};
+    now = MissionTime{};
+    fly(10.0, {7.0, 0.0, 0.0}, {0.2, side * 0.8, 0.0});
+    const Vec3 last_seen_W = person_W;
+    (void)unseen(FollowSettings{}.coast_s);
+    const Setpoint turning = unseen(1.0);
+    EXPECT_NEAR(turning.yaw_rate_rad_s, side * FollowSettings{}.search_rate_rad_s, 1e-9);
+    const Setpoint there = unseen(12.0);
+    EXPECT_LT((there.p_WB - last_seen_W).head<2>().norm(), 3.0);
+    EXPECT_LT(there.v_WB.norm(), 0.05);
+    EXPECT_NEAR(there.yaw_rate_rad_s, turning.yaw_rate_rad_s, 1e-9) << "it goes on";
   }
-  EXPECT_NEAR(last.v_WB.x(), 1.2, 0.3);
-  for (int i = 0; i < 150; ++i) {
-    now += 20ms;
-    last = follower.tick(now, 20ms);
-  }
+}
+
+TEST_F(Follower, follows_on_when_the_person_is_seen_again) {
+  fly(10.0, {7.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  const Setpoint before = unseen(6.0);
+  Pose X_WL = Pose::Identity();
+  X_WL.linear() = Eigen::AngleAxisd{before.yaw_rad, Vec3::UnitZ()}.toRotationMatrix();
+  X_WL.translation() = before.p_WB;
+  PoseEstimate pose;
+  pose.X_WB = X_WL;
+  const Vec3 foot_W = X_WL * Vec3{9.0, 1.0, -4.5};
+  follower.see(seen(now, foot_W, X_WL), pose);
+  const Setpoint after = unseen(0.5);
+  EXPECT_LT(std::abs(after.yaw_rate_rad_s), FollowSettings{}.search_rate_rad_s);
+  const Vec3 out_W = foot_W - after.p_WB;
+  EXPECT_NEAR(wrap_angle(yaw_of(out_W) - after.yaw_rad - follower.gimbal().pan_rad), 0.0, 0.05);
+}
+
+TEST_F(Follower, stands_when_nobody_was_ever_seen_or_it_may_not_search) {
+  follower.start(hover());
+  EXPECT_EQ(unseen(5.0).yaw_rate_rad_s, 0.0);
+  FollowSettings settings;
+  settings.search_rate_rad_s = 0.0;
+  follower = TargetFollower{settings};
+  now = MissionTime{};
+  fly(10.0, {7.0, 0.0, 0.0}, {1.2, 0.0, 0.0});
+  const Setpoint last = unseen(6.0);
   EXPECT_LT(last.v_WB.norm(), 1e-9);
   EXPECT_EQ(last.yaw_rate_rad_s, 0.0);
+}
+
+TEST_F(Follower, tells_the_distance_from_the_ground_not_from_the_size_of_the_box) {
+  // Boxes of people jitter by a tenth of their size and more; their middles do not.
+  Target target = seen(now, {9.0, 0.0, 0.0}, hover().X_WB);
+  target.box->y_px += 0.15 * target.box->height_px;
+  target.box->height_px *= 0.7;
+  follower.start(hover());
+  follower.see(target, hover());
+  (void)unseen(0.02);
+  // It aims at the middle of the person that it believes in.
+  EXPECT_NEAR(follower.gimbal().tilt_rad, std::atan2(4.5 - 0.875, 9.0), 0.02);
+}
+
+TEST_F(Follower, does_not_go_back_to_what_it_was_told_late) {
+  fly(10.0, {7.0, 0.0, 0.0}, Vec3::Zero());
+  const Setpoint before = unseen(0.02);
+  Pose X_WL = Pose::Identity();
+  X_WL.translation() = before.p_WB;
+  PoseEstimate pose;
+  pose.X_WB = X_WL;
+  follower.see(seen(MissionTime{9s}, {7.0, 5.0, 0.0}, X_WL), pose);
+  EXPECT_NEAR(unseen(0.02).yaw_rate_rad_s, before.yaw_rate_rad_s, 0.05);
 }
 
 TEST_F(Follower, never_wants_more_than_its_acceleration) {

@@ -25,6 +25,22 @@ TEST(Pick, takes_the_person_nearest_to_the_last_place_and_nobody_beyond_reach) {
   EXPECT_FALSE(pick(people, ImageBox{200, 0, 10, 20}, 30.0).has_value());
 }
 
+TEST(Plausible, leaves_out_whatever_has_not_the_size_of_a_person_where_it_stands) {
+  kit::GridMap map = kit::corridor(10.0);
+  kit::MissionRig rig{map};
+  Detections seen;
+  seen.frame.camera = {384, 288, 400.0, 191.5, 143.5};
+  seen.frame.X_LC = camera_in_level_frame({0.0, 0.4});
+  // In the middle, 8.6 m ahead of a camera 4.5 m up, a person is 69 pixels tall.
+  seen.people = {{{180, 109, 24, 69}, 0.5}, {{170, 44, 60, 200}, 0.9}, {{185, 129, 8, 30}, 0.8}};
+  PoseEstimate pose;
+  pose.X_WB.translation().z() = rig.context->brief.ground_z_m + 4.5;
+  const auto people = plausible(seen, &pose, *rig.context);
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people.front().score, 0.5);
+  EXPECT_EQ(plausible(seen, nullptr, *rig.context).size(), 3U) << "no height is known yet";
+}
+
 /// Finds one person in each frame, where the frame's first byte says.
 class ByteDetector final : public Detector {
  public:
@@ -35,31 +51,49 @@ class ByteDetector final : public Detector {
   }
 };
 
+constexpr PixelRegion corner{0, 0, 8, 8};
+
 /// Sees the target where the frame's first byte says; remembers which frames it was shown.
 class ByteTracker final : public Tracker {
  public:
-  explicit ByteTracker(std::vector<std::uint64_t>& shown) : shown_{shown} {}
-  Status begin(const ColourImage& image, const ImageBox&, Work& work) override {
+  explicit ByteTracker(std::vector<std::uint64_t>& shown, bool loses = false)
+      : shown_{shown}, loses_{loses} {}
+  PixelRegion learns_from(const ImageBox&, const Intrinsics&) const override { return corner; }
+  PixelRegion looks_at(const Intrinsics&) const override { return corner; }
+  Status begin(const ColourPatch& patch, const ImageBox&, Work& work) override {
     work.add("starts", 1.0);
-    shown_.push_back(image.sequence);
+    shown_.push_back(patch.sequence);
     return Done{};
   }
-  Result<std::optional<ImageBox>> update(const ColourImage& image, Work& work) override {
+  Result<std::optional<ImageBox>> update(const ColourPatch& patch, Work& work) override {
     work.add("updates", 1.0);
-    shown_.push_back(image.sequence);
-    return std::optional{ImageBox{static_cast<double>(image.rgb.front()), 5, 10, 20}};
+    shown_.push_back(patch.sequence);
+    if (loses_) {
+      return std::optional<ImageBox>{};
+    }
+    return std::optional{ImageBox{static_cast<double>(patch.rgb.front()), 5, 10, 20}};
   }
 
  private:
   std::vector<std::uint64_t>& shown_;
+  bool loses_;
 };
 
-ColourFrame frame_at(MissionTime now, std::uint64_t sequence) {
-  ColourImage image;
-  image.sequence = sequence;
-  image.rgb = {static_cast<std::uint8_t>(sequence)};
-  return {now, sequence, {256, 100, 100.0, 128.0, 50.0},
-          {},  {},       Deferred<ColourImage>::of(std::move(image))};
+/// All bytes are the frame's number. `rendered` counts pixels.
+ColourFrame frame_at(MissionTime now, std::uint64_t sequence, int& rendered) {
+  const Intrinsics camera{256, 100, 100.0, 128.0, 50.0};
+  return {now,
+          sequence,
+          camera,
+          {},
+          {},
+          {{now, sequence, camera, {}},
+           [&rendered](const std::vector<PixelRegion>& regions, ColourImage& into) {
+             std::fill(into.rgb.begin(), into.rgb.end(), static_cast<std::uint8_t>(into.sequence));
+             for (const PixelRegion& region : regions) {
+               rendered += region.width_px * region.height_px;
+             }
+           }}};
 }
 
 /// A camera of 20 Hz before a computer on which a detection takes 320 ms and tracking nothing.
@@ -72,16 +106,19 @@ class TargetGraph : public testing::Test {
     kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time);
     rig.context->phase = MissionPhase::cruise;
     vehicle = add_vehicle_topics(graph, true);
-    topics = add_target(graph, vehicle, *rig.context, log);
+    pose = graph.topic<PoseEstimate>("pose");
+    topics = add_target(graph, vehicle, pose, *rig.context, log);
   }
 
   void fly(Duration time) {
     VirtualExecutor executor{graph, platform, queue, {2, Hertz{1e9}}};
     executor.subscribe<Target>(topics.target,
                                [this](const Target& target) { targets.push_back(target); });
+    executor.subscribe<Target>(topics.sighting,
+                               [this](const Target& seen) { sightings.push_back(seen); });
     std::uint64_t sequence = 0;
     queue.every(MissionTime{50ms}, 50ms, EventOrder::sensor, [&] {
-      const ColourFrame frame = frame_at(queue.now(), sequence++);
+      const ColourFrame frame = frame_at(queue.now(), sequence++, rendered);
       executor.publish(vehicle.colour, frame);
       executor.publish(vehicle.colour_buffer, frame);
     });
@@ -101,11 +138,14 @@ class TargetGraph : public testing::Test {
   EventQueue queue;
   Graph graph{"target"};
   VehicleTopics vehicle;
+  Topic<PoseEstimate> pose;
   TargetTopics topics;
   TargetLog log;
   std::vector<std::uint64_t> buffered;
   std::vector<std::uint64_t> real_time;
   std::vector<Target> targets;
+  std::vector<Target> sightings;
+  int rendered{};
 };
 
 TEST_F(TargetGraph, works_through_exactly_the_frames_that_came_while_the_detector_ran) {
@@ -128,6 +168,24 @@ TEST_F(TargetGraph, hands_the_newest_buffered_frame_on_to_the_real_time_tracker)
   EXPECT_FALSE(targets.front().box.has_value());
   ASSERT_TRUE(targets.back().box.has_value());
   EXPECT_EQ(targets.back().box->x_px, 18.0);
+}
+
+TEST_F(TargetGraph, says_whom_the_detector_saw_also_when_no_tracker_holds_them) {
+  rig.context->kernels.buffered_tracker = std::make_unique<ByteTracker>(buffered, true);
+  fly(1000ms);
+  ASSERT_FALSE(targets.empty());
+  EXPECT_FALSE(targets.back().box.has_value());
+  ASSERT_GE(sightings.size(), 2U);
+  EXPECT_EQ(sightings[1].frame.sequence, 6U);
+  EXPECT_EQ(sightings[1].box->x_px, 6.0);
+}
+
+TEST_F(TargetGraph, has_the_frames_between_detections_rendered_where_the_trackers_look) {
+  fly(1500ms);
+  // Detection begins in frames 0, 6, 12, 18 and 24: whole pictures. Of all others the corner, from
+  // the first one that was tracked on.
+  EXPECT_EQ(log.looks, 4U);
+  EXPECT_EQ(rendered, 5 * 256 * 100 + 24 * 64);
 }
 
 }  // namespace

@@ -100,6 +100,22 @@ TEST(ColourCamera, gives_the_same_image_again_whatever_it_saw_between) {
   EXPECT_EQ(late.image.value().rgb, first.rgb);
 }
 
+TEST(ColourCamera, renders_a_part_as_it_renders_the_whole) {
+  World world;
+  world.boxes.push_back({{4.0, -1.0, 0.0}, {5.0, 1.0, 1.0}});
+  world.pillars.push_back({{3.0, 0.5, 0.0}, 0.3, 2.0, Material::leaves});
+  const auto camera = ColourCamera::make(world, small_camera());
+  Pose X_WC = looking_east({0.0, 0.1, 1.3});
+  X_WC.linear() = X_WC.linear() * Eigen::AngleAxisd{0.3, Vec3{1.0, 0.2, 0.4}.normalized()};
+  const ColourImage all = (*camera)->capture(X_WC, at_s(5.0), 1);
+  for (const PixelRegion& region :
+       {PixelRegion{0, 0, 32, 24}, PixelRegion{7, 3, 9, 14}, PixelRegion{31, 23, 1, 1}}) {
+    const ColourFrame frame = (*camera)->frame({X_WC, Pose::Identity()}, at_s(5.0), 1);
+    EXPECT_EQ(frame.image.part(region).rgb, cut(all, region).rgb) << region.x_px;
+    EXPECT_EQ(frame.image.value().rgb, all.rgb) << "after a part";
+  }
+}
+
 class SomebodyWalks : public testing::Test {
  protected:
   void SetUp() override {

@@ -57,6 +57,7 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::map<std::string, ParameterValue> localizer_parameters{};  ///< As the localizer declares.
   std::string coverage{"lawnmower"};
   std::string explorer{"nbvp"};
   std::string detector{"hog"};
@@ -100,6 +101,8 @@ struct DetectorSettings {
 struct PhotographySettings {
   double distance_m{7.0};  ///< Kept to the person, along the ground.
   double person_height_m{1.75};
+  double coast_s{3.0};  ///< So long the person is followed on where they should be, unseen.
+  double search_rate_rad_s{0.8};  ///< Then the vehicle turns round for them; 0: it stands.
   int lost_after_detections{20};  ///< In a row without the person: the target is lost.
   double success_s{60.0};         ///< Tracked for less is a failure.
   double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.

@@ -2,9 +2,8 @@
 #pragma once
 
 /// @file
-/// What a colour camera sees.
+/// Pictures of a colour camera, cut-outs of them, and boxes in them.
 
-#include "flyball/runtime/deferred.h"
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/messages.h"
 #include "flyball/runtime/time.h"
@@ -22,18 +21,6 @@ struct ColourImage {
   std::vector<std::uint8_t> rgb{};
 };
 
-/// A picture as the sensor publishes it; rendered only if somebody looks at it.
-struct ColourFrame {
-  MissionTime captured{};
-  std::uint64_t sequence{};
-  Intrinsics camera{};
-  /// Where the gimbal held the camera, by its own encoders: pose in the level frame L, which has
-  /// the body's origin and heading and stands upright.
-  Pose X_LC{Pose::Identity()};
-  Pose X_WC_truth{Pose::Identity()};  ///< For error statistics only.
-  Deferred<ColourImage> image{};
-};
-
 /// Rectangle in an image; the pixel (u, v) covers [u, u + 1) x [v, v + 1).
 struct ImageBox {
   double x_px{};  ///< Left edge.
@@ -45,6 +32,34 @@ struct ImageBox {
   [[nodiscard]] double centre_y_px() const { return y_px + 0.5 * height_px; }
   [[nodiscard]] double area_px2() const { return width_px * height_px; }
 };
+
+/// Whole pixels of an image: `width_px` columns from `x_px` on, `height_px` rows from `y_px` on.
+struct PixelRegion {
+  int x_px{};
+  int y_px{};
+  int width_px{};
+  int height_px{};
+
+  [[nodiscard]] bool is_empty() const { return width_px <= 0 || height_px <= 0; }
+  /// Also true of an empty one.
+  [[nodiscard]] bool covers(const PixelRegion& other) const;
+};
+
+/// A cut-out of a picture. It holds the pixels of its region and no others, so that nobody can read
+/// what was not asked for.
+struct ColourPatch {
+  MissionTime captured{};
+  std::uint64_t sequence{};
+  Intrinsics camera{};              ///< Of the whole picture.
+  PixelRegion region{};             ///< Inside the picture; may be empty.
+  std::vector<std::uint8_t> rgb{};  ///< Of the region, as in `ColourImage`.
+};
+
+[[nodiscard]] PixelRegion whole(const Intrinsics& camera);
+/// The pixels that the box touches, as far as the image has them.
+[[nodiscard]] PixelRegion pixels_of(const ImageBox& box, const Intrinsics& camera);
+/// @pre The image has its pixels, and the region lies inside it.
+[[nodiscard]] ColourPatch cut(const ColourImage& image, const PixelRegion& region);
 
 /// Intersection over union, 0..1; zero for boxes without area.
 [[nodiscard]] double overlap(const ImageBox& a, const ImageBox& b);

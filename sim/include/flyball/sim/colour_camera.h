@@ -4,7 +4,7 @@
 /// @file
 /// Colour camera: Embree rays into the true world, with its people, in sunlight.
 
-#include "flyball/runtime/colour_image.h"
+#include "flyball/runtime/colour_frame.h"
 #include "flyball/sim/world.h"
 
 #include <memory>
@@ -49,13 +49,16 @@ class ColourCamera {
   [[nodiscard]] ColourImage capture(const Pose& X_WC,
                                     MissionTime now,
                                     std::uint64_t sequence) const;
-  /// The same image, captured when somebody looks at it. @pre The camera lives until then.
+  /// The same image, rendered when and as far as somebody looks at it: a pixel is the same as in
+  /// the whole image. @pre The camera lives until then.
   [[nodiscard]] ColourFrame frame(const CameraPose& pose,
                                   MissionTime now,
                                   std::uint64_t sequence) const;
   [[nodiscard]] const ColourCameraSpec& spec() const;
 
  private:
+  void render(const Pose& X_WC, const std::vector<PixelRegion>& regions, ColourImage& into) const;
+
   struct Scene;
   explicit ColourCamera(std::unique_ptr<Scene> scene);
   std::unique_ptr<Scene> scene_;
