@@ -4,7 +4,8 @@
 // this file says what the way ahead allows:
 // - The coarsest cells that leave the narrowest gap ahead open (Passability).
 // - The price of a failed plan: in coarse cells one that is not found soon is not there, and a long
-//   search for it would keep the vehicle standing; so it gets a small budget there.
+//   search for it would keep the vehicle standing; so it gets a small budget there, and how often
+//   that happens is a price of such cells (FailedPlans).
 // - Sight: where the world ends what is known to be free, a longer range buys nothing.
 // - The mission's own limit of speed, at which latency is worth nothing, but to see farther ahead
 //   still makes the way shorter.
@@ -15,6 +16,7 @@
 // is looked at from nearby only, and two levels are used.
 
 #include "flyball/governors/energy_search.h"
+#include "flyball/governors/failed_plans.h"
 #include "flyball/governors/passability.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/resting.h"
@@ -33,8 +35,9 @@ namespace {
 using flyball::MapSetting;
 using flyball::Observation;
 
-constexpr double at_limit = 0.9;    // Of the speed: the reference eases towards it.
-constexpr double spacing_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
+constexpr double at_limit = 0.9;          // Of the speed: the reference eases towards it.
+constexpr double failed_plan_j = 1500.0;  // Some 5 s of a stop, plans and a start, at 300 W.
+constexpr double spacing_m = 20.0;        // From obstacle to obstacle, in RoboRun's congestion.
 
 // Where an RGB-D camera's noise, .0657 d - .4193 beyond 6 m (MAVBench's code), is half a cell.
 // Farther off it fills the cells beside an obstacle too, and closes gaps.
@@ -102,13 +105,15 @@ class MissionEnergy final : public flyball::Policy {
     }
     search_.emplace(std::move(*search));
     flyball::PassabilitySettings passable;
-    passable.body_m = body_m_ = given.number("body_m");
+    passable.body_m = given.number("body_m");
+    large_m_ = is_lattice_ ? 0.5 * passable.body_m : std::numeric_limits<double>::max();
+    failed_ = {};
     passable.least = flyball::from_seconds(given.number("min_fine_s"));
     patience_s_ = given.number("patience_s");
     passable.patience = flyball::from_seconds(patience_s_);
     sight_.emplace(least_range_m_);
     if (is_lattice_) {
-      passable.beside_m = 0.5 * body_m_;
+      passable.beside_m = large_m_;
       passable.near_m = least_range_m_ + 1.0;
     }
     passability_.emplace(passable, levels_m_);
@@ -126,8 +131,7 @@ class MissionEnergy final : public flyball::Policy {
     wish.set("map.resolution_m", best.resolution_m);
     wish.set("map.range_m", best.range_m);
     wish.set("cpu.frequency_hz", best.clock_hz);
-    const bool is_coarse = is_lattice_ && best.resolution_m > 0.5 * body_m_;
-    wish.set("planner.budget", is_coarse ? coarse_budget_ : fine_budget(seen));
+    wish.set("planner.budget", best.resolution_m > large_m_ ? coarse_budget_ : fine_budget(seen));
     return wish;
   }
 
@@ -233,15 +237,16 @@ class MissionEnergy final : public flyball::Policy {
 
   void limit_lattice(const Observation& seen, bool near, flyball::Surroundings& around) noexcept {
     if (near) {  // The mission says so, from farther off than any gap shows.
-      around.coarsest_m = std::min(around.coarsest_m, 0.5 * body_m_);
+      around.coarsest_m = std::min(around.coarsest_m, large_m_);
     }
+    failed_.note(seen, search_->in_force().resolution_m > large_m_);
+    around.large_m = large_m_;
+    around.large_j_m = failed_.per_m() * failed_plan_j;
     sight_->note(seen, search_->in_force().range_m);
     around.sight_m = sight_->distance_m();
     around.most_response_s = patience_s_;  // Else it would be taken for stuck.
     // Only at the mission's own limit a second buys nothing: elsewhere a plan may be wanted.
-    if (!(seen.speed_m_s >= at_limit * around.speed_limit_m_s)) {
-      around.needs_top_clock = true;
-    }
+    around.needs_top_clock |= !(seen.speed_m_s >= at_limit * around.speed_limit_m_s);
   }
 
   void limit_two_levels(const Observation& seen,
@@ -272,7 +277,7 @@ class MissionEnergy final : public flyball::Policy {
 
   std::vector<double> levels_m_{};  ///< Finest first.
   bool is_lattice_{};
-  double body_m_{};
+  double large_m_{};  ///< Cells beyond half the body shut openings that nobody has seen yet.
   double full_budget_{};
   double coarse_budget_{};
   double least_range_m_{};
@@ -284,6 +289,7 @@ class MissionEnergy final : public flyball::Policy {
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::Passability> passability_{};
   std::optional<flyball::Sight> sight_{};
+  flyball::FailedPlans failed_{};
 };
 
 }  // namespace

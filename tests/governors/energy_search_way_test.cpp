@@ -80,5 +80,19 @@ TEST(EnergySearchWay, takes_nothing_that_responds_too_late_if_anything_is_sooner
   }
 }
 
+TEST(EnergySearchWay, large_cells_pay_for_the_plans_that_fail_in_them) {
+  EnergySearch one = search_with({});
+  Surroundings open = slow_place();
+  open.speed_limit_m_s = 20.0;
+  EXPECT_EQ(one.choose(open, {}).setting.resolution_m, 0.80);
+  const MapSetting large = one.in_force();
+  const double before_j_m = one.estimate(large, open).joules_per_m;
+  open.large_m = 0.35;
+  open.large_j_m = 15.0;
+  EXPECT_NEAR(one.estimate(large, open).joules_per_m, before_j_m + 15.0, 1e-9);
+  open.large_j_m = 500.0;
+  EXPECT_EQ(one.choose(open, at(1.0)).setting.resolution_m, 0.15);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -63,6 +63,8 @@ struct Surroundings {
   /// before: rooms end most rays, and the open behind the next door does not.
   double most_response_s{1e9};
   double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
+  double large_m{1e9};     ///< Cells beyond this may shut what turns up next, and have a price:
+  double large_j_m{};      ///< failed plans per metre times what one costs.
   double finest_m{};       ///< No smaller one: somebody else chooses the cells, or 0.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
 };
@@ -78,7 +80,7 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least
 ///
-///     J = (P_rotor(v) + P_computer) / v * way + switching / horizon
+///     J = (P_rotor(v) + P_computer) / v * way + switching / horizon [+ price of large cells]
 ///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range, sight) - v delta
 ///
 /// An obstacle of half width w that shows s ahead makes the way longer by the second term, and

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the rule does on a mapper with a lattice of cells; the instruments have tests of their own.
+#include "started_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double top_hz = 2035.2e6;
+
+/// In the open, at full speed.
+flyball::Observation cruising() {
+  flyball::Observation seen;
+  seen.now = flyball::MissionTime{10s};
+  seen.phase = flyball::MissionPhase::cruise;
+  seen.speed_m_s = seen.speed_limit_m_s = 6.0;
+  seen.max_deceleration_m_s2 = 3.0;
+  seen.known_free_m = 25.0;
+  seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = 24.0;
+  seen.nearest_obstacle_m = 20.0;
+  seen.distance_to_goal_m = 200.0;
+  seen.map_resolution_m = 0.30;
+  seen.map_revision = 1;  // Without a map it would rest.
+  seen.latency = 200ms;
+  seen.cores = 4;
+  seen.frequency = flyball::Hertz{top_hz};
+  seen.busy_cores = 2.0;
+  return seen;
+}
+
+flyball::Observation before_a_door() {
+  flyball::Observation seen = cruising();
+  seen.narrowest_gap_m = 0.8;
+  seen.gap_distance_m = seen.nearest_obstacle_m = 4.0;
+  seen.obstacle_density = 0.1;
+  return seen;
+}
+
+double wished(const flyball::Decision& decision, const std::string& knob) {
+  for (const auto& wish : decision) {
+    if (knob == wish.knob) {
+      return wish.value;
+    }
+  }
+  ADD_FAILURE() << "no wish for " << knob;
+  return 0.0;
+}
+
+struct Rule {
+  Rule() : started{flyball::start_policy("mission_energy", {})} {}
+  double wish(const flyball::Observation& seen, const std::string& knob) {
+    return wished(started.policy->decide(seen), knob);
+  }
+  flyball::StartedPolicy started;
+};
+
+TEST(MissionEnergy, gives_each_plan_in_fine_cells_twice_the_budget_of_the_one_that_failed) {
+  flyball::Observation seen = before_a_door();
+  Rule rule;
+  ASSERT_TRUE(rule.started.status.ok());
+  const double full = flyball::conformance_knobs().value("planner.budget");
+  EXPECT_EQ(rule.wish(seen, "planner.budget"), full / 4.0);
+  seen.planner_failures = 1;
+  EXPECT_EQ(rule.wish(seen, "planner.budget"), full / 2.0);
+  seen.planner_failures = 2;
+  EXPECT_EQ(rule.wish(seen, "planner.budget"), full);
+  seen.planner_failures = 9;
+  EXPECT_EQ(rule.wish(seen, "planner.budget"), full);
+}
+
+TEST(MissionEnergy, has_finest_cells_at_the_top_clock_before_a_door) {
+  Rule rule;
+  EXPECT_EQ(rule.wish(before_a_door(), "map.resolution_m"), 0.15);
+  EXPECT_EQ(rule.wish(before_a_door(), "cpu.frequency_hz"), top_hz);
+}
+
+TEST(MissionEnergy, has_no_large_cells_where_the_mission_is_slow) {
+  flyball::Observation seen = cruising();
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_LE(Rule{}.wish(seen, "map.resolution_m"), 0.355);
+}
+
+/// A small vehicle, whose computer's watts count, flies on like this for half a minute.
+double clock_hz(double speed_m_s) {
+  flyball::Observation seen = cruising();
+  seen.speed_limit_m_s = 3.0;
+  seen.speed_m_s = speed_m_s;
+  seen.rotor_power = flyball::Watts{20.0};
+  Rule rule;
+  for (int i = 0; i < 120; ++i) {
+    seen.now += 250ms;
+    ++seen.map_revision;
+    (void)rule.started.policy->decide(seen);
+  }
+  return rule.wish(seen, "cpu.frequency_hz");
+}
+
+TEST(MissionEnergy, lowers_the_clock_only_at_the_missions_own_limit_of_speed) {
+  EXPECT_EQ(clock_hz(2.0), top_hz);
+  EXPECT_LT(clock_hz(3.0), top_hz);
+}
+
+TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed_in_them) {
+  flyball::Observation seen = cruising();
+  seen.speed_limit_m_s = 12.0;
+  seen.speed_m_s = 8.0;
+  Rule rule;
+  const auto resolution_m = [&] {
+    seen.now += 250ms;
+    ++seen.map_revision;
+    return rule.wish(seen, "map.resolution_m");
+  };
+  for (int i = 0; i < 40; ++i) {
+    seen.map_resolution_m = resolution_m();
+  }
+  EXPECT_GT(seen.map_resolution_m, 0.355);
+  for (int i = 0; i < 400 && seen.map_resolution_m > 0.355; ++i) {
+    seen.planner_failures = 1;
+    (void)resolution_m();
+    seen.planner_failures = 0;
+    for (int j = 0; j < 20; ++j) {
+      seen.map_resolution_m = resolution_m();
+    }
+  }
+  EXPECT_LE(seen.map_resolution_m, 0.355);
+}
+
+}  // namespace
