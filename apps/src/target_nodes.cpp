@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 
 // A box that jumps by more than this share of the image's width is somebody else.
 constexpr double reach_share = 0.3;
+constexpr int give_up_after = 20;  // Frames: a second.
 
 double between_px(const ImageBox& a, const ImageBox& b) {
   const double x = a.centre_x_px() - b.centre_x_px();
@@ -150,7 +151,8 @@ void add_buffered(Graph& graph,
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
-/// Follows from frame to frame; a detection that was caught up with replaces what it follows.
+/// Follows from frame to frame; a detection that was caught up with replaces what it follows. What
+/// was not seen for a while is given up: the view has gone elsewhere.
 class RealTimeTracking {
  public:
   RealTimeTracking(const VehicleTopics& vehicle,
@@ -168,12 +170,15 @@ class RealTimeTracking {
     const auto caught_up = job.take(topics_.caught_up);
     if (caught_up && caught_up->box) {
       is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
+      unseen_in_row_ = 0;
       target.box = is_following_ ? caught_up->box : std::nullopt;
     }
     const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
     if (is_following_ && is_newer) {
       const auto box = track(tracker(), *frame, work);
       target.box = box ? *box : std::nullopt;
+      unseen_in_row_ = target.box ? 0 : unseen_in_row_ + 1;
+      is_following_ = unseen_in_row_ < give_up_after;
     }
     job.publish(topics_.target, target);
     return work;
@@ -186,6 +191,7 @@ class RealTimeTracking {
   TargetTopics topics_;
   MissionContext& context_;
   bool is_following_{};
+  int unseen_in_row_{};
 };
 
 void add_real_time(Graph& graph,
