@@ -6,7 +6,8 @@
 // - The price of a failed plan: in coarse cells one that is not found soon is not there, and a long
 //   search for it would keep the vehicle standing; so it gets a small budget there.
 // - Sight: where the world ends what is known to be free, a longer range buys nothing.
-// - The mission's own limit of speed, at which latency is worth nothing.
+// - The mission's own limit of speed, at which latency is worth nothing, but to see farther ahead
+//   still makes the way shorter.
 // Where the vehicle waits, or flies without a map, only the clock is left to save.
 //
 // A mapper with a lattice of cells keeps what was hit at its finest level, so finer cells are
@@ -18,6 +19,7 @@
 #include "flyball/governors/policy.h"
 #include "flyball/governors/resting.h"
 #include "flyball/governors/search_space.h"
+#include "flyball/governors/sight.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -30,6 +32,9 @@ namespace {
 
 using flyball::MapSetting;
 using flyball::Observation;
+
+constexpr double at_limit = 0.9;    // Of the speed: the reference eases towards it.
+constexpr double spacing_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
 // Where an RGB-D camera's noise, .0657 d - .4193 beyond 6 m (MAVBench's code), is half a cell.
 // Farther off it fills the cells beside an obstacle too, and closes gaps.
@@ -82,6 +87,7 @@ class MissionEnergy final : public flyball::Policy {
     flyball::EnergySearchSettings settings;
     settings.bound.alpha = given.number("alpha");
     settings.learn_s = given.number("learn_s");
+    settings.spacing_m = is_lattice_ ? spacing_m : 0.0;
     if (const double margin = given.number("margin"); margin != 0.0) {
       if (margin < 1.0) {
         return refused("margin = " + std::to_string(margin) + " must be at least 1, or 0");
@@ -96,9 +102,15 @@ class MissionEnergy final : public flyball::Policy {
     }
     search_.emplace(std::move(*search));
     flyball::PassabilitySettings passable;
-    passable.body_m = given.number("body_m");
+    passable.body_m = body_m_ = given.number("body_m");
     passable.least = flyball::from_seconds(given.number("min_fine_s"));
-    passable.patience = flyball::from_seconds(given.number("patience_s"));
+    patience_s_ = given.number("patience_s");
+    passable.patience = flyball::from_seconds(patience_s_);
+    sight_.emplace(least_range_m_);
+    if (is_lattice_) {
+      passable.beside_m = 0.5 * body_m_;
+      passable.near_m = least_range_m_ + 1.0;
+    }
     passability_.emplace(passable, levels_m_);
     return flyball::Done{};
   }
@@ -114,8 +126,8 @@ class MissionEnergy final : public flyball::Policy {
     wish.set("map.resolution_m", best.resolution_m);
     wish.set("map.range_m", best.range_m);
     wish.set("cpu.frequency_hz", best.clock_hz);
-    const bool is_finest = best.resolution_m <= levels_m_.front();
-    wish.set("planner.budget", is_finest || !is_lattice_ ? full_budget_ : coarse_budget_);
+    const bool is_coarse = is_lattice_ && best.resolution_m > 0.5 * body_m_;
+    wish.set("planner.budget", is_coarse ? coarse_budget_ : fine_budget(seen));
     return wish;
   }
 
@@ -189,14 +201,7 @@ class MissionEnergy final : public flyball::Policy {
       return refused("least_range_m = " + std::to_string(least_m) +
                      " must be below most_range_m = " + std::to_string(most_m));
     }
-    std::vector<double> ranges_m;
-    constexpr int steps = 4;  // Equal in proportion, as latency has it.
-    ranges_m.reserve(steps + 1);
-    for (int i = 0; i < steps; ++i) {
-      ranges_m.push_back(least_m * std::pow(most_m / least_m, i / double{steps}));
-    }
-    ranges_m.push_back(most_m);
-    return ranges_m;
+    return flyball::ranges_between(least_m, most_m);
   }
 
   [[nodiscard]] std::vector<flyball::SearchLevel> map_levels(const flyball::Parameters& given,
@@ -212,39 +217,73 @@ class MissionEnergy final : public flyball::Policy {
   }
 
   [[nodiscard]] flyball::Surroundings surroundings(const Observation& seen) noexcept {
-    constexpr double no_limit = std::numeric_limits<double>::max();
     const flyball::Passability::Verdict way = passability_->judge(seen);
-    const bool fine = way.coarsest_level == 0;
     const bool near = seen.speed_limit_m_s <= narrow_m_s_;
-    const bool from_nearby = !is_lattice_ && (fine || near);
     flyball::Surroundings around = flyball::limits_of(seen);
     around.coarsest_m = levels_m_[way.coarsest_level];
     around.least_range_m = way.look_m;
-    // Noise from afar opens and closes gaps: what is narrow is looked at from nearby only.
-    around.most_range_m = from_nearby && !(way.look_m > 0.0) ? least_range_m_ : no_limit;
-    around.needs_top_clock = fine || near || seen.phase != flyball::MissionPhase::cruise;
+    around.needs_top_clock =
+        way.coarsest_level == 0 || near || seen.phase != flyball::MissionPhase::cruise;
     if (deceleration_m_s2_ > 0.0) {
       around.deceleration_m_s2 = deceleration_m_s2_;
     }
+    is_lattice_ ? limit_lattice(seen, near, around) : limit_two_levels(seen, near, around);
+    return around;
+  }
+
+  void limit_lattice(const Observation& seen, bool near, flyball::Surroundings& around) noexcept {
+    if (near) {  // The mission says so, from farther off than any gap shows.
+      around.coarsest_m = std::min(around.coarsest_m, 0.5 * body_m_);
+    }
+    sight_->note(seen, search_->in_force().range_m);
+    around.sight_m = sight_->distance_m();
+    around.most_response_s = patience_s_;  // Else it would be taken for stuck.
+    // Only at the mission's own limit a second buys nothing: elsewhere a plan may be wanted.
+    if (!(seen.speed_m_s >= at_limit * around.speed_limit_m_s)) {
+      around.needs_top_clock = true;
+    }
+  }
+
+  void limit_two_levels(const Observation& seen,
+                        bool near,
+                        flyball::Surroundings& around) const noexcept {
+    constexpr double no_limit = std::numeric_limits<double>::max();
+    const bool fine = around.coarsest_m <= levels_m_.front();
+    // Noise from afar opens and closes gaps: what is narrow is looked at from nearby only.
+    const bool from_nearby = (fine || near) && !(around.least_range_m > 0.0);
+    around.most_range_m = from_nearby ? least_range_m_ : no_limit;
     // Free nearly up to the end of the range: a longer one would show more.
     constexpr double nearly_m = 1.5;
-    const MapSetting& now = search_->in_force();
-    const bool world_ends_it = fine && !(seen.known_free_m >= now.range_m - nearly_m);
+    const bool world_ends_it =
+        fine && !(seen.known_free_m >= search_->in_force().range_m - nearly_m);
     around.sight_m = world_ends_it ? least_range_m_ : no_limit;
-    return around;
+  }
+
+  /// A plan that is there is mostly found soon, one that is not costs the whole budget, and the
+  /// vehicle stands: begun anew with another seed and a newer map, and twice as long each time
+  /// (Luby, Sinclair and Zuckerman 1993, doi:10.1016/0020-0190(93)90029-9).
+  [[nodiscard]] double fine_budget(const Observation& seen) const noexcept {
+    if (!is_lattice_) {
+      return full_budget_;
+    }
+    const double halvings = std::max(0.0, 2.0 - static_cast<double>(seen.planner_failures));
+    return std::max(coarse_budget_, full_budget_ * std::pow(0.5, halvings));
   }
 
   std::vector<double> levels_m_{};  ///< Finest first.
   bool is_lattice_{};
+  double body_m_{};
   double full_budget_{};
   double coarse_budget_{};
   double least_range_m_{};
   double narrow_m_s_{};
   double deceleration_m_s2_{};
+  double patience_s_{};
   MapSetting home_{};  ///< The map as the scenario has it.
   std::optional<flyball::Resting> resting_{};
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::Passability> passability_{};
+  std::optional<flyball::Sight> sight_{};
 };
 
 }  // namespace

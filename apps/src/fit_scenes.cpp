@@ -3,6 +3,7 @@
 #include "fit_scenes.h"
 
 #include "fit_perception.h"
+#include "fit_sight.h"
 #include "mission_setup.h"
 #include "plan_with_tubes.h"
 #include <algorithm>
@@ -29,7 +30,7 @@ Scenario delivery() {
 class Delivery {
  public:
   Delivery(const DeliveryScene& scene, MissionContext& context, const World& world)
-      : scene_{scene}, context_{context}, perception_{context, world} {
+      : scene_{scene}, context_{context}, world_{world}, perception_{context, world} {
     const Vec3 up = Vec3::UnitZ() * world.cruise_height_m;
     path_ = Path::polyline({world.start_W + up, world.goal_W + up});
     goal_W_ = world.goal_W + up;
@@ -44,10 +45,16 @@ class Delivery {
       if (const Status clear = check(); !clear) {
         return clear.error();
       }
+      if (step % scene_.sight_every == 0) {
+        stretches_.push_back({pose(), scene_.speed_m_s, scene_.sight_s});
+      }
       s_m_ += scene_.step_m;
     }
     if (!is_indoors()) {
       return Error{ErrorCode::failed, "the recorded delivery does not reach its building"};
+    }
+    if (const Status seen = see(stretches_, context_.scenario, world_, loads_.kernels); !seen) {
+      return seen.error();
     }
     return std::move(loads_);
   }
@@ -55,11 +62,11 @@ class Delivery {
  private:
   [[nodiscard]] bool is_indoors() const { return context_.speed_limit_m_s(here_W()) <= slow_m_s; }
   [[nodiscard]] Vec3 here_W() const { return path_.at(s_m_).p_W; }
+  [[nodiscard]] Pose pose() const { return looking(here_W(), yaw_of(path_.at(s_m_).tangent_W)); }
 
   Status look() {
     context_.kernels.mapper->declare_clear(here_W(), context_.airframe.body());
-    const Pose X_WB = looking(here_W(), yaw_of(path_.at(s_m_).tangent_W));
-    if (const Status seen = perception_.look(X_WB, loads_.kernels); !seen) {
+    if (const Status seen = perception_.look(pose(), loads_.kernels); !seen) {
       return seen.error();
     }
     const auto coarse = perception_.prepare(scene_.coarse_resolution_m);
@@ -110,7 +117,9 @@ class Delivery {
 
   const DeliveryScene& scene_;
   MissionContext& context_;
+  const World& world_;
   Perception perception_;
+  std::vector<Stretch> stretches_{};
   DeliveryLoads loads_{};
   Path path_{};
   double s_m_{};
@@ -141,7 +150,7 @@ Work KernelLoad::mean() const {
 }
 
 DeliveryScene scene_a() {
-  return {delivery(), 3.0, 7.0, 0.98};
+  return {delivery(), 3.0, 7.0, 0.98, 10, 2.0, 4.0};
 }
 
 RoomsScene scene_b() {
@@ -153,6 +162,8 @@ RoomsScene scene_b() {
   scene.row_pitch_m = 9.0;
   scene.column_pitch_m = 10.2;
   scene.headings = 4;
+  scene.sight_s = 1.5;
+  scene.speed_m_s = 1.0;
   return scene;
 }
 
@@ -205,6 +216,7 @@ Result<KernelLoads> record(const RoomsScene& scene) {
   const Clearance clearance{setup->world};
   Perception perception{context, setup->world};
   KernelLoads loads;
+  std::vector<Stretch> stretches;
   for (int i = 0; i < scene.rows * scene.columns * scene.headings; ++i) {
     const Pose X_WB = view_in(scene, i);
     if (clearance.distance_m(X_WB.translation(), context.airframe.body(), 1.0, true) <= 0.0) {
@@ -213,6 +225,13 @@ Result<KernelLoads> record(const RoomsScene& scene) {
     if (const Status seen = perception.look(X_WB, loads); !seen) {
       return seen.error();
     }
+    const int room = i / scene.headings;
+    if (i % scene.headings == room % scene.headings) {
+      stretches.push_back({X_WB, scene.speed_m_s, scene.sight_s});
+    }
+  }
+  if (const Status seen = see(stretches, scene.scenario, setup->world, loads); !seen) {
+    return seen.error();
   }
   return loads;
 }

@@ -31,6 +31,9 @@ struct DeliveryScene {
   double step_m{};
   double checked_m{};            ///< Of the way ahead, in the check that is priced.
   double coarse_resolution_m{};  ///< Each frame is also counted at this resolution.
+  int sight_every{};             ///< From one step in so many a localizer sees the way ahead,
+  double sight_s{};              ///< for so long,
+  double speed_m_s{};            ///< at the mean speed of `fixed_fine` there.
 };
 
 struct DeliveryLoads {
@@ -46,7 +49,9 @@ struct RoomsScene {
   int columns{};                    ///< Along y.
   double row_pitch_m{};
   double column_pitch_m{};
-  int headings{};  ///< Evenly spread, the first along x.
+  int headings{};      ///< Evenly spread, the first along x.
+  double sight_s{};    ///< From each room's middle a localizer sees one way ahead for so long,
+  double speed_m_s{};  ///< at the speed that the delivery's zone allows.
 };
 
 /// The shipped delivery_outdoor_to_indoor, seed 1, from take-off to the door.

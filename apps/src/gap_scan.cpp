@@ -10,6 +10,9 @@ constexpr double line_spacing_m = 1.0;
 // A wall that is thinner than the spacing is still as near as this to one of two lines.
 constexpr double near_m = 0.5 * line_spacing_m;
 constexpr double least_step_m = 0.25;
+constexpr double touching_m = 0.05;  // A third of the finest cells.
+constexpr double feeling_m = 0.1;
+constexpr double span_step_m = 0.5;  // A wall of .2 m is no farther than .15 m from one of them.
 constexpr double sight_m = 3.0;  // A farther obstacle need not be found: the next step finds it.
 
 /// The widest opening on one line, by steps as long as the obstacles are far.
@@ -37,7 +40,42 @@ double widest_m(const OccupancyView& map,
   return widest > 0.0 ? std::min(widest, 2.0 * scan.aside_m) : 2.0 * closest;
 }
 
+/// From `p_W` to the first obstacle on this side, `sight_m` at most.
+double free_aside_m(const OccupancyView& map,
+                    const Vec3& p_W,
+                    const Vec3& aside_W,
+                    double half_band_m) {
+  double free_m = 0.0;
+  while (free_m < sight_m) {
+    const double clear_m = map.nearest_obstacle_m(p_W + free_m * aside_W, sight_m, half_band_m);
+    if (clear_m < touching_m) {
+      break;
+    }
+    free_m += std::max(clear_m, feeling_m);
+  }
+  return std::min(free_m, sight_m);
+}
+
 }  // namespace
+
+PathWidth narrowest_on(const OccupancyView& map, const PathSpan& span, double half_band_m) {
+  const double reach_m = std::min(span.horizon_m, span.path->length_m() - span.from_m);
+  PathWidth narrowest{2.0 * sight_m, std::max(0.0, reach_m)};
+  for (double ahead_m = 0.0; ahead_m <= reach_m; ahead_m += span_step_m) {
+    const Path::Sample here = span.path->at(span.from_m + ahead_m);
+    const Vec3 left_W = Vec3::UnitZ().cross(here.tangent_W);
+    if (left_W.norm() < 0.5) {
+      continue;  // Straight up or down.
+    }
+    const Vec3 aside_W = left_W.normalized();
+    const double width_m = 2.0 * std::min(free_aside_m(map, here.p_W, aside_W, half_band_m),
+                                          free_aside_m(map, here.p_W, -aside_W, half_band_m));
+    if (width_m < narrowest.width_m) {
+      narrowest = {width_m, ahead_m};
+    }
+  }
+  return narrowest;
+}
 
 GapsAhead gaps_ahead(const OccupancyView& map,
                      const Vec3& from_W,

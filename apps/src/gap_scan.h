@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
+#include "flyball/runtime/trajectory.h"
 
 namespace flyball {
 
@@ -31,5 +32,20 @@ struct GapScan {
                                    const Vec3& from_W,
                                    const Vec3& towards_W,
                                    const GapScan& scan);
+
+/// A place on a path and how wide the way is there.
+struct PathWidth {
+  double width_m{};  ///< Twice the distance to the nearer side.
+  double at_m{};     ///< Along the path, from the beginning of the span.
+};
+
+/// The narrowest place of a path: level and square to it, as wide as an obstacle on the nearer side
+/// leaves it; at most 3 m to each side, and then no place of it is narrow. Unlike openings towards
+/// the goal it means the gap that the path goes through, whatever else seems open because nobody
+/// has looked there yet.
+/// @pre The path is not empty.
+[[nodiscard]] PathWidth narrowest_on(const OccupancyView& map,
+                                     const PathSpan& span,
+                                     double half_band_m);
 
 }  // namespace flyball

@@ -16,6 +16,7 @@ namespace {
 constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
 constexpr double nearest_limit_m = 20.0;
+constexpr double path_width_reach_m = 8.0;  // A little farther than the finest cells show.
 
 /// On the path, or its end.
 Vec3 place_ahead_W(const PathFollower& follower, double ahead_m) {
@@ -149,6 +150,15 @@ void GovernorLoop::observe_gaps() {
   seen_.narrowest_gap_m = gaps.narrowest_m;
   seen_.gap_distance_m = gaps.narrowest_at_m;
   seen_.mean_gap_m = gaps.mean_m;
+  const PathFollower& follower = navigator_->follower();
+  if (follower.has_path()) {
+    const PathSpan ahead{&follower.path(), follower.s_m(), path_width_reach_m};
+    const PathWidth path = narrowest_on(context_.map(), ahead, density_half_band_m);
+    if (path.width_m < seen_.narrowest_gap_m) {
+      seen_.narrowest_gap_m = path.width_m;
+      seen_.gap_distance_m = path.at_m;
+    }
+  }
 }
 
 void GovernorLoop::observe_computer(MissionTime now) {

@@ -67,7 +67,11 @@ Result<MissionKernels> make_kernels(const KernelSettings& names) {
   make(kernels.planner, "planner", names.planner, missing);
   make(kernels.smoother, "smoother", names.smoother, missing);
   make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
-  make(kernels.localizer, "localizer", names.localizer, missing);
+  if (auto localizer = make_localizer(names)) {
+    kernels.localizer = std::move(*localizer);
+  } else {
+    missing.push_back(localizer.error());
+  }
   make(kernels.coverage, "coverage planner", names.coverage, missing);
   make(kernels.explorer, "explorer", names.explorer, missing);
   if (!missing.empty()) {

@@ -12,11 +12,12 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 
-// What a frame's way through the graph takes by the platform's own price list, before one has been
-// measured: the frustum's volume over the cell's volume bounds the updates, the rays' length over
-// the cell's edge the traversals.
-Work expected_map_work(const MissionContext& context, double resolution_m) {
+// What the next frame's way through the graph takes by the platform's own price list, before one
+// has been measured: the frustum's volume over the cell's volume bounds the updates, the rays'
+// length over the cell's edge the traversals.
+Work expected_map_work(const MissionContext& context) {
   const Intrinsics camera = context.scenario.camera.intrinsics();
+  const double resolution_m = context.knobs.value("map.resolution_m");
   const double range_m = context.knobs.value("map.range_m");
   const double rays = static_cast<double>(camera.width_px) * camera.height_px;
   const double tan_x = 0.5 * camera.width_px / camera.focal_px;
@@ -46,9 +47,8 @@ void add_check(Graph& graph,
       return work;
     }
     const Hertz clock{context.knobs.value("cpu.frequency_hz")};
-    const Duration expected =
-        context.platform.job_time(mapper_cost(context.scenario.kernels),
-                                  expected_map_work(context, revision->resolution_m), clock);
+    const Duration expected = context.platform.job_time(mapper_cost(context.scenario.kernels),
+                                                        expected_map_work(context), clock);
     navigator.map_published(job.now(), *revision, expected);
     const PathFollower& follower = navigator.follower();
     if (!follower.has_path()) {

@@ -23,7 +23,9 @@ constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
 // When the way to the goal has become this much longer than it was at first, and stays so with a
 // frame that was taken at rest, a look to both sides may show a door that the vehicle flew past.
-constexpr double worth_a_look_m = 5.0;
+// Stop, look and plan take some 5 s: less than the way that the vehicle makes in them is not worth
+// it.
+constexpr double worth_a_look_s = 5.0;
 constexpr double worth_a_look = 0.1;  // At least this share of the path.
 constexpr double looked_here_m = 2.0;
 constexpr double least_lead_in_m = 0.3;
@@ -61,22 +63,17 @@ bool Navigator::has_arrived() const {
 void Navigator::map_published(MissionTime now,
                               const MapRevision& revision,
                               Duration expected_latency) {
-  auto& latency = latency_.try_emplace(revision.resolution_m, expected_latency).first->second;
-  auto& interval = interval_.try_emplace(revision.resolution_m, expected_latency).first->second;
+  map_latency_.note_terms(now, terms_of(context_.knobs));
+  map_latency_.published(revision, now, expected_latency);
   newest_latency_ = now - revision.captured;
   map_revision_ = revision.number;
-  if (newest_latency_ > latency.bound()) {
+  if (map_latency_.budget_use() > 1.0) {
     ++context_.counters.bound_overruns;
   }
-  context_.counters.budget_use.push_back(ratio(newest_latency_, latency.bound()));
-  latency.add(newest_latency_);
-  if (last_published_ != MissionTime{}) {
-    interval.add(now - last_published_);
-  }
-  last_published_ = now;
+  context_.counters.budget_use.push_back(map_latency_.budget_use());
   unused_capture_ = newest_capture_ = revision.captured;
   follower_.map_published(revision);
-  follower_.set_latency_bound(latency.bound() + interval.bound());
+  follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
   follower_.refresh_known_free(context_.map());
 }
 
@@ -217,7 +214,8 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
 bool Navigator::is_worth_a_look(double total_m, double planned_m) const {
   const Vec3 here_W = follower_.position_W();
   return follower_.has_path() &&
-         total_m > *expected_m_ + std::max(worth_a_look_m, worth_a_look * planned_m) &&
+         total_m > *expected_m_ + std::max(worth_a_look_s * context_.speed_limit_m_s(here_W),
+                                           worth_a_look * planned_m) &&
          !((here_W - looked_at_W_).norm() < looked_here_m);
 }
 
@@ -269,6 +267,7 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   if (const auto search = search_place(now, where)) {
     return *search;
   }
+  map_latency_.note_terms(now, terms_of(context_.knobs));
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = measured(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);

@@ -5,10 +5,10 @@
 /// Gets the vehicle to a goal through what the map knows: asks for plans, splices them into the
 /// committed path, and keeps the latency that the speed limit follows from.
 
+#include "map_latency.h"
 #include "path_follower.h"
 #include <deque>
 #include <limits>
-#include <map>
 #include <string>
 
 namespace flyball {
@@ -106,9 +106,7 @@ class Navigator {
   std::optional<MissionTime> at_rest_since_{};
   MissionTime newest_capture_{};
   Vec3 looked_at_W_{Vec3::Constant(std::numeric_limits<double>::infinity())};
-  std::map<double, LatencyWindow> latency_{};  ///< By map resolution.
-  std::map<double, LatencyWindow> interval_{};
-  MissionTime last_published_{};
+  MapLatency map_latency_{};
   Duration newest_latency_{};
   std::uint64_t map_revision_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.

@@ -14,11 +14,14 @@ namespace {
 
 constexpr const char* world_prefix = "world.";
 constexpr const char* mapper_prefix = "kernels.mapper_parameters.";
+constexpr const char* localizer_prefix = "kernels.localizer_parameters.";
 constexpr const char* detector_prefix = "kernels.detector_parameters.";
 
 template <class Plugin>
-ParameterGroup group_of(const std::string& family, const std::string& name) {
+ParameterGroup group_of(const std::string& family, const std::string& name, const char* prefix) {
   ParameterGroup group;
+  group.selector = prefix == world_prefix ? "world.generator" : "kernels." + family;
+  group.prefix = prefix;
   group.owner = family + " \"" + name + "\"";
   if (const auto plugin = all_plugins().make<Plugin>(name)) {
     group.exists = true;
@@ -67,27 +70,41 @@ std::vector<Error> take_parameters(ParameterValues& values,
   return errors;
 }
 
+template <class Plugin>
+Result<std::unique_ptr<Plugin>> make_configured(const std::string& family,
+                                                const std::string& name,
+                                                const ParameterValues& given) {
+  auto plugin = all_plugins().make<Plugin>(name);
+  if (!plugin) {
+    return unknown(family, name, "kernels");
+  }
+  const auto chosen = resolved(family + " \"" + name + "\"", plugin->parameters(), given);
+  if (!chosen) {
+    return chosen.error();
+  }
+  plugin->configure(*chosen);
+  return plugin;
+}
+
 }  // namespace
 
 std::vector<ParameterGroup> parameter_groups(const Scenario& scenario) {
-  ParameterGroup world = group_of<WorldGenerator>("world", scenario.world.generator);
-  world.selector = "world.generator";
-  world.prefix = world_prefix;
-  ParameterGroup mapper = group_of<Mapper>("mapper", scenario.kernels.mapper);
-  mapper.selector = "kernels.mapper";
-  mapper.prefix = mapper_prefix;
-  ParameterGroup detector = group_of<Detector>("detector", scenario.kernels.detector);
-  detector.selector = "kernels.detector";
-  detector.prefix = detector_prefix;
-  return {std::move(world), std::move(mapper), std::move(detector)};
+  const KernelSettings& kernels = scenario.kernels;
+  return {group_of<WorldGenerator>("world", scenario.world.generator, world_prefix),
+          group_of<Mapper>("mapper", kernels.mapper, mapper_prefix),
+          group_of<Localizer>("localizer", kernels.localizer, localizer_prefix),
+          group_of<Detector>("detector", kernels.detector, detector_prefix)};
 }
 
 const ParameterValues& values_of(const Scenario& scenario, const ParameterGroup& group) {
   if (group.prefix == world_prefix) {
     return scenario.world.parameters;
   }
-  return group.prefix == mapper_prefix ? scenario.kernels.mapper_parameters
-                                       : scenario.kernels.detector_parameters;
+  if (group.prefix == mapper_prefix) {
+    return scenario.kernels.mapper_parameters;
+  }
+  return group.prefix == localizer_prefix ? scenario.kernels.localizer_parameters
+                                          : scenario.kernels.detector_parameters;
 }
 
 ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group) {
@@ -135,17 +152,11 @@ Result<Parameters> resolved(const std::string& owner,
 }
 
 Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels) {
-  auto mapper = all_plugins().make<Mapper>(kernels.mapper);
-  if (!mapper) {
-    return unknown("mapper", kernels.mapper, "kernels");
-  }
-  const auto chosen = resolved("mapper \"" + kernels.mapper + "\"", mapper->parameters(),
-                               kernels.mapper_parameters);
-  if (!chosen) {
-    return chosen.error();
-  }
-  mapper->configure(*chosen);
-  return mapper;
+  return make_configured<Mapper>("mapper", kernels.mapper, kernels.mapper_parameters);
+}
+
+Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels) {
+  return make_configured<Localizer>("localizer", kernels.localizer, kernels.localizer_parameters);
 }
 
 std::string mapper_cost(const KernelSettings& kernels) {

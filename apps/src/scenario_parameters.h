@@ -3,8 +3,9 @@
 
 /// @file
 /// Settings that a plug-in declares for itself: those of the world's generator (`world.spread_m`)
-/// and of the mapper (`kernels.mapper_parameters.front_end`).
+/// and of kernels (`kernels.mapper_parameters.front_end`).
 
+#include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 
 #include "scenario_reader.h"
@@ -51,6 +52,8 @@ struct ParameterGroup {
 ///
 /// @error `not_found`, or `invalid_input` with a sentence for each wrong parameter.
 [[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels);
+/// The same for the localizer.
+[[nodiscard]] Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels);
 
 /// Whose cost the map's work is charged as on the modeled computer: the mapper's own, or that of
 /// the kernel that its parameter `cost_of` names.

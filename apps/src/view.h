@@ -20,7 +20,8 @@ struct View {
 /// A colour camera with the depth camera's lens: an RGB-D camera's other half.
 [[nodiscard]] ColourCameraSpec colour_beside(const DepthCameraSpec& depth);
 
-/// Renders both, and turns colour into grey as ITU-R BT.601 does.
+/// Renders both, and turns colour into grey as ITU-R BT.601 does, with the exposure opened up in
+/// the shade.
 [[nodiscard]] VisualFrame visual_frame(const View& view);
 
 }  // namespace flyball

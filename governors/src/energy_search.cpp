@@ -13,6 +13,7 @@ namespace {
 
 constexpr double least_speed_m_s = 0.05;  // below it, joules per metre say nothing
 constexpr double smoothing = 0.1;         // of the load beside the map: some seconds of decisions
+constexpr double too_slow = 1e3;  // Dearer than all that is quick enough, yet cheaper than nothing.
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own limit of speed settings are equal but for milliwatts: there the sooner one.
@@ -58,6 +59,9 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
                  .value()};
   });
   search.estimates_.resize(search.points_.size());
+  for (std::size_t point = 0; point < search.points_.size(); ++point) {
+    search.expected_s_.push_back(search.estimate(search.setting(point), {}).response_s);
+  }
   return search;
 }
 
@@ -185,13 +189,24 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const Watts rotor_w = rotors_.power(best.speed_m_s);
   const Watts computer_w = computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, latency_s));
   const bool switches = setting.resolution_m != in_force_.resolution_m;
-  best.joules_per_m = joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-                      (switches ? settings_.switching_j / settings_.horizon_m : 0.0);
+  const double shows_m = distance_m - best.speed_m_s * best.response_s;
+  best.joules_per_m =
+      way(setting, shows_m) * joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
+      (switches ? settings_.switching_j / settings_.horizon_m : 0.0);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));
   }
   return best;
+}
+
+double EnergySearch::way(const MapSetting& setting, double shows_m) const {
+  if (settings_.spacing_m <= 0.0) {
+    return 1.0;
+  }
+  const double w_m = settings_.half_width_m;
+  const double s_m = std::max(shows_m, 0.0);
+  return 1.0 + (setting.resolution_m + std::hypot(s_m, w_m) - s_m) / settings_.spacing_m;
 }
 
 bool EnergySearch::is_allowed(const MapSetting& candidate,
@@ -213,6 +228,9 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
     estimates_[point].joules_per_m = std::numeric_limits<double>::infinity();
     if (is_allowed(candidate, around, least_range_m)) {
       estimates_[point] = estimate(candidate, around);
+      if (std::max(estimates_[point].response_s, expected_s_[point]) > around.most_response_s) {
+        estimates_[point].joules_per_m *= too_slow;
+      }
       least_j = std::min(least_j, estimates_[point].joules_per_m);
     }
   }

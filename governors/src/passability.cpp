@@ -11,22 +11,34 @@ namespace {
 
 constexpr double standing_m_s = 0.1;
 constexpr double behind_the_gap_m = 3.0;  // What a plan through it needs to know.
+constexpr double farthest_m = 30.0;       // No gap is looked for farther ahead.
 constexpr double rounding_m = 1e-9;
 
 }  // namespace
 
 Passability::Passability(const PassabilitySettings& settings, std::vector<double> levels_m)
-    : settings_{settings}, levels_m_{std::move(levels_m)}, level_{levels_m_.size() - 1} {
+    : settings_{settings},
+      levels_m_{std::move(levels_m)},
+      level_{levels_m_.size() - 1},
+      beside_level_{level_} {
   FLYBALL_ASSERT(!levels_m_.empty() && std::is_sorted(levels_m_.begin(), levels_m_.end()),
                  "%zu levels", levels_m_.size());
+  while (settings_.beside_m > 0.0 && beside_level_ > 0 &&
+         levels_m_[beside_level_] > settings_.beside_m + rounding_m) {
+    --beside_level_;
+  }
 }
 
-// Comparisons with what is not a number are false, so it leaves the finest level.
+double Passability::least_m(std::size_t level) const {
+  return settings_.body_m + (settings_.beside_m > 0.0 ? 2.0 * levels_m_[level] : 0.0);
+}
+
+// Comparisons with what is not a number are false, so it leaves the finest level. Finer cells than
+// the map's show at least as much.
 std::size_t Passability::open_level(const Observation& seen) const {
-  for (std::size_t level = levels_m_.size(); level-- > 1;) {
-    const double coarser_m = levels_m_[level] - seen.map_resolution_m;
-    if (coarser_m >= -rounding_m &&
-        seen.narrowest_gap_m - 2.0 * coarser_m >= settings_.body_m - rounding_m) {
+  for (std::size_t level = levels_m_.size(); level-- > 1 && seen.map_resolution_m > 0.0;) {
+    const double coarser_m = std::max(0.0, levels_m_[level] - seen.map_resolution_m);
+    if (seen.narrowest_gap_m - 2.0 * coarser_m >= least_m(level) - rounding_m) {
       return level;
     }
   }
@@ -34,29 +46,82 @@ std::size_t Passability::open_level(const Observation& seen) const {
 }
 
 // Coarse cells beside an obstacle are not known free: among them the vehicle would have to stop.
-bool Passability::is_clear_of_obstacles(const Observation& seen, std::size_t level) const {
-  return seen.nearest_obstacle_m >= 0.5 * settings_.body_m + 2.0 * levels_m_[level];
+std::size_t Passability::clear_level(const Observation& seen, std::size_t open) const {
+  std::size_t level = open;
+  while (level > 0 &&
+         !(seen.nearest_obstacle_m >= 0.5 * settings_.body_m + 2.0 * levels_m_[level])) {
+    --level;
+  }
+  return level;
 }
 
-Duration Passability::standing(const Observation& seen) {
+// A plan takes a while, and where far frames of fine cells take longest of all, near ones get more
+// time first.
+Passability::Standing Passability::standing(const Observation& seen) {
   const bool stands = seen.phase == MissionPhase::cruise && !(seen.speed_m_s > standing_m_s);
   standing_since_ = stands ? standing_since_.value_or(seen.now) : std::optional<MissionTime>{};
-  return stands ? seen.now - *standing_since_ : Duration::zero();
+  const Duration stood = stands ? seen.now - *standing_since_ : Duration::zero();
+  const int longer = settings_.near_m > 0.0 ? 4 : 2;
+  if (stood < settings_.patience || stood == Duration::zero()) {
+    return Standing::no;
+  }
+  return stood >= longer * settings_.patience ? Standing::for_good : Standing::stuck;
+}
+
+// Finest cells show what is near only; on the way there, and to find out at first what a plan
+// failed for that is farther off, the next ones do.
+std::size_t Passability::needed_level(const Observation& seen, Standing standing) const {
+  const bool has_near = settings_.near_m > 0.0;
+  const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
+  const bool may_be_far = seen.planner_failures < 2 && standing != Standing::for_good;
+  if (has_failed && !(may_be_far && is_far_off(seen))) {
+    return 0;
+  }
+  const bool is_open_around = seen.obstacle_density <= 0.0 && seen.density_ahead <= 0.0;
+  const std::size_t beside = is_open_around && !has_failed ? levels_m_.size() - 1 : beside_level_;
+  const std::size_t open = open_level(seen);
+  const bool is_far = has_near && seen.gap_distance_m > settings_.near_m;
+  return std::min(beside, is_far ? std::max(open, std::min(std::size_t{1}, beside_level_)) : open);
+}
+
+bool Passability::is_far_off(const Observation& seen) const {
+  return settings_.near_m > 0.0 && seen.nearest_obstacle_m > settings_.near_m;
+}
+
+void Passability::count_way(const Observation& seen) {
+  const double elapsed_s = last_judged_ ? to_seconds(seen.now - *last_judged_) : 0.0;
+  last_judged_ = seen.now;
+  const double way_m = seen.speed_m_s * elapsed_s;
+  if (!(way_m <= 0.0)) {  // What is no number ends it: the gap itself still counts.
+    needed_on_m_ = way_m < needed_on_m_ ? needed_on_m_ - way_m : 0.0;
+  }
+}
+
+void Passability::need_until_past(const Observation& seen, Standing standing) {
+  const bool has_failed = seen.planner_failures > 0 || standing != Standing::no;
+  const double on_m = has_failed ? settings_.near_m : seen.gap_distance_m + behind_the_gap_m;
+  needed_on_m_ = std::max(needed_on_m_, std::min(on_m, farthest_m));
 }
 
 Passability::Verdict Passability::judge(const Observation& seen) {
-  const Duration stood = standing(seen);
-  const bool is_stuck = stood >= settings_.patience && stood > Duration::zero();
-  const std::size_t open = seen.planner_failures > 0 || is_stuck ? 0 : open_level(seen);
+  const Standing stands = standing(seen);
+  count_way(seen);
+  const std::size_t needed = needed_level(seen, stands);
+  if (settings_.near_m > 0.0 && needed == 0) {
+    need_until_past(seen, stands);
+  }
+  const std::size_t open = needed_on_m_ > 0.0 ? 0 : needed;
+  if (needed <= level_) {
+    needed_at_ = seen.now;
+  }
   if (open <= level_) {
     level_ = open;
-    needed_at_ = seen.now;
-  } else if (seen.now - needed_at_ >= settings_.least && is_clear_of_obstacles(seen, open)) {
-    level_ = open;
+  } else if (seen.now - needed_at_ >= settings_.least) {
+    level_ = std::max(level_, clear_level(seen, open));
   }
   Verdict verdict;
   verdict.coarsest_level = level_;
-  if (is_stuck && stood >= 2 * settings_.patience) {
+  if (stands == Standing::for_good) {
     verdict.look_m = seen.gap_distance_m + behind_the_gap_m;
   }
   return verdict;

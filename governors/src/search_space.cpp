@@ -29,6 +29,18 @@ std::vector<SearchLevel> levels_between(const std::vector<double>& resolutions_m
   return levels;
 }
 
+std::vector<double> ranges_between(double least_m, double most_m) {
+  FLYBALL_ASSERT(least_m > 0.0 && least_m < most_m, "%g m to %g m", least_m, most_m);
+  constexpr int steps = 4;
+  std::vector<double> ranges_m;
+  ranges_m.reserve(steps + 1);
+  for (int i = 0; i < steps; ++i) {
+    ranges_m.push_back(least_m * std::pow(most_m / least_m, i / double{steps}));
+  }
+  ranges_m.push_back(most_m);
+  return ranges_m;
+}
+
 Surroundings limits_of(const Observation& seen) {
   constexpr double usual_m_s = 10.0;
   constexpr double usual_m_s2 = 6.0;

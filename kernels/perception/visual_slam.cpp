@@ -11,6 +11,7 @@
 
 #include "visual/dead_reckoning.h"
 #include "visual/slam.h"
+#include <cmath>
 
 namespace {
 
@@ -20,6 +21,22 @@ using flyball::VisualFix;
 
 class VisualSlam final : public flyball::SeeingLocalizer {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    const flyball::FeatureSettings usual;
+    return {{"pixels_per_feature", static_cast<double>(usual.pixels_per_feature), 16.0, 4096.0,
+             "one point in so many pixels at most"},
+            {"weak_corner", static_cast<double>(usual.weak_corner), 1.0, 100.0,
+             "grey levels of the least contrast of a corner; ORB-SLAM2: 7"},
+            {"strong_corner", static_cast<double>(usual.strong_corner), 1.0, 100.0,
+             "a corner of so much contrast hides weaker ones near it; ORB-SLAM2: 20"}};
+  }
+  void configure(const flyball::Parameters& chosen) override {
+    const auto whole = [&chosen](const char* name) {
+      return static_cast<int>(std::lround(chosen.number(name)));
+    };
+    slam_ = std::make_unique<flyball::Slam>(flyball::SlamSettings{
+        {whole("pixels_per_feature"), whole("weak_corner"), whole("strong_corner")}});
+  }
   void start(const flyball::GeodeticOrigin& /*origin*/) override { place(Pose::Identity()); }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, true, false}; }
 
@@ -32,10 +49,10 @@ class VisualSlam final : public flyball::SeeingLocalizer {
 
   flyball::Result<VisualFix> see(const flyball::VisualFrame& frame, flyball::Work& work) override {
     if (!has_begun_) {
-      slam_.start(last_.X_WB * frame.X_BC);
+      slam_->start(last_.X_WB * frame.X_BC);
       has_begun_ = true;
     }
-    const auto outcome = slam_.track(frame, work);
+    const auto outcome = slam_->track(frame, work);
     if (!outcome) {
       return outcome.error();
     }
@@ -44,7 +61,7 @@ class VisualSlam final : public flyball::SeeingLocalizer {
     fix.tracked = outcome->tracked;
     fix.matches = outcome->matches;
     fix.inliers = outcome->inliers;
-    fix.keyframes = static_cast<int>(slam_.map().keyframes().size());
+    fix.keyframes = static_cast<int>(slam_->map().keyframes().size());
     fix.loops_closed += outcome->loop_closed ? 1 : 0;
     if (outcome->tracked) {
       fix.X_WB = outcome->X_WC * frame.X_BC.inverse();
@@ -69,7 +86,7 @@ class VisualSlam final : public flyball::SeeingLocalizer {
     return 0.5 * (last_.v_WB + newest);
   }
 
-  flyball::Slam slam_{flyball::SlamSettings{}};
+  std::unique_ptr<flyball::Slam> slam_{std::make_unique<flyball::Slam>(flyball::SlamSettings{})};
   VisualFix last_{};
   bool has_begun_{};
 };

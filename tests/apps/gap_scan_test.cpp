@@ -72,5 +72,51 @@ TEST(GapScan, ends_at_the_goal) {
   EXPECT_EQ(gaps_ahead(map, here_W, here_W, within_bounds()).narrowest_m, 24.0);
 }
 
+PathWidth width_on(const kit::GridMap& map, const Path& path, double horizon_m = 8.0) {
+  return narrowest_on(map, {&path, 0.0, horizon_m}, 0.3);
+}
+
+TEST(PathWidth, has_no_narrow_place_in_the_open) {
+  const Path path = Path::polyline({here_W, Vec3{10.0, 0.0, 1.5}});
+  const PathWidth narrowest = width_on(open_space(), path);
+  EXPECT_EQ(narrowest.width_m, 6.0);
+  EXPECT_EQ(narrowest.at_m, 8.0);
+}
+
+TEST(PathWidth, is_that_of_the_gap_on_the_path_whatever_is_open_beside_it) {
+  kit::GridMap map = open_space();
+  map.fill({{5.0, -2.0, 0.0}, {5.2, -0.6, 3.0}}, CellState::occupied);
+  map.fill({{5.0, 0.6, 0.0}, {5.2, 2.0, 3.0}}, CellState::occupied);
+  const Path path = Path::polyline({here_W, Vec3{10.0, 0.0, 1.5}});
+  const PathWidth narrowest = width_on(map, path);
+  EXPECT_NEAR(narrowest.width_m, 1.2, 0.15);  // The line across it may miss the wall by .1 m.
+  EXPECT_NEAR(narrowest.at_m, 5.0, 0.5);
+  EXPECT_EQ(gaps_ahead(map, here_W, goal_W, within_bounds()).narrowest_m > 6.0, true);
+}
+
+TEST(PathWidth, counts_the_nearer_side_only) {
+  kit::GridMap map = open_space();
+  map.fill({{3.0, 0.8, 0.0}, {6.0, 3.0, 3.0}}, CellState::occupied);
+  const Path path = Path::polyline({here_W, Vec3{10.0, 0.0, 1.5}});
+  EXPECT_NEAR(width_on(map, path).width_m, 1.6, 0.1);
+}
+
+TEST(PathWidth, looks_no_farther_than_the_path_or_its_span_reaches) {
+  kit::GridMap map = open_space();
+  map.fill({{5.0, 0.5, 0.0}, {6.0, 3.0, 3.0}}, CellState::occupied);
+  const Path path = Path::polyline({here_W, Vec3{10.0, 0.0, 1.5}});
+  EXPECT_EQ(width_on(map, path, 4.0).width_m, 6.0);
+  const Path ends = Path::polyline({here_W, Vec3{4.0, 0.0, 1.5}});
+  EXPECT_EQ(width_on(map, ends).width_m, 6.0);
+  EXPECT_EQ(width_on(map, ends).at_m, 4.0);
+}
+
+TEST(PathWidth, takes_a_climb_for_no_gap) {
+  kit::GridMap map = open_space();
+  map.fill({{0.4, -3.0, 0.0}, {0.6, 3.0, 3.0}}, CellState::occupied);
+  const Path path = Path::polyline({Vec3{0.0, 0.0, 0.5}, Vec3{0.0, 0.0, 2.5}});
+  EXPECT_EQ(width_on(map, path).width_m, 6.0);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "navigator.h"
 
-#include "mission_rig.h"
+#include "navigator_trip.h"
 
 #include <gtest/gtest.h>
 
@@ -9,52 +9,11 @@ namespace flyball {
 namespace {
 
 using namespace std::chrono_literals;
+using kit::along;
+using kit::detour;
 using kit::GridMap;
-
-Trajectory straight(const Vec3& from, const Vec3& to) {
-  PolynomialPiece piece;
-  piece.duration_s = (to - from).norm();
-  piece.c.col(0) = from;
-  piece.c.col(1) = (to - from) / piece.duration_s;
-  return {{piece}};
-}
-
-/// From corner to corner.
-Trajectory along(const std::vector<Vec3>& corners) {
-  Trajectory whole;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    whole.pieces.push_back(straight(corners[i], corners[i + 1]).pieces.front());
-  }
-  return whole;
-}
-
-/// Goes past the end and comes back, so that the way is longer by `more_m`.
-Trajectory detour(const Vec3& from, const Vec3& to, double more_m) {
-  const Vec3 past_W = to + 0.5 * more_m * (to - from).normalized();
-  return more_m > 0.0 ? along({from, past_W, to}) : straight(from, to);
-}
-
-struct Trip {
-  Trip() : map{kit::corridor(60.0)}, rig{map}, navigator{*rig.context} {
-    navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
-  }
-  void tick(int n) {
-    for (int i = 0; i < n; ++i) {
-      now += 20ms;
-      where.X_WB.translation() = navigator.follower().position_W();
-      if (i % 5 == 0) {
-        navigator.map_published(now, {++revision, now - 100ms, now, 0.15}, 100ms);
-      }
-      (void)navigator.tick(now, 20ms, where);
-    }
-  }
-  GridMap map;
-  kit::MissionRig rig;
-  Navigator navigator;
-  PoseEstimate where{};
-  MissionTime now{1s};
-  std::uint64_t revision{};
-};
+using kit::straight;
+using kit::Trip;
 
 TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
   Trip trip;
@@ -149,8 +108,10 @@ void replan(Trip& trip, double detour_m) {
                               {query->id, detour(query->start_W, query->goal_W, detour_m), ""});
 }
 
+/// In rooms, where a look around costs no more time than a few metres.
 struct LongerTrip : Trip {
   LongerTrip() {
+    EXPECT_TRUE(rig.context->knobs.set("mission.max_speed_m_s", 1.0));
     navigator.set_goal(now, Vec3{20, 0, 1.5});
     const auto first = navigator.next_query(now);
     navigator.path_planned(now, {first->id, straight(first->start_W, first->goal_W), ""});
@@ -168,6 +129,20 @@ TEST(Navigator, flies_a_way_at_once_that_is_a_little_longer) {
   trip.tick(100);
   const auto number = trip.navigator.path_number();
   replan(trip, 4.0);
+  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+}
+
+TEST(Navigator, flies_a_longer_way_at_once_where_that_is_quicker_than_a_look_around) {
+  Trip trip;
+  ASSERT_TRUE(trip.rig.context->knobs.set("mission.max_speed_m_s", 4.0));
+  trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+  replan(trip, 0.0);
+  trip.tick(50);
+  const auto number = trip.navigator.path_number();
+  replan(trip, 18.0);  // Below 5 s at 4 m/s.
+  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+  trip.tick(50);
+  replan(trip, 60.0);
   EXPECT_EQ(trip.navigator.path_number(), number + 1);
 }
 

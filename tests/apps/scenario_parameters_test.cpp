@@ -75,6 +75,19 @@ TEST(ScenarioParameters, every_wrong_one_is_reported_at_once) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5) << text;
 }
 
+TEST(ScenarioParameters, a_localizer_has_its_own_too) {
+  const std::vector<std::string> slam{"kernels.localizer=visual_slam",
+                                      "kernels.localizer_parameters.weak_corner=7"};
+  const auto result = loaded("", slam);
+  ASSERT_TRUE(std::holds_alternative<LoadedScenario>(result));
+  const KernelSettings& kernels = std::get<LoadedScenario>(result).scenario.kernels;
+  EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("weak_corner")), 7.0);
+  EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("strong_corner")), 5.0);
+  EXPECT_TRUE(make_localizer(kernels));
+  EXPECT_EQ(said("", {slam[0], "kernels.localizer_parameters.weak_corner=0"}),
+            "localizer \"visual_slam\", weak_corner: 0 is not within 1 to 100\n");
+}
+
 TEST(ScenarioParameters, of_an_unknown_mapper_the_name_is_the_one_error) {
   const std::string text = said("", {"kernels.mapper=crayon", "kernels.mapper_parameters.x=1"});
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;

@@ -42,18 +42,32 @@ TEST(View, has_grey_and_depth_through_one_lens) {
   EXPECT_GT(step(30), 4 * std::max(1, step(50))) << "sky is even";
 }
 
-TEST(View, turns_colour_into_grey_as_the_eye_weighs_it) {
+std::vector<std::uint8_t> grey_of(std::vector<std::uint8_t> rgb) {
   View view;
   DepthImage depth;
   depth.camera = {3, 1, 1.0, 1.0, 0.0};
   depth.depth_m = {1.0F, 1.0F, 1.0F};
   ColourImage colour;
   colour.camera = depth.camera;
-  colour.rgb = {255, 0, 0, 0, 255, 0, 255, 255, 255};
+  colour.rgb = std::move(rgb);
   view.depth.image = Deferred<DepthImage>{[depth] { return depth; }};
   view.colour.image = DeferredImage::of(colour);
-  const VisualFrame frame = visual_frame(view);
-  EXPECT_EQ(frame.grey, (std::vector<std::uint8_t>{76, 150, 255}));
+  return visual_frame(view).grey;
+}
+
+TEST(View, turns_colour_into_grey_as_the_eye_weighs_it) {
+  EXPECT_EQ(grey_of({255, 0, 0, 0, 255, 0, 255, 255, 255}),
+            (std::vector<std::uint8_t>{76, 150, 255}));
+}
+
+TEST(View, opens_the_exposure_in_the_shade_and_no_farther_than_four_times) {
+  EXPECT_EQ(grey_of({40, 40, 40, 60, 60, 60, 77, 77, 77}),
+            (std::vector<std::uint8_t>{80, 120, 154}))
+      << "a mean of 59 becomes 118";
+  EXPECT_EQ(grey_of({1, 1, 1, 2, 2, 2, 3, 3, 3}), (std::vector<std::uint8_t>{4, 8, 12}));
+  EXPECT_EQ(grey_of({0, 0, 0, 0, 0, 0, 240, 240, 240}), (std::vector<std::uint8_t>{0, 0, 255}))
+      << "what is too bright then stays white";
+  EXPECT_EQ(grey_of({0, 0, 0, 0, 0, 0, 0, 0, 0}), (std::vector<std::uint8_t>{0, 0, 0}));
 }
 
 }  // namespace

@@ -1,101 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What single operations of the kernels cost on this host: the c_i of the platform files. Prints
-// nanoseconds, for stock OctoMap by non-negative least squares of relative errors.
+// nanoseconds, for stock OctoMap and SLAM by non-negative least squares of relative errors.
 //
 //     ninja kernel_costs && bin/kernel_costs
 
 #include "flyball/apps/files.h"
 #include "flyball/apps/mission.h"
+#include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/platform_file.h"
 
+#include "cost_fit.h"
 #include "fit_scenes.h"
+#include "fit_sight.h"
 #include "mission_setup.h"
 #include "octomap_tree.h"
 #include "perception_nodes.h"
 #include "scenario_parameters.h"
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <map>
 
 namespace {
 
 using namespace flyball;
 
-/// CPU time: other programs on the host do not count.
-template <class Run>
-double seconds(Run&& run) {
-  const auto now = [] {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  const double start = now();
-  run();
-  return now() - start;
-}
-
-struct Sample {
-  std::vector<double> counts;  ///< In the order of the fitted names.
-  double host_s;
-};
-
-struct Fit {
-  std::vector<double> seconds_per;
-  double error;  ///< Root mean square, relative.
-};
-
-/// Least squares of relative errors over the best subset of non-negative coefficients.
-Fit non_negative_fit(const std::vector<Sample>& samples) {
-  const auto rows = static_cast<Eigen::Index>(samples.size());
-  const auto columns = static_cast<Eigen::Index>(samples.front().counts.size());
-  Eigen::VectorXd best;
-  double best_error = 1e300;
-  for (unsigned subset = 1; subset < 1U << columns; ++subset) {
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, columns);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const Sample& sample = samples[static_cast<std::size_t>(i)];
-      for (Eigen::Index k = 0; k < columns; ++k) {
-        if ((subset >> k & 1U) != 0) {
-          a(i, k) = sample.counts[static_cast<std::size_t>(k)] / sample.host_s;
-        }
-      }
-    }
-    const Eigen::VectorXd one = Eigen::VectorXd::Ones(rows);
-    const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(one);
-    const double error = (a * c - one).squaredNorm();
-    if (c.minCoeff() >= 0.0 && error < best_error) {
-      best = c;
-      best_error = error;
-    }
-  }
-  return {{best.begin(), best.end()}, std::sqrt(best_error / static_cast<double>(rows))};
-}
-
-void print_fit(const std::string& kernel,
-               const std::vector<std::string>& names,
-               const std::vector<Sample>& samples,
-               double factor = 1.0) {
-  const Fit fit = non_negative_fit(samples);
-  std::printf("%s: root mean square error %.1f %% of %zu samples\n%s:", kernel.c_str(),
-              100.0 * fit.error, samples.size(), kernel.c_str());
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    std::printf(" %s %.3g", names[k].c_str(), 1e9 * factor * fit.seconds_per[k]);
-  }
-  std::printf(" ns\n");
-}
-
-struct View {
+struct Look {
   PointCloud cloud;
   Pose X_WC;
 };
 
-octomap::Pointcloud to_world(const View& view) {
+octomap::Pointcloud to_world(const Look& view) {
   octomap::Pointcloud points;
   for (const auto* part : {&view.cloud.hits_C, &view.cloud.clear_C}) {
     for (const Eigen::Vector3f& p_C : *part) {
@@ -118,11 +57,11 @@ PointCloud every_fourth(const PointCloud& cloud) {
   return fewer;
 }
 
-std::vector<View> look_around(const Scenario& scenario, const World& world) {
+std::vector<Look> look_around(const Scenario& scenario, const World& world) {
   const DepthCamera camera{world, scenario.camera, scenario.seed};
   const auto builder = all_plugins().make<PointCloudBuilder>(scenario.kernels.point_cloud);
   const Clearance clearance{world};
-  std::vector<View> views;
+  std::vector<Look> views;
   double host_s = 0.0;
   double pixels = 0.0;
   // 1.6 m are MAVBench's 2.5 m/s for the .63 s that a frame takes: most cells are known already.
@@ -134,7 +73,7 @@ std::vector<View> look_around(const Scenario& scenario, const World& world) {
     }
     Pose X_WB = Pose::Identity();
     X_WB.translation() = p_W;
-    View view{{}, camera_pose(X_WB)};
+    Look view{{}, camera_pose(X_WB)};
     const DepthFrame frame = camera.frame(view.X_WC, MissionTime{}, views.size());
     (void)frame.image.value();  // The sensor's time is not the kernel's.
     Work work;
@@ -147,7 +86,7 @@ std::vector<View> look_around(const Scenario& scenario, const World& world) {
   return views;
 }
 
-void measure_octomap(const std::vector<View>& views, double range_m) {
+void measure_octomap(const std::vector<Look>& views, double range_m) {
   std::vector<Sample> samples;
   for (const double resolution_m : {0.15, 0.2, 0.3, 0.5, 0.8, 0.98}) {
     const auto counter = all_plugins().make<Mapper>("octomap");
@@ -158,9 +97,9 @@ void measure_octomap(const std::vector<View>& views, double range_m) {
       tree->setClampingThresMax(0.97);
     }
     double total_s = 0.0;
-    for (const View& view : views) {
+    for (const Look& view : views) {
       for (const bool is_full : {true, false}) {
-        const View seen{is_full ? view.cloud : every_fourth(view.cloud), view.X_WC};
+        const Look seen{is_full ? view.cloud : every_fourth(view.cloud), view.X_WC};
         const auto work = counter->prepare(seen.cloud, seen.X_WC, {resolution_m, range_m});
         const octomap::Pointcloud points = to_world(seen);
         const Eigen::Vector3f eye = seen.X_WC.translation().cast<float>();
@@ -186,7 +125,7 @@ struct StockTime {
   double host_s{};
   double priced_s{};
 
-  void insert(const View& view, double range_m, Mapper& counter, octomap::OcTree& tree) {
+  void insert(const Look& view, double range_m, Mapper& counter, octomap::OcTree& tree) {
     const auto work =
         counter.prepare(view.cloud, view.X_WC, {tree.getResolution(), range_m}).value();
     for (const WorkItem& item : work.items()) {
@@ -203,7 +142,7 @@ struct StockTime {
 /// The brick map, frame by frame in turns with stock OctoMap, so that both see the same host. The
 /// prices are in seconds of that host on which stock takes as long as the platform file says: then
 /// the file's scale for stock serves both.
-void measure_flyball(const std::vector<View>& views, double range_m, const PlatformModel& model) {
+void measure_flyball(const std::vector<Look>& views, double range_m, const PlatformModel& model) {
   const std::vector<std::string> names{"frame", "rays", "traversals", "blocks", "updates"};
   StockTime stock;
   stock.prices = model.kernels.at("octomap").seconds_per;
@@ -217,7 +156,7 @@ void measure_flyball(const std::vector<View>& views, double range_m, const Platf
       chosen.mapper_parameters["front_end"] = std::string{front_end};
       const auto mapper = std::move(make_mapper(chosen).value());
       double total_s = 0.0;
-      for (const View& view : views) {
+      for (const Look& view : views) {
         Sample sample;
         Work work;
         sample.host_s = seconds([&] {
@@ -243,9 +182,9 @@ void measure_flyball(const std::vector<View>& views, double range_m, const Platf
 }
 
 /// The body's box by stock iterators, as a check by poses does it.
-void measure_body_query(const std::vector<View>& views, double range_m) {
+void measure_body_query(const std::vector<Look>& views, double range_m) {
   octomap::OcTree tree{0.15};
-  for (const View& view : views) {
+  for (const Look& view : views) {
     const Eigen::Vector3f eye = view.X_WC.translation().cast<float>();
     tree.insertPointCloud(to_world(view), {eye.x(), eye.y(), eye.z()}, range_m);
   }
@@ -264,6 +203,47 @@ void measure_body_query(const std::vector<View>& views, double range_m) {
               1e9 * host_s / poses, occupied, poses);
 }
 
+/// What visual SLAM took for frames whose work is known.
+void see_and_time(const std::vector<VisualFrame>& frames,
+                  const Pose& X_WB,
+                  double weak_corner,
+                  const std::vector<std::string>& names,
+                  std::vector<Sample>& samples) {
+  KernelSettings kernels;
+  kernels.localizer = "visual_slam";
+  kernels.localizer_parameters = {{"weak_corner", weak_corner}};
+  const auto localizer = std::move(make_localizer(kernels).value());
+  localizer->start({});
+  localizer->place(X_WB);
+  for (const VisualFrame& frame : frames) {
+    Work work;
+    Sample sample;
+    sample.host_s = seconds([&] { (void)localizer->see(frame, work); });
+    for (const std::string& name : names) {
+      sample.counts.push_back(work.count(name));
+    }
+    samples.push_back(std::move(sample));
+  }
+}
+
+/// Short flights over the open ground and in the rooms, with few and with many corners.
+void measure_slam(const Scenario& scenario, const World& world) {
+  const std::vector<std::string> names{"pixels", "features", "matches", "patches",
+                                       "ransac_iterations"};
+  std::vector<Sample> samples;
+  for (int i = 0; i < 20; ++i) {
+    const bool is_outdoors = i < 10;
+    Pose X_WB = Pose::Identity();
+    X_WB.translation() = is_outdoors ? Vec3{28.0 * i, 0.0, world.cruise_height_m}
+                                     : Vec3{304.5 + 9.0 * (i % 4), 10.2 * (i / 4 - 3), 1.2};
+    const auto frames = frames_of({X_WB, is_outdoors ? 4.0 : 1.0, 1.5}, scenario, world).value();
+    for (const double weak_corner : {5.0, 10.0, 20.0}) {
+      see_and_time(frames, X_WB, weak_corner, names, samples);
+    }
+  }
+  print_fit("visual_slam_frames", names, samples);
+}
+
 }  // namespace
 
 int main() {
@@ -273,10 +253,11 @@ int main() {
     std::printf("%s\n", setup.error().message.c_str());
     return 1;
   }
-  const std::vector<View> views = look_around(scenario, setup->world);
+  const std::vector<Look> views = look_around(scenario, setup->world);
   measure_octomap(views, scenario.map.range_m);
   const auto file = find_shipped("platforms", scenario.platform.name);
   measure_flyball(views, scenario.map.range_m, load_platform(file.value()).value());
   measure_body_query(views, scenario.map.range_m);
+  measure_slam(scenario, setup->world);
   return 0;
 }

@@ -199,12 +199,6 @@ void see_maps(EnergySearch& one, int n, double period_s, double latency_s, doubl
   }
 }
 
-EnergySearch search_with(const EnergySearchSettings& settings) {
-  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
-                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs());
-}
-
 TEST(EnergySearch, a_map_that_was_quick_is_in_time_however_seldom_it_is_looked_for) {
   EnergySearch one = search();
   see_maps(one, 100, 0.25, 0.01);
@@ -223,6 +217,12 @@ TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
   }
   EXPECT_EQ(one.promises().issued, before.issued + 1);
   EXPECT_EQ(one.promises().late, before.late + 1);
+}
+
+EnergySearch search_with(const EnergySearchSettings& settings) {
+  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs());
 }
 
 TEST(EnergySearch,

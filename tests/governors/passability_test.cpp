@@ -73,8 +73,10 @@ TEST(Passability, becomes_coarser_only_when_obstacles_are_some_cells_away) {
   Passability passability = four_levels();
   (void)passability.judge(seen(0.0, 0.0, 1.20));
   Observation beside_a_wall = seen(10.0, 24.0, 0.15);
-  beside_a_wall.nearest_obstacle_m = 2.7;
+  beside_a_wall.nearest_obstacle_m = 0.9;
   EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 0U);
+  beside_a_wall.nearest_obstacle_m = 2.7;
+  EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 2U);
   beside_a_wall.nearest_obstacle_m = 2.8;
   EXPECT_EQ(passability.judge(beside_a_wall).coarsest_level, 3U);
 }
@@ -108,6 +110,84 @@ TEST(Passability, stands_without_haste_where_the_mission_waits) {
   EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
   waiting.now += 60s;
   EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
+}
+
+/// Where obstacles stand, cells are no larger than half the body.
+Passability among_obstacles() {
+  PassabilitySettings settings;
+  settings.body_m = 0.7;
+  settings.patience = 3s;
+  settings.beside_m = 0.35;
+  settings.near_m = 8.0;
+  return {settings, {0.15, 0.30, 0.60, 1.20}};
+}
+
+TEST(Passability, keeps_large_cells_for_where_nothing_stands_around) {
+  Passability passability = among_obstacles();
+  Observation seen_it = seen(0.0, 24.0, 1.20);
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
+  seen_it.density_ahead = 0.02;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
+  seen_it.density_ahead = 0.0;
+  seen_it.obstacle_density = 0.02;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
+}
+
+TEST(Passability, wants_a_cell_of_room_on_each_side_of_the_body) {
+  Observation seen_it = seen(0.0, 0.7 + 2.0 * 0.30, 0.30);
+  seen_it.gap_distance_m = 5.0;
+  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 1U);
+  seen_it.narrowest_gap_m -= 0.01;
+  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 0U);
+  seen_it.narrowest_gap_m = 0.7 + 2.0 * 0.60;
+  seen_it.map_resolution_m = 1.20;  // Finer cells than the map's show no less.
+  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 2U);
+}
+
+TEST(Passability, looks_at_a_far_gap_with_the_next_cells_and_at_a_near_one_with_the_finest) {
+  Passability passability = among_obstacles();
+  Observation seen_it = seen(0.0, 0.3, 0.60);
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
+  seen_it.gap_distance_m = 7.0;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+}
+
+TEST(Passability, needs_finest_cells_until_it_is_past_the_gap_though_they_do_not_show_it_yet) {
+  Passability passability = among_obstacles();
+  Observation seen_it = seen(0.0, 0.3, 0.30);
+  seen_it.gap_distance_m = 6.0;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+  seen_it = seen(1.0, 24.0, 0.15);  // At 5 m/s; nothing of the wall is in the new map.
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+  seen_it.now += 700ms;  // 8.5 m on.
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+  seen_it.now += 200ms;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
+}
+
+TEST(Passability, does_not_turn_to_finest_cells_at_once_for_what_they_do_not_reach) {
+  Passability passability = among_obstacles();
+  Observation failed = seen(0.0, 0.3, 0.30);
+  failed.nearest_obstacle_m = 11.0;
+  failed.planner_failures = 1;
+  EXPECT_EQ(passability.judge(failed).coarsest_level, 1U);
+  failed.planner_failures = 2;
+  EXPECT_EQ(passability.judge(failed).coarsest_level, 0U);
+  failed.nearest_obstacle_m = 4.0;
+  failed.planner_failures = 1;
+  EXPECT_EQ(among_obstacles().judge(failed).coarsest_level, 0U);
+}
+
+TEST(Passability, among_obstacles_too_looks_farther_before_it_would_stand_for_ever) {
+  Passability passability = among_obstacles();
+  Observation standing = seen(0.0, 24.0, 0.30);
+  standing.speed_m_s = 0.0;
+  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
+  standing.now += 11s;
+  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
+  standing.now += 1s;
+  EXPECT_EQ(passability.judge(standing).look_m, 15.0);
+  EXPECT_EQ(passability.judge(standing).coarsest_level, 0U);
 }
 
 TEST(Passability, takes_what_is_no_number_for_a_narrow_gap) {

@@ -25,6 +25,16 @@ TEST(SearchSpace, a_single_level_has_the_fine_latency) {
   EXPECT_DOUBLE_EQ(levels[0].latency_s, 0.8);
 }
 
+TEST(SearchSpace, ranges_are_equal_steps_in_proportion) {
+  const auto ranges_m = ranges_between(7.0, 25.0);
+  ASSERT_EQ(ranges_m.size(), 5U);
+  EXPECT_EQ(ranges_m.front(), 7.0);
+  EXPECT_EQ(ranges_m.back(), 25.0);
+  for (std::size_t i = 2; i < ranges_m.size(); ++i) {
+    EXPECT_NEAR(ranges_m[i] / ranges_m[i - 1], ranges_m[1] / ranges_m[0], 1e-12);
+  }
+}
+
 TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
   Observation seen;
   seen.speed_limit_m_s = 4.0;

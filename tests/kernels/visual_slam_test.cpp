@@ -83,6 +83,35 @@ TEST(VisualSlam, says_when_it_is_lost_and_finds_a_place_again_that_it_knows) {
   EXPECT_LT(miss_m(*back, X_WC), 0.08);
 }
 
+double features_with(const std::map<std::string, ParameterValue>& given) {
+  Registry registry;
+  register_kernels(registry);
+  const auto localizer = registry.make<Localizer>("visual_slam");
+  const auto chosen = Parameters::resolve("visual_slam", localizer->parameters(), given);
+  localizer->configure(std::get<Parameters>(chosen));
+  localizer->start({});
+  localizer->place(kit::circle_pose(0.0));
+  Work work;
+  (void)localizer->see(Clock{}.look(kit::circle_pose(0.0)), work).value();
+  return work.count("features");
+}
+
+TEST(VisualSlam, looks_for_as_many_corners_as_it_is_told) {
+  EXPECT_EQ(features_with({}), 224 * 168 / 96) << "the painted world has more than are wanted";
+  EXPECT_EQ(features_with({{"pixels_per_feature", 192.0}}), 224 * 168 / 192);
+}
+
+TEST(VisualSlam, strong_corners_hide_weak_ones_and_only_they_do) {
+  const ParameterValue many{16.0};
+  const double all = features_with({{"pixels_per_feature", many}});
+  const double mixed = features_with({{"pixels_per_feature", many}, {"strong_corner", 60.0}});
+  const double strong =
+      features_with({{"pixels_per_feature", many}, {"weak_corner", 60.0}, {"strong_corner", 60.0}});
+  EXPECT_LT(mixed, all);
+  EXPECT_GT(mixed, strong) << "parts of the image without a strong one show weak ones";
+  EXPECT_GT(strong, 15);
+}
+
 TEST(VisualSlam, gives_the_same_answer_twice) {
   const auto fly = [] {
     const auto localizer = make();

@@ -2,8 +2,10 @@
 #include "visual/feature.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
@@ -15,12 +17,35 @@ namespace {
 // detections of one corner lie .5 to .8 px apart.
 constexpr double corner_sigma_px = 0.8;
 constexpr int octaves = 8;
-constexpr int fast_threshold = 10;  // Of 255 grey levels: few corners are better than none.
-constexpr int cell_px = 32;         // Side of the parts over which the points are spread.
-constexpr int surplus = 3;          // So many more points are looked for than are kept.
+constexpr int cell_px = 32;  // Side of the parts over which the points are spread.
+constexpr int surplus = 3;   // So many more points are looked for than are kept.
 
 std::size_t pixel_count(const CameraModel& camera) {
   return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+}
+
+/// Weak corners are for cells that have no strong one, as in ORB-SLAM2 (its ini- and minThFAST).
+std::vector<cv::KeyPoint> strong_ones(const std::vector<cv::KeyPoint>& found, int strong_corner) {
+  constexpr int cell_of_octave_px = 30;
+  const auto strong_response = static_cast<float>(strong_corner);
+  const auto cell_of = [](const cv::KeyPoint& point) {
+    const double scale = std::pow(octave_scale, point.octave) * cell_of_octave_px;
+    return std::array{point.octave, static_cast<int>(point.pt.x / scale),
+                      static_cast<int>(point.pt.y / scale)};
+  };
+  std::set<std::array<int, 3>> strong;
+  for (const cv::KeyPoint& point : found) {
+    if (point.response >= strong_response) {
+      strong.insert(cell_of(point));
+    }
+  }
+  std::vector<cv::KeyPoint> kept;
+  for (const cv::KeyPoint& point : found) {
+    if (point.response >= strong_response || strong.count(cell_of(point)) == 0) {
+      kept.push_back(point);
+    }
+  }
+  return kept;
 }
 
 /// The strongest of each cell, first one of each, then a second one, until there are `count`.
@@ -169,7 +194,7 @@ Status check_frame(const VisualFrame& frame) {
 }
 
 struct FeatureExtractor::Detector {
-  int count;
+  FeatureSettings settings;
   cv::Ptr<cv::ORB> orb;
 };
 
@@ -177,9 +202,8 @@ FeatureExtractor::FeatureExtractor(const FeatureSettings& settings) {
   cv::setNumThreads(1);
   constexpr int border_px = 19;  // ORB's patch and its rotation need so much.
   detector_ = std::make_unique<Detector>(
-      Detector{settings.count,
-               cv::ORB::create(surplus * settings.count, static_cast<float>(octave_scale), octaves,
-                               border_px, 0, 2, cv::ORB::HARRIS_SCORE, 31, fast_threshold)});
+      Detector{settings, cv::ORB::create(0, static_cast<float>(octave_scale), octaves, border_px, 0,
+                                         2, cv::ORB::FAST_SCORE, 31, settings.weak_corner)});
 }
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -192,9 +216,13 @@ Result<std::vector<Feature>> FeatureExtractor::extract(const VisualFrame& frame,
   try {
     const cv::Mat image(frame.camera.height_px, frame.camera.width_px, CV_8UC1,
                         const_cast<std::uint8_t*>(frame.grey.data()));  // NOLINT: only read
+    const int count =
+        frame.camera.width_px * frame.camera.height_px / detector_->settings.pixels_per_feature;
     std::vector<cv::KeyPoint> points;
+    detector_->orb->setMaxFeatures(surplus * count);
     detector_->orb->detect(image, points);
-    points = spread(std::move(points), frame.camera.width_px / cell_px + 1, detector_->count);
+    points = strong_ones(points, detector_->settings.strong_corner);
+    points = spread(std::move(points), frame.camera.width_px / cell_px + 1, count);
     cv::Mat rows;
     detector_->orb->compute(image, points, rows);
     place_exactly(points, frame.camera);

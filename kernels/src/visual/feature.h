@@ -67,7 +67,13 @@ struct SurfaceDepth {
 void measure_depth(Feature& feature, const VisualFrame& frame);
 
 struct FeatureSettings {
-  int count{800};  ///< At most, spread over the image.
+  /// One in so many at most, spread over the image: 800 in 320 x 240. ORB-SLAM2 takes one in 307;
+  /// small images need more of theirs.
+  int pixels_per_feature{96};
+  /// FAST's contrast, of 255 grey levels. ORB-SLAM2 has 7; plaster shows no such corners.
+  int weak_corner{5};
+  /// Where a corner has so much, its part of the image shows none that is weaker. ORB-SLAM2: 20.
+  int strong_corner{5};
 };
 
 /// ORB: Rublee, Rabaud, Konolige, Bradski 2011, doi:10.1109/ICCV.2011.6126544.

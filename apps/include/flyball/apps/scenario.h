@@ -57,6 +57,7 @@ struct KernelSettings {
   std::string smoother{"minimum_snap"};
   std::string path_tracker{"feedforward_pd"};
   std::string localizer{"truth"};
+  std::map<std::string, ParameterValue> localizer_parameters{};  ///< As the localizer declares.
   std::string coverage{"lawnmower"};
   std::string explorer{"nbvp"};
   std::string detector{"hog"};

@@ -34,6 +34,9 @@ struct EnergySearchSettings {
   double frame_s{0.05};      ///< Between two frames of the camera.
   double switching_j{60.0};  ///< Of a change of resolution: another map starts with one frame.
   double horizon_m{10.0};    ///< Over which a switch must pay.
+  /// Way per obstacle that is passed; 0: none is.
+  double spacing_m{};
+  double half_width_m{5.0};  ///< Of such an obstacle: half a room, or RoboRun's blocks and spaces.
   QuantileTracker::Settings bound{0.05, 0.05, 0.1};
   ClockScaling clock{0.9, 0.05};
   double learn_s{};  ///< Mission time after which latency is not learned any more; 0: it always is.
@@ -55,7 +58,10 @@ struct Surroundings {
   double least_range_m{};      ///< Of the map; the longest that a level allows counts as enough.
   double most_range_m{1e9};    ///< Of the map; the shortest range is always allowed.
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
-  double sight_m{};        ///< Beyond this the world, not the range, ends what is known to be free.
+  double sight_m{};  ///< Beyond this the world, not the range, ends what is known to be free.
+  /// Nothing that responds later if anything is sooner, as it was learned or as it was expected
+  /// before: rooms end most rays, and the open behind the next door does not.
+  double most_response_s{1e9};
   double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
   double finest_m{};       ///< No smaller one: somebody else chooses the cells, or 0.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
@@ -72,7 +78,12 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least
 ///
-///     J = (P_rotor(v) + P_computer) / v + switching / horizon
+///     J = (P_rotor(v) + P_computer) / v * way + switching / horizon
+///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range, sight) - v delta
+///
+/// An obstacle of half width w that shows s ahead makes the way longer by the second term, and
+/// by a cell that its border fills: so cells have a price and sight a worth where the mission, not
+/// latency, limits the speed.
 ///
 /// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that take
 /// less than a thousandth more than the best, the one that responds soonest. Latency and rotor
@@ -118,6 +129,7 @@ class EnergySearch {
   void note_clock(const Observation& seen);
   [[nodiscard]] Hertz mean_clock() const;
   void learn_latency(const Observation& seen);
+  [[nodiscard]] double way(const MapSetting& setting, double shows_m) const;
   [[nodiscard]] bool is_allowed(const MapSetting& candidate,
                                 const Surroundings& around,
                                 double least_range_m) const;
@@ -131,6 +143,7 @@ class EnergySearch {
   RotorPower rotors_{};
   ComputerPower computer_{};
   std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
+  std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.
   MapSetting in_force_{};
   MissionTime in_force_since_{};
   std::uint64_t revision_{};

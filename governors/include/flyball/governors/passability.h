@@ -17,6 +17,10 @@ struct PassabilitySettings {
   double body_m{0.71};  ///< Widest part of the vehicle with its tube at a crawl, both sides.
   Duration least{};     ///< A finer level that was needed stays at least this long.
   Duration patience{};  ///< Standing in cruise for so long, there is something that is not seen.
+  /// Largest cells where obstacles stand within some metres of vehicle or way; 0: no such limit.
+  double beside_m{};
+  /// Farther off than this a shut gap is not looked at in finest cells yet; 0: as soon as it shows.
+  double near_m{};
 };
 
 /// Passability is local: the coarsest level whose cells leave the narrowest gap ahead open. An
@@ -25,7 +29,12 @@ struct PassabilitySettings {
 /// that is shut at q may be open in finer cells, and only they can tell, so they are asked for as
 /// soon as it is in sight: before it is reached, and before a plan fails for it. A plan that failed
 /// and a vehicle that stands ask for them too; a vehicle that still stands asks to see farther, so
-/// it never stands for ever before a gap that it could pass. Nothing allocates after construction.
+/// it never stands for ever before a gap that it could pass.
+///
+/// What needed finer cells needs them until the vehicle is past it: finer cells show less far, and
+/// a wall that they do not show yet looks like an open way. A cell beside an obstacle is known to
+/// be free only when all of it was seen, so among obstacles large cells end what is known to be
+/// free sooner than the obstacles do (`beside_m`). Nothing allocates after construction.
 class Passability {
  public:
   struct Verdict {
@@ -39,14 +48,23 @@ class Passability {
   [[nodiscard]] Verdict judge(const Observation& seen);
 
  private:
+  enum class Standing { no, stuck, for_good };
+  [[nodiscard]] double least_m(std::size_t level) const;
   [[nodiscard]] std::size_t open_level(const Observation& seen) const;
-  [[nodiscard]] bool is_clear_of_obstacles(const Observation& seen, std::size_t level) const;
-  [[nodiscard]] Duration standing(const Observation& seen);
+  [[nodiscard]] std::size_t clear_level(const Observation& seen, std::size_t open) const;
+  void need_until_past(const Observation& seen, Standing standing);
+  [[nodiscard]] std::size_t needed_level(const Observation& seen, Standing standing) const;
+  [[nodiscard]] bool is_far_off(const Observation& seen) const;
+  void count_way(const Observation& seen);
+  [[nodiscard]] Standing standing(const Observation& seen);
 
   PassabilitySettings settings_;
   std::vector<double> levels_m_;
   std::size_t level_;
-  MissionTime needed_at_{};  ///< The last time that no coarser level would have done.
+  MissionTime needed_at_{};   ///< The last time that no coarser level would have done.
+  std::size_t beside_level_;  ///< The coarsest one that `beside_m` allows.
+  double needed_on_m_{};      ///< The finest level, for so far from here.
+  std::optional<MissionTime> last_judged_{};
   std::optional<MissionTime> standing_since_{};
 };
 

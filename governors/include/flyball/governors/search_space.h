@@ -18,6 +18,9 @@ namespace flyball {
                                                       double fine_s,
                                                       double coarse_s);
 
+/// Five ranges, equal steps in proportion, as latency has it. @pre 0 < `least_m` < `most_m`.
+[[nodiscard]] std::vector<double> ranges_between(double least_m, double most_m);
+
 /// Limits of speed and braking; usual ones where an observation says nothing of sense. All else is
 /// as `Surroundings` has it, with a world that lets see to any distance.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);

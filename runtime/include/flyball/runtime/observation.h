@@ -42,8 +42,8 @@ struct Observation {
   Watts rotor_power{};
   double battery_percent{};
   double max_deceleration_m_s2{};  ///< What the mission's safe speed counts on; a in eq. 2.
-  double narrowest_gap_m{};  ///< Least width of the way on the next 24 m towards the goal: the
-                             ///< widest opening in the map there, at most 24.
+  double narrowest_gap_m{};  ///< Least width ahead: of the widest openings on 24 m towards the goal
+                             ///< and twice the room on the nearer side of the path's next 8 m.
   double gap_distance_m{};   ///< How far ahead that is.
   double mean_gap_m{};       ///< Mean of the widest openings over the same stretch.
 };

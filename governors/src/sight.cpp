@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/sight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+// Body and tube reach as far into the last free cells, and half a frame's way.
+constexpr double nearly_m = 1.5;
+constexpr double forgets = 0.25;  // Of looks 4 times a second: two thirds of the way in a second.
+constexpr double tries = 1.15;
+constexpr double nearest_m = 1.0;
+constexpr double farthest_m = 1e3;
+
+}  // namespace
+
+void Sight::note(const Observation& seen, double range_m) {
+  if (seen.map_revision != revision_) {
+    revision_ = seen.map_revision;
+    captured_ = seen.now - seen.latency;
+  }
+  const double free_m = seen.known_free_m + seen.speed_m_s * to_seconds(seen.now - captured_);
+  if (seen.phase != MissionPhase::cruise || !std::isfinite(free_m)) {
+    return;
+  }
+  if (free_m >= range_m - nearly_m) {
+    sight_m_ = std::max(free_m, tries * sight_m_);
+  } else {
+    sight_m_ = free_m >= sight_m_ ? free_m : sight_m_ + forgets * (free_m - sight_m_);
+  }
+  sight_m_ = std::clamp(sight_m_, nearest_m, farthest_m);
+}
+
+}  // namespace flyball

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/sight.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+Observation cruising(double t_s, double known_free_m) {
+  Observation seen;
+  seen.now = MissionTime{from_seconds(t_s)};
+  seen.phase = MissionPhase::cruise;
+  seen.known_free_m = known_free_m;
+  return seen;
+}
+
+TEST(Sight, is_what_the_world_shows_within_the_range) {
+  Sight sight{20.0};
+  for (int i = 0; i < 20; ++i) {
+    sight.note(cruising(0.25 * i, 6.0), 13.0);
+  }
+  EXPECT_NEAR(sight.distance_m(), 6.0, 0.1);
+}
+
+TEST(Sight, is_longer_at_once_and_shorter_after_about_a_second) {
+  Sight sight{5.0};
+  sight.note(cruising(0.0, 9.0), 13.0);
+  EXPECT_EQ(sight.distance_m(), 9.0);
+  sight.note(cruising(0.25, 5.0), 13.0);
+  EXPECT_GT(sight.distance_m(), 7.5);
+  for (int i = 2; i < 5; ++i) {
+    sight.note(cruising(0.25 * i, 5.0), 13.0);
+  }
+  EXPECT_LT(sight.distance_m(), 6.5);
+}
+
+TEST(Sight, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
+  Sight sight{10.0};
+  for (int i = 0; i < 12; ++i) {
+    Observation seen = cruising(10.0 + 0.25 * i, 8.0 - 4.0 * 0.25 * i);
+    seen.speed_m_s = 4.0;
+    seen.map_revision = 7;
+    seen.latency = from_seconds(0.5);
+    sight.note(seen, 25.0);
+  }
+  EXPECT_NEAR(sight.distance_m(), 10.0, 1e-6);  // 8 m and what was flown since the capture.
+}
+
+TEST(Sight, tries_longer_ranges_where_only_the_range_ended_it) {
+  Sight sight{7.0};
+  for (int i = 0; i < 8; ++i) {
+    sight.note(cruising(0.25 * i, 6.0), 7.0);
+  }
+  EXPECT_GT(sight.distance_m(), 2.0 * 7.0);
+  for (int i = 0; i < 200; ++i) {
+    sight.note(cruising(2.0 + 0.25 * i, 6.0), 7.0);
+  }
+  EXPECT_LE(sight.distance_m(), 1e3);
+}
+
+TEST(Sight, learns_nothing_before_cruise_and_from_what_is_no_number) {
+  Sight sight{7.0};
+  Observation seen = cruising(1.0, 2.0);
+  seen.phase = MissionPhase::take_off;
+  sight.note(seen, 13.0);
+  sight.note(cruising(2.0, std::numeric_limits<double>::quiet_NaN()), 13.0);
+  sight.note(cruising(3.0, std::numeric_limits<double>::infinity()), 13.0);
+  EXPECT_EQ(sight.distance_m(), 7.0);
+}
+
+}  // namespace
+}  // namespace flyball
