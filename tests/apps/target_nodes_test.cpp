@@ -194,6 +194,19 @@ TEST_F(TargetGraph, gives_up_what_was_not_seen_for_a_second) {
   EXPECT_EQ(real_time.size(), 1U + 20U) << "once begun, twenty times not seen";
 }
 
+TEST_F(TargetGraph, gives_up_what_the_detector_does_not_confirm) {
+  rig.context->kernels.detector = std::make_unique<ByteDetector>(0);
+  fly(3500ms);
+  // The first look ends at 370 ms, the sixth after it at 2290 ms.
+  ASSERT_FALSE(targets.empty());
+  MissionTime last{};
+  for (const Target& target : targets) {
+    last = target.box ? target.frame.captured : last;
+  }
+  EXPECT_GE(last, MissionTime{2200ms});
+  EXPECT_LE(last, MissionTime{2350ms});
+}
+
 TEST_F(TargetGraph, has_the_frames_between_detections_rendered_where_the_trackers_look) {
   fly(1500ms);
   // Detection begins in frames 0, 6, 12, 18 and 24: whole pictures. Of all others the corner, from
