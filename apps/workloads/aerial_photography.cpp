@@ -18,6 +18,7 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
+constexpr int trusted_misses = 3;      // Of the detector, in a row: a second.
 constexpr auto control_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 
 class AerialPhotography final : public Workload {
@@ -100,7 +101,9 @@ class AerialPhotography final : public Workload {
         follower_->sight(*sighting, *pose);
       }
     }
-    if (const auto target = job.take(target_.target)) {
+    const auto target = job.take(target_.target);
+    // A tracker that no detector confirms may hold the tree behind which the person walks on.
+    if (target && log_.missed_in_row < trusted_misses) {
       if (const auto pose = history_.at(target->frame.captured)) {
         follower_->see(*target, *pose);
       }
