@@ -11,7 +11,7 @@ namespace {
 constexpr double least_slope = 0.15;
 // Boxes have steps of 5 to 10 % between two sizes, and trackers keep the size that they began with
 // while somebody comes near. Own choice: measured with `hog` in the park, no person was left out.
-constexpr double largest_ratio = 1.7;
+constexpr double largest_ratio = 1.5;
 
 /// Rise over run of the line of sight to a pixel.
 double slope(const ColourFrame& frame, double x_px, double y_px) {

@@ -44,24 +44,38 @@ class Pid {
 
 /// Believes where the person is and goes (alpha-beta filter over what the boxes say), and stays at
 /// its distance from there. While nothing is seen the belief goes on straight ahead: people come
-/// out again behind a tree. When they do not, the vehicle goes to where they should be and turns
-/// round there, first to the side on which they went.
+/// out again behind a tree. When they do not, the vehicle goes near to where they should be, which
+/// opens the view behind a tree, and turns round there, first to the side on which they went.
 class TargetFollower {
  public:
   explicit TargetFollower(const FollowSettings& settings);
 
   /// Where the flight goes on from.
   void start(const PoseEstimate& pose);
-  /// A new measurement; one without a box, or older than the last, says nothing. `pose` is that of
-  /// its capture.
+  /// A tracker's measurement. It says nothing without a box, when it is older than the last, or
+  /// when it is not where the person can be: trackers hold on to trees, too. `pose` is that of its
+  /// capture.
   void see(const Target& target, const PoseEstimate& pose);
+  /// A detector's. Somebody where the person cannot be is a rumour; seen there twice, they count.
+  void sight(const Target& target, const PoseEstimate& pose);
   [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
 
  private:
-  void believe(const Vec3& measured_W, MissionTime at);
+  struct Rumour {
+    Vec3 place_W{Vec3::Zero()};
+    MissionTime at{};
+  };
+  /// Empty for what says nothing.
+  [[nodiscard]] std::optional<Rumour> measured(const Target& target,
+                                               const PoseEstimate& pose) const;
+  [[nodiscard]] bool can_be_at(const Rumour& measured) const;
+  [[nodiscard]] bool is_said_again(const Rumour& measured) const;
+  void begin_at(const Rumour& measured);
+  void believe(const Rumour& measured);
   [[nodiscard]] Vec3 follow(double age_s, double dt_s, Setpoint& setpoint);
-  [[nodiscard]] Vec3 look_around(Setpoint& setpoint);
+  [[nodiscard]] Vec3 search(MissionTime now, double dt_s, Setpoint& setpoint);
+  void face(const Vec3& place_W, double dt_s, Setpoint& setpoint);
   /// Where the person is so long after they were last seen.
   [[nodiscard]] Vec3 foreseen(double after_s) const;
   void point_at(const Vec3& person_W);
@@ -77,6 +91,7 @@ class TargetFollower {
   Vec3 p_W_{Vec3::Zero()};  ///< Of the vehicle, as commanded.
   Vec3 v_W_{Vec3::Zero()};
   double yaw_rad_{};
+  std::optional<Rumour> rumour_{};
   double side_{1.0};  ///< To which the person goes, seen from the vehicle: 1 left, -1 right.
 };
 

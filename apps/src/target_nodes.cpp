@@ -15,6 +15,8 @@ using namespace std::chrono_literals;
 
 // A box that jumps by more than this share of the image's width is somebody else.
 constexpr double reach_share = 0.3;
+constexpr int give_up_after = 20;    // Frames: a second.
+constexpr int unconfirmed_most = 6;  // Looks in a row; nine of ten find somebody in view.
 
 double between_px(const ImageBox& a, const ImageBox& b) {
   const double x = a.centre_x_px() - b.centre_x_px();
@@ -150,13 +152,16 @@ void add_buffered(Graph& graph,
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
-/// Follows from frame to frame; a detection that was caught up with replaces what it follows.
+/// Follows from frame to frame; a detection that was caught up with replaces what it follows. What
+/// was not seen for a while is given up: the view has gone elsewhere. So is what no detector
+/// confirms: a tracker holds on to the tree behind which somebody went.
 class RealTimeTracking {
  public:
   RealTimeTracking(const VehicleTopics& vehicle,
                    const TargetTopics& topics,
-                   MissionContext& context)
-      : vehicle_{vehicle}, topics_{topics}, context_{context} {}
+                   MissionContext& context,
+                   const TargetLog& log)
+      : vehicle_{vehicle}, topics_{topics}, context_{context}, log_{log} {}
 
   Work operator()(JobContext& job) {
     Work work;
@@ -168,12 +173,16 @@ class RealTimeTracking {
     const auto caught_up = job.take(topics_.caught_up);
     if (caught_up && caught_up->box) {
       is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
+      unseen_in_row_ = 0;
       target.box = is_following_ ? caught_up->box : std::nullopt;
     }
+    is_following_ = is_following_ && log_.missed_in_row < unconfirmed_most;
     const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
     if (is_following_ && is_newer) {
       const auto box = track(tracker(), *frame, work);
       target.box = box ? *box : std::nullopt;
+      unseen_in_row_ = target.box ? 0 : unseen_in_row_ + 1;
+      is_following_ = unseen_in_row_ < give_up_after;
     }
     job.publish(topics_.target, target);
     return work;
@@ -185,13 +194,16 @@ class RealTimeTracking {
   VehicleTopics vehicle_;
   TargetTopics topics_;
   MissionContext& context_;
+  const TargetLog& log_;
   bool is_following_{};
+  int unseen_in_row_{};
 };
 
 void add_real_time(Graph& graph,
                    const VehicleTopics& vehicle,
                    const TargetTopics& topics,
-                   MissionContext& context) {
+                   MissionContext& context,
+                   const TargetLog& log) {
   NodeSpec spec;
   spec.name = "track_real_time";
   spec.cost = context.scenario.kernels.tracker + "_real_time";
@@ -199,7 +211,7 @@ void add_real_time(Graph& graph,
   spec.priority = 30;
   spec.reads = {topics.caught_up.index};
   spec.writes = {topics.target.index};
-  auto tracking = std::make_shared<RealTimeTracking>(vehicle, topics, context);
+  auto tracking = std::make_shared<RealTimeTracking>(vehicle, topics, context, log);
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
@@ -250,7 +262,7 @@ TargetTopics add_target(Graph& graph,
   topics.target = graph.topic<Target>("target");
   add_detect(graph, vehicle, topics, context);
   add_buffered(graph, vehicle, topics, context, log);
-  add_real_time(graph, vehicle, topics, context);
+  add_real_time(graph, vehicle, topics, context, log);
   return topics;
 }
 

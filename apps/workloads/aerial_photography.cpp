@@ -18,6 +18,7 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
+constexpr int trusted_misses = 3;      // Of the detector, in a row: a second.
 constexpr auto control_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 
 class AerialPhotography final : public Workload {
@@ -95,20 +96,23 @@ class AerialPhotography final : public Workload {
     work.add("ticks", 1.0);
     // Older than what a tracker says, but all there is when none could hold whom the detector saw:
     // somebody who turns round, or a view that swings.
-    see(job.take(target_.sighting).get());
-    see(job.take(target_.target).get());
+    if (const auto sighting = job.take(target_.sighting)) {
+      if (const auto pose = history_.at(sighting->frame.captured)) {
+        follower_->sight(*sighting, *pose);
+      }
+    }
+    const auto target = job.take(target_.target);
+    // A tracker that no detector confirms may hold the tree behind which the person walks on.
+    if (target && log_.missed_in_row < trusted_misses) {
+      if (const auto pose = history_.at(target->frame.captured)) {
+        follower_->see(*target, *pose);
+      }
+    }
     if (stage_ == Stage::following) {
       job.publish(vehicle_.setpoint, follower_->tick(job.now(), control_period));
     }
     job.publish(vehicle_.gimbal, follower_->gimbal());
     return work;
-  }
-
-  void see(const Target* target) {
-    const auto pose = target != nullptr ? history_.at(target->frame.captured) : std::nullopt;
-    if (pose) {
-      follower_->see(*target, *pose);
-    }
   }
 
   /// Free of charge: it is the referee's, not the vehicle's.

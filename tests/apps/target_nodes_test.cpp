@@ -41,14 +41,21 @@ TEST(Plausible, leaves_out_whatever_has_not_the_size_of_a_person_where_it_stands
   EXPECT_EQ(plausible(seen, nullptr, *rig.context).size(), 3U) << "no height is known yet";
 }
 
-/// Finds one person in each frame, where the frame's first byte says.
+/// Finds one person in each frame up to a last one, where the frame's first byte says.
 class ByteDetector final : public Detector {
  public:
+  explicit ByteDetector(std::uint8_t last = 255) : last_{last} {}
   Status start(const Parameters&, const FindModel&) override { return Done{}; }
   Result<std::vector<Detection>> detect(const ColourImage& image, double, Work& work) override {
     work.add("images", 1.0);
+    if (image.rgb.front() > last_) {
+      return std::vector<Detection>{};
+    }
     return std::vector<Detection>{{{static_cast<double>(image.rgb.front()), 5, 10, 20}, 1.0}};
   }
+
+ private:
+  std::uint8_t last_;
 };
 
 constexpr PixelRegion corner{0, 0, 8, 8};
@@ -178,6 +185,26 @@ TEST_F(TargetGraph, says_whom_the_detector_saw_also_when_no_tracker_holds_them) 
   ASSERT_GE(sightings.size(), 2U);
   EXPECT_EQ(sightings[1].frame.sequence, 6U);
   EXPECT_EQ(sightings[1].box->x_px, 6.0);
+}
+
+TEST_F(TargetGraph, gives_up_what_was_not_seen_for_a_second) {
+  rig.context->kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time, true);
+  rig.context->kernels.detector = std::make_unique<ByteDetector>(0);
+  fly(3000ms);
+  EXPECT_EQ(real_time.size(), 1U + 20U) << "once begun, twenty times not seen";
+}
+
+TEST_F(TargetGraph, gives_up_what_the_detector_does_not_confirm) {
+  rig.context->kernels.detector = std::make_unique<ByteDetector>(0);
+  fly(3500ms);
+  // The first look ends at 370 ms, the sixth after it at 2290 ms.
+  ASSERT_FALSE(targets.empty());
+  MissionTime last{};
+  for (const Target& target : targets) {
+    last = target.box ? target.frame.captured : last;
+  }
+  EXPECT_GE(last, MissionTime{2200ms});
+  EXPECT_LE(last, MissionTime{2350ms});
 }
 
 TEST_F(TargetGraph, has_the_frames_between_detections_rendered_where_the_trackers_look) {
