@@ -107,11 +107,14 @@ double EnergyBound::energy_j() const {
 }
 
 Result<EnergyBound> bound_energy(const Scenario& scenario) {
-  if (scenario.mission.workload != "package_delivery" || scenario.vehicle.gust_wind_m_s > 0.0) {
+  if (scenario.mission.workload != "package_delivery") {
     return Error{ErrorCode::invalid_input,
-                 "a bound is known for workload package_delivery without gusts, and this is " +
-                     scenario.mission.workload + " with vehicle.gust_wind_m_s = " +
-                     std::to_string(scenario.vehicle.gust_wind_m_s)};
+                 "a bound is known for workload package_delivery only, and \"" + scenario.name +
+                     "\" has " + scenario.mission.workload};
+  }
+  if (scenario.vehicle.gust_wind_m_s > 0.0) {
+    return Error{ErrorCode::invalid_input,
+                 "a bound is known without gusts only: set vehicle.gust_wind_m_s to 0"};
   }
   const auto setup = set_up(scenario);
   if (!setup) {
