@@ -87,36 +87,19 @@ class MissionEnergy final : public flyball::Policy {
     if (!ranges_m) {
       return ranges_m.error();
     }
-    flyball::EnergySearchSettings settings;
-    settings.bound.alpha = given.number("alpha");
-    settings.learn_s = given.number("learn_s");
-    settings.spacing_m = is_lattice_ ? spacing_m : 0.0;
-    if (const double margin = given.number("margin"); margin != 0.0) {
-      if (margin < 1.0) {
-        return refused("margin = " + std::to_string(margin) + " must be at least 1, or 0");
-      }
-      settings.bound.first = std::log(margin);
-      settings.bound.eta = 0.0;
+    const auto settings = search_settings(given);
+    if (!settings) {
+      return settings.error();
     }
-    auto search = flyball::EnergySearch::make(settings, map_levels(given, ranges_m->back()),
+    auto search = flyball::EnergySearch::make(*settings, map_levels(given, ranges_m->back()),
                                               *ranges_m, knobs);
     if (!search) {
       return refused(search.error().message);
     }
     search_.emplace(std::move(*search));
-    flyball::PassabilitySettings passable;
-    passable.body_m = given.number("body_m");
-    large_m_ = is_lattice_ ? 0.5 * passable.body_m : std::numeric_limits<double>::max();
     failed_ = {};
-    passable.least = flyball::from_seconds(given.number("min_fine_s"));
-    patience_s_ = given.number("patience_s");
-    passable.patience = flyball::from_seconds(patience_s_);
     sight_.emplace(least_range_m_);
-    if (is_lattice_) {
-      passable.beside_m = large_m_;
-      passable.near_m = least_range_m_ + 1.0;
-    }
-    passability_.emplace(passable, levels_m_);
+    set_passable(given);
     return flyball::Done{};
   }
 
@@ -140,23 +123,7 @@ class MissionEnergy final : public flyball::Policy {
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
-    std::vector<flyball::PolicyOption> all;
-    for (const flyball::EnergyEstimate& one : search_->weighed()) {
-      if (std::isfinite(one.joules_per_m)) {
-        flyball::PolicyOption option;
-        option.setting.set("map.resolution_m", one.setting.resolution_m);
-        option.setting.set("map.range_m", one.setting.range_m);
-        option.setting.set("cpu.frequency_hz", one.setting.clock_hz);
-        option.speed_m_s = one.speed_m_s;
-        option.joules_per_m = one.joules_per_m;
-        option.response_s = one.response_s;
-        option.watts_per_second = one.watts_per_second;
-        all.push_back(option);
-      }
-    }
-    std::sort(all.begin(), all.end(),
-              [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
-    return all;
+    return flyball::options_of(search_->weighed());
   }
 
  private:
@@ -190,6 +157,36 @@ class MissionEnergy final : public flyball::Policy {
                    [&](double r_m) { return r_m >= fine_m && r_m <= coarse_m; });
     }
     return flyball::Done{};
+  }
+
+  [[nodiscard]] flyball::Result<flyball::EnergySearchSettings> search_settings(
+      const flyball::Parameters& given) const {
+    flyball::EnergySearchSettings settings;
+    settings.bound.alpha = given.number("alpha");
+    settings.learn_s = given.number("learn_s");
+    settings.spacing_m = is_lattice_ ? spacing_m : 0.0;
+    if (const double margin = given.number("margin"); margin != 0.0) {
+      if (margin < 1.0) {
+        return refused("margin = " + std::to_string(margin) + " must be at least 1, or 0");
+      }
+      settings.bound.first = std::log(margin);
+      settings.bound.eta = 0.0;
+    }
+    return settings;
+  }
+
+  void set_passable(const flyball::Parameters& given) {
+    flyball::PassabilitySettings passable;
+    passable.body_m = given.number("body_m");
+    passable.least = flyball::from_seconds(given.number("min_fine_s"));
+    patience_s_ = given.number("patience_s");
+    passable.patience = flyball::from_seconds(patience_s_);
+    large_m_ = is_lattice_ ? 0.5 * passable.body_m : std::numeric_limits<double>::max();
+    if (is_lattice_) {
+      passable.beside_m = large_m_;
+      passable.near_m = least_range_m_ + 1.0;
+    }
+    passability_.emplace(passable, levels_m_);
   }
 
   static flyball::Result<std::vector<double>> ranges(const flyball::Parameters& given,

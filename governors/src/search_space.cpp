@@ -54,4 +54,24 @@ Surroundings limits_of(const Observation& seen) {
   return around;
 }
 
+std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed) {
+  std::vector<PolicyOption> all;
+  for (const EnergyEstimate& one : weighed) {
+    if (std::isfinite(one.joules_per_m)) {
+      PolicyOption option;
+      option.setting.set("map.resolution_m", one.setting.resolution_m);
+      option.setting.set("map.range_m", one.setting.range_m);
+      option.setting.set("cpu.frequency_hz", one.setting.clock_hz);
+      option.speed_m_s = one.speed_m_s;
+      option.joules_per_m = one.joules_per_m;
+      option.response_s = one.response_s;
+      option.watts_per_second = one.watts_per_second;
+      all.push_back(option);
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
+  return all;
+}
+
 }  // namespace flyball

@@ -48,5 +48,23 @@ TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
   }
 }
 
+TEST(SearchSpace, options_are_what_is_allowed_the_cheapest_first) {
+  EnergyEstimate dear;
+  dear.setting = {0.15, 7.0, 2e9};
+  dear.joules_per_m = 90.0;
+  dear.speed_m_s = 3.0;
+  EnergyEstimate cheap = dear;
+  cheap.setting.resolution_m = 0.6;
+  cheap.joules_per_m = 70.0;
+  EnergyEstimate shut = dear;
+  shut.joules_per_m = std::numeric_limits<double>::infinity();
+  const auto options = options_of({dear, shut, cheap});
+  ASSERT_EQ(options.size(), 2U);
+  EXPECT_EQ(options[0].joules_per_m, 70.0);
+  EXPECT_EQ(options[0].setting.begin()->value, 0.6);
+  EXPECT_EQ(options[1].joules_per_m, 90.0);
+  EXPECT_EQ(options[1].speed_m_s, 3.0);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -6,6 +6,7 @@
 /// itself.
 
 #include "flyball/governors/energy_search.h"
+#include "flyball/governors/policy.h"
 
 #include <vector>
 
@@ -24,5 +25,8 @@ namespace flyball {
 /// Limits of speed and braking; usual ones where an observation says nothing of sense. All else is
 /// as `Surroundings` has it, with a world that lets see to any distance.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);
+
+/// What a search weighed and would allow, as a policy shows it: least joules per metre first.
+[[nodiscard]] std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed);
 
 }  // namespace flyball
