@@ -18,7 +18,6 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr int trusted_misses = 3;      // Of the detector, in a row: a second.
 constexpr auto control_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 
 class AerialPhotography final : public Workload {
@@ -101,9 +100,7 @@ class AerialPhotography final : public Workload {
         follower_->sight(*sighting, *pose);
       }
     }
-    const auto target = job.take(target_.target);
-    // A tracker that no detector confirms may hold the tree behind which the person walks on.
-    if (target && log_.missed_in_row < trusted_misses) {
+    if (const auto target = job.take(target_.target)) {
       if (const auto pose = history_.at(target->frame.captured)) {
         follower_->see(*target, *pose);
       }
