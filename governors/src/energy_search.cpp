@@ -226,14 +226,16 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
   double least_j = std::numeric_limits<double>::infinity();
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const MapSetting candidate = setting(point);
-    estimates_[point].joules_per_m = std::numeric_limits<double>::infinity();
-    if (is_allowed(candidate, around, least_range_m)) {
-      estimates_[point] = estimate(candidate, around);
-      if (std::max(estimates_[point].response_s, expected_s_[point]) > around.most_response_s) {
-        estimates_[point].joules_per_m *= too_slow;
-      }
-      least_j = std::min(least_j, estimates_[point].joules_per_m);
+    EnergyEstimate& estimated = estimates_[point];
+    estimated.joules_per_m = std::numeric_limits<double>::infinity();
+    if (!is_allowed(candidate, around, least_range_m)) {
+      continue;
     }
+    estimated = estimate(candidate, around);
+    if (std::max(estimated.response_s, expected_s_[point]) > around.most_response_s) {
+      estimated.joules_per_m *= too_slow;
+    }
+    least_j = std::min(least_j, estimated.joules_per_m);
   }
   EnergyEstimate best;
   best.joules_per_m = std::numeric_limits<double>::infinity();
