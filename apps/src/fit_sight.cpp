@@ -10,6 +10,7 @@
 #include "scenario_parameters.h"
 #include "view.h"
 #include "visual_nodes.h"
+#include <algorithm>
 #include <cmath>
 
 namespace flyball {
