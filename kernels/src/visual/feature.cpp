@@ -221,7 +221,9 @@ Result<std::vector<Feature>> FeatureExtractor::extract(const VisualFrame& frame,
     std::vector<cv::KeyPoint> points;
     detector_->orb->setMaxFeatures(surplus * count);
     detector_->orb->detect(image, points);
-    points = strong_ones(points, detector_->settings.strong_corner);
+    if (detector_->settings.strong_corner > detector_->settings.weak_corner) {
+      points = strong_ones(points, detector_->settings.strong_corner);
+    }
     points = spread(std::move(points), frame.camera.width_px / cell_px + 1, count);
     cv::Mat rows;
     detector_->orb->compute(image, points, rows);
