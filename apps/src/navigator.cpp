@@ -13,21 +13,16 @@ using namespace std::chrono_literals;
 
 constexpr auto retry_after = 500ms;  // The same map would fail again: wait for frames.
 constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
-// A plan is spliced in ahead of the vehicle by what plans take and half as much again.
+// A plan is spliced in ahead of the vehicle by what four of five plans take and half as much again.
 constexpr double lead_over_usual = 1.5;
+constexpr double usual_share = 0.8;
 constexpr std::size_t plans_remembered = 5;
 constexpr double least_lead_s = 0.1;
-constexpr double most_lead_s = 1.0;
+constexpr double most_lead_s = 3.0;
+constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
 constexpr double arrival_m = 0.3;
 constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
-// When the way to the goal has become this much longer than it was at first, and stays so with a
-// frame that was taken at rest, a look to both sides may show a door that the vehicle flew past.
-// Stop, look and plan take some 5 s: less than the way that the vehicle makes in them is not worth
-// it.
-constexpr double worth_a_look_s = 5.0;
-constexpr double worth_a_look = 0.1;  // At least this share of the path.
-constexpr double looked_here_m = 2.0;
 constexpr double least_lead_in_m = 0.3;
 constexpr double straight = 0.999;  // Chord over arc.
 
@@ -37,6 +32,7 @@ Navigator::Navigator(MissionContext& context) : context_{context}, follower_{con
 
 void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
+  blocked_at_m_.reset();
   ++path_number_;
 }
 
@@ -45,8 +41,6 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   context_.goal_now_W = goal_W;
   without_path_since_ = now;
   pending_id_ = 0;
-  expected_m_.reset();
-  doubts_way_ = false;
   want_plan(now, "new goal");
 }
 
@@ -71,22 +65,24 @@ void Navigator::map_published(MissionTime now,
     ++context_.counters.bound_overruns;
   }
   context_.counters.budget_use.push_back(map_latency_.budget_use());
-  unused_capture_ = newest_capture_ = revision.captured;
+  unused_capture_ = revision.captured;
   follower_.map_published(revision);
   follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
   follower_.refresh_known_free(context_.map());
 }
 
 void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number) {
-  if (path_number != path_number_ || !check.blocked_at_m || pending_id_ != 0) {
+  if (path_number != path_number_) {
     return;
   }
-  want_plan(now, "path blocked");
+  blocked_at_m_ = check.blocked_at_m;
+  if (blocked_at_m_ && pending_id_ == 0) {
+    want_plan(now, "path blocked");
+  }
 }
 
 double Navigator::lead_s() const {
-  // Their median: one difficult plan does not make the next ones begin at a standstill.
-  const double usual_s = quantile({planning_s_.begin(), planning_s_.end()}, 0.5);
+  const double usual_s = quantile({planning_s_.begin(), planning_s_.end()}, usual_share);
   return std::clamp(lead_over_usual * usual_s, least_lead_s, most_lead_s);
 }
 
@@ -99,7 +95,7 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
-  if (!goal_W_ || pending_id_ != 0 || follower_.is_looking_around()) {
+  if (!goal_W_ || pending_id_ != 0) {
     return std::nullopt;
   }
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
@@ -110,7 +106,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
     context_.counters.planner_failures_in_row = ++stalls_;
     want_plan(now, "stalled before unknown space");
   }
-  if (!wants_plan_ || now < not_before_ || (doubts_way_ && !sees_from_rest())) {
+  if (!wants_plan_ || now < not_before_) {
     return std::nullopt;
   }
   PlanQuery query;
@@ -140,12 +136,20 @@ bool Navigator::is_leg_ending() const {
          (path.at(path.length_m()).p_W - *goal_W_).norm() > arrival_m;
 }
 
+// What is known to be free is flown on while a plan is made: from nearer by the map shows more, and
+// most plans are there before the vehicle must stop.
+double Navigator::last_stop_m() const {
+  const double blocked_m = blocked_at_m_.value_or(follower_.path().length_m() + room_to_turn_m);
+  return std::max(follower_.planned_stop_m(),
+                  std::min(blocked_m - room_to_turn_m, follower_.farthest_stop_m()));
+}
+
 // At first the new path leaves the old one ahead of the moving vehicle. If it then bends too
-// sharply for the vehicle's speed, the next one leaves where the vehicle would come to rest, so
-// that the bend can begin before that; at last it starts from rest.
+// sharply for the vehicle's speed, or comes too late, the next one leaves where the vehicle would
+// soon come to rest, so that the bend can begin before that; at last it starts from rest.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
-  const double stop_m = follower_.planned_stop_m();
+  const double stop_m = refusals_ == 0 ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s(), stop_m);
   const Vec3 moving_W = path.at(moving_m).p_W;
   const Vec3 stop_W = path.at(stop_m).p_W;
@@ -190,52 +194,15 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     planning_s_.pop_front();
   }
   const Path path{planned.trajectory};
-  // A leg's end is not the goal.
-  const bool has_legs = context_.scenario.planner.horizon_m > 0.0;
-  const double rest_m = has_legs ? (path.at(path.length_m()).p_W - *goal_W_).norm() : 0.0;
-  const double total_m =
-      follower_.travelled_m() - follower_.s_m() + splice_m_ + path.length_m() + rest_m;
-  expected_m_ = expected_m_.value_or(total_m);
-  if (is_worth_a_look(total_m, path.length_m())) {
-    doubt(now);
-    return;
-  }
-  doubts_way_ = false;
   if (!follower_.adopt(path, splice_m_)) {
     ++refusals_;
     want_plan(now, "too late or too fast for the plan");
     return;
   }
   refusals_ = 0;
+  blocked_at_m_.reset();
   ++path_number_;
   follower_.refresh_known_free(context_.map());
-}
-
-bool Navigator::is_worth_a_look(double total_m, double planned_m) const {
-  const Vec3 here_W = follower_.position_W();
-  return follower_.has_path() &&
-         total_m > *expected_m_ + std::max(worth_a_look_s * context_.speed_limit_m_s(here_W),
-                                           worth_a_look * planned_m) &&
-         !((here_W - looked_at_W_).norm() < looked_here_m);
-}
-
-bool Navigator::sees_from_rest() const {
-  return at_rest_since_ && newest_capture_ > *at_rest_since_;
-}
-
-// What made the way longer may be no more than a map that is still too coarse or too old: the first
-// time only another plan is asked for, the second time a look around.
-void Navigator::doubt(MissionTime now) {
-  doubts_way_ = !doubts_way_;
-  if (doubts_way_) {
-    want_plan(now, "the way has become longer");
-    return;
-  }
-  looked_at_W_ = follower_.position_W();
-  expected_m_.reset();
-  const Vec3 ahead_W = *goal_W_ - looked_at_W_;
-  follower_.look_around(std::atan2(ahead_W.y(), ahead_W.x()));
-  want_plan(now, "looked around, the way is still longer");
 }
 
 TrackingError Navigator::measured(const Vec3& error_W) const {

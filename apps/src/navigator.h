@@ -8,7 +8,6 @@
 #include "map_latency.h"
 #include "path_follower.h"
 #include <deque>
-#include <limits>
 #include <string>
 
 namespace flyball {
@@ -79,10 +78,8 @@ class Navigator {
   void trust_own_place();
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
+  [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);
-  [[nodiscard]] bool is_worth_a_look(double total_m, double planned_m) const;
-  [[nodiscard]] bool sees_from_rest() const;
-  void doubt(MissionTime now);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
 
@@ -92,6 +89,7 @@ class Navigator {
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
+  std::optional<double> blocked_at_m_{};  ///< On the path; none: it is not known to be.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be flown into.
   int stalls_{};    ///< Plans in a row that have led nowhere: they count as failed ones.
   MissionTime asked_at_{};
@@ -101,11 +99,7 @@ class Navigator {
   MissionTime not_before_{};
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};
-  std::optional<double> expected_m_{};  ///< From the first path on: travelled when at the goal.
-  bool doubts_way_{};  ///< Longer than expected: a plan with what is seen from rest will tell.
   std::optional<MissionTime> at_rest_since_{};
-  MissionTime newest_capture_{};
-  Vec3 looked_at_W_{Vec3::Constant(std::numeric_limits<double>::infinity())};
   MapLatency map_latency_{};
   Duration newest_latency_{};
   std::uint64_t map_revision_{};

@@ -18,11 +18,8 @@ constexpr double comfort_m_s2 = 3.0;
 // stop before an obstacle, the more room is left to turn.
 constexpr double stopping_m_s2 = 5.0;
 constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
-constexpr double pi = 3.141592653589793;
-// Once left and right by 60 degrees: with a field of 90, all that is not behind.
-constexpr double look_aside_rad = pi / 3.0;
-constexpr double look_around_s = 4.8;
 constexpr double look_ahead_s = 1.0;
+constexpr double stop_margin_m = 0.1;  // From what is not known to be free.
 constexpr double look_ahead_min_m = 1.0;
 constexpr auto odometer_memory = 10s;
 
@@ -217,10 +214,6 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
 // Yaw looks where the path goes next, at least as far as the first place that must be seen before
 // it can be flown to: so the vehicle turns in place before it leaves its field of view.
 std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
-  if (look_yaw_rad_ && looking_since_) {
-    const double turns = to_seconds(now - *looking_since_) / look_around_s;
-    return *look_yaw_rad_ + look_aside_rad * std::sin(2.0 * pi * std::min(turns, 1.0));
-  }
   const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
   Vec3 direction = path_.at(s_m_ + ahead_m).p_W - path_.at(s_m_).p_W;
   direction.z() = 0.0;
@@ -248,19 +241,6 @@ void PathFollower::turn(double dt_s, MissionTime now) {
   } else if (!stalled_since_) {
     stalled_since_ = now;
   }
-  if (look_yaw_rad_ && stands && !looking_since_) {
-    looking_since_ = now;
-  }
-  // What the last view showed must still come through the map.
-  if (looking_since_ && to_seconds(now - *looking_since_ - latency_bound_) > look_around_s) {
-    look_yaw_rad_.reset();
-    looking_since_.reset();
-  }
-}
-
-void PathFollower::look_around(double yaw_rad) {
-  look_yaw_rad_ = yaw_rad;
-  looking_since_.reset();
 }
 
 Vec3 PathFollower::position_W() const {
@@ -278,10 +258,13 @@ double PathFollower::planned_stop_m() const {
   const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
   const double wished =
       stop_point_m(std::min(stopping_m_s2, limit_m_s2)) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
-  const double margin_m = 0.1;
-  const double wide = free_until_m_.back() - margin_m;
+  const double wide = free_until_m_.back() - stop_margin_m;
   const double reach = wide > s_m_ ? wide : free_until_m_.front();
   return std::max(std::min(wished, reach), stop_point_m(limit_m_s2));
+}
+
+double PathFollower::farthest_stop_m() const {
+  return std::min(path_.length_m(), free_until_m_.front() - stop_margin_m);
 }
 
 bool PathFollower::is_at_end() const {

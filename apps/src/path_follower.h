@@ -31,11 +31,8 @@ class PathFollower {
   /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
   void commit_stop(double s_m);
 
-  /// Once the reference stands, turns the camera to both sides of this direction.
-  void look_around(double yaw_rad);
   /// At the path's end, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
-  [[nodiscard]] bool is_looking_around() const { return look_yaw_rad_.has_value(); }
 
   /// Looks up anew how far the path is known to be free. Call after each change of map or path.
   void refresh_known_free(const OccupancyView& map);
@@ -62,6 +59,8 @@ class PathFollower {
   /// Where a comfortable stop would end, inside what is known to be free: the committed stop while
   /// a plan is sought.
   [[nodiscard]] double planned_stop_m() const;
+  /// The end of what is known to be free for the body at a crawl: so far a stop can wait.
+  [[nodiscard]] double farthest_stop_m() const;
   [[nodiscard]] bool is_at_end() const;
   /// At the end of its path, or without one.
   [[nodiscard]] bool stands_still() const { return !has_path() || is_at_end(); }
@@ -103,8 +102,6 @@ class PathFollower {
   MissionTime newest_capture_{};
   std::optional<MissionTime> stalled_since_{};
   std::optional<double> face_yaw_rad_{};
-  std::optional<double> look_yaw_rad_{};
-  std::optional<MissionTime> looking_since_{};
   std::deque<std::pair<MissionTime, double>> odometer_{};
 };
 

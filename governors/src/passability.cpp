@@ -11,7 +11,8 @@ namespace {
 
 constexpr double standing_m_s = 0.1;
 constexpr double behind_the_gap_m = 3.0;  // What a plan through it needs to know.
-constexpr double farthest_m = 30.0;       // No gap is looked for farther ahead.
+constexpr Duration settled = std::chrono::seconds{1};
+constexpr double farthest_m = 30.0;  // No gap is looked for farther ahead.
 constexpr double rounding_m = 1e-9;
 
 }  // namespace
@@ -92,25 +93,41 @@ void Passability::count_way(const Observation& seen) {
   const double elapsed_s = last_judged_ ? to_seconds(seen.now - *last_judged_) : 0.0;
   last_judged_ = seen.now;
   const double way_m = seen.speed_m_s * elapsed_s;
-  if (!(way_m <= 0.0)) {  // What is no number ends it: the gap itself still counts.
-    needed_on_m_ = way_m < needed_on_m_ ? needed_on_m_ - way_m : 0.0;
+  for (double* on_m : {&gap_on_m_, &failed_on_m_}) {
+    if (!(way_m <= 0.0)) {  // What is no number ends it: the gap itself still counts.
+      *on_m = way_m < *on_m ? *on_m - way_m : 0.0;
+    }
   }
 }
 
 void Passability::need_until_past(const Observation& seen, Standing standing) {
-  const bool has_failed = seen.planner_failures > 0 || standing != Standing::no;
-  const double on_m = has_failed ? settings_.near_m : seen.gap_distance_m + behind_the_gap_m;
-  needed_on_m_ = std::max(needed_on_m_, std::min(on_m, farthest_m));
+  if (seen.planner_failures > 0 || standing != Standing::no) {
+    failed_on_m_ = settings_.near_m;
+  } else {
+    gap_on_m_ = std::max(gap_on_m_, std::min(seen.gap_distance_m + behind_the_gap_m, farthest_m));
+  }
+}
+
+// It was near enough to be seen, and finest cells, in a map of more than one frame, do not show it:
+// coarse ones had filled it in, or the way leads elsewhere by now.
+bool Passability::is_gone(const Observation& seen) {
+  const bool is_finest = seen.map_resolution_m <= levels_m_.front() + rounding_m;
+  finest_since_ = is_finest ? finest_since_.value_or(seen.now) : std::optional<MissionTime>{};
+  return finest_since_ && seen.now - *finest_since_ >= settled && gap_on_m_ > behind_the_gap_m &&
+         gap_on_m_ < settings_.near_m;
 }
 
 Passability::Verdict Passability::judge(const Observation& seen) {
   const Standing stands = standing(seen);
   count_way(seen);
   const std::size_t needed = needed_level(seen, stands);
+  const bool is_gap_gone = is_gone(seen);
   if (settings_.near_m > 0.0 && needed == 0) {
     need_until_past(seen, stands);
+  } else if (is_gap_gone) {
+    gap_on_m_ = 0.0;
   }
-  const std::size_t open = needed_on_m_ > 0.0 ? 0 : needed;
+  const std::size_t open = std::max(gap_on_m_, failed_on_m_) > 0.0 ? 0 : needed;
   if (needed <= level_) {
     needed_at_ = seen.now;
   }

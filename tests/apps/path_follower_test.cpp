@@ -55,26 +55,6 @@ TEST(PathFollower, faces_a_heading_where_it_comes_to_stand_and_where_it_hovers) 
   EXPECT_NEAR(ride.follower.yaw_rad(), -1.0, 0.01);
 }
 
-TEST(PathFollower, looks_to_both_sides_where_it_stands_and_then_ahead_again) {
-  Ride ride{60.0};
-  ride.tick(100);
-  ride.follower.commit_stop(ride.follower.planned_stop_m());
-  ride.follower.look_around(0.5);
-  double left_rad = 0.0;
-  double right_rad = 0.0;
-  int ticks = 0;
-  for (; ride.follower.is_looking_around() && ticks < 1000; ++ticks) {
-    ride.tick(1);
-    left_rad = std::max(left_rad, ride.follower.yaw_rad());
-    right_rad = std::min(right_rad, ride.follower.yaw_rad());
-  }
-  EXPECT_LT(ticks, 1000);
-  EXPECT_GT(left_rad, 0.5 + 0.9);
-  EXPECT_LT(right_rad, 0.5 - 0.9);
-  ride.tick(100);
-  EXPECT_NEAR(ride.follower.yaw_rad(), 0.0, 0.85);  // ahead; it stalls, so it looks a bit aside
-}
-
 TEST(PathFollower, flies_slower_with_a_larger_latency) {
   Ride quick{60.0};
   Ride slow{60.0};

@@ -2,6 +2,7 @@
 #include "plan_with_tubes.h"
 
 #include "mission_rig.h"
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -35,14 +36,29 @@ struct Planning {
   PlanQuery query{};
 };
 
-TEST(PlanWithTubes, takes_the_wide_tube_where_there_is_room) {
-  const kit::GridMap map = room_with_gap(3.0);
+TEST(PlanWithTubes, keeps_as_much_room_to_obstacles_as_there_is) {
+  const std::array<double, 2> gaps_m{3.0, 1.5};
+  const std::array<double, 2> rooms_m{0.6, 0.0};  // Around the tube of cruise speed.
+  for (std::size_t i = 0; i < gaps_m.size(); ++i) {
+    const kit::GridMap map = room_with_gap(gaps_m[i]);
+    Planning planning{map};
+    Cylinder body;
+    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+    const double cruise_m_s = planning.rig.scenario.mission.max_speed_m_s;
+    EXPECT_DOUBLE_EQ(body.radius_m,
+                     planning.rig.context->body_at(cruise_m_s).radius_m + rooms_m[i]);
+  }
+}
+
+TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_way) {
+  const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
+  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 1600).ok());
   Cylinder body;
   const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
-  EXPECT_TRUE(plan.failure.empty()) << plan.failure;
-  const double cruise_m_s = planning.rig.scenario.mission.max_speed_m_s;
-  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(cruise_m_s).radius_m);
+  EXPECT_TRUE(plan.waypoints_W.empty());
+  EXPECT_LE(plan.work.count("iterations"), 1600.0);
 }
 
 TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {

@@ -165,6 +165,20 @@ TEST(Passability, needs_finest_cells_until_it_is_past_the_gap_though_they_do_not
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
 }
 
+TEST(Passability, forgets_a_gap_that_finest_cells_do_not_show_where_it_was) {
+  Passability passability = among_obstacles();
+  Observation seen_it = seen(0.0, 0.3, 0.30);
+  seen_it.gap_distance_m = 8.0;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+  seen_it = seen(0.5, 24.0, 0.15);
+  seen_it.speed_m_s = 1.0;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
+  seen_it.now += 2s;  // Still 10 m to what is behind it.
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U) << "too far off to be seen";
+  seen_it.now += 2s;
+  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
+}
+
 TEST(Passability, does_not_turn_to_finest_cells_at_once_for_what_they_do_not_reach) {
   Passability passability = among_obstacles();
   Observation failed = seen(0.0, 0.3, 0.30);

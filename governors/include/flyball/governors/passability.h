@@ -32,7 +32,8 @@ struct PassabilitySettings {
 /// it never stands for ever before a gap that it could pass.
 ///
 /// What needed finer cells needs them until the vehicle is past it: finer cells show less far, and
-/// a wall that they do not show yet looks like an open way. A cell beside an obstacle is known to
+/// a wall that they do not show yet looks like an open way. Where they show that it is not there,
+/// they are not needed any longer. A cell beside an obstacle is known to
 /// be free only when all of it was seen, so among obstacles large cells end what is known to be
 /// free sooner than the obstacles do (`beside_m`). Nothing allocates after construction.
 class Passability {
@@ -55,6 +56,7 @@ class Passability {
   void need_until_past(const Observation& seen, Standing standing);
   [[nodiscard]] std::size_t needed_level(const Observation& seen, Standing standing) const;
   [[nodiscard]] bool is_far_off(const Observation& seen) const;
+  [[nodiscard]] bool is_gone(const Observation& seen);
   void count_way(const Observation& seen);
   [[nodiscard]] Standing standing(const Observation& seen);
 
@@ -63,7 +65,9 @@ class Passability {
   std::size_t level_;
   MissionTime needed_at_{};   ///< The last time that no coarser level would have done.
   std::size_t beside_level_;  ///< The coarsest one that `beside_m` allows.
-  double needed_on_m_{};      ///< The finest level, for so far from here.
+  double gap_on_m_{};         ///< Finest cells are needed for so long a way: until a gap is past,
+  double failed_on_m_{};      ///< or where a plan failed.
+  std::optional<MissionTime> finest_since_{};  ///< The map has had finest cells.
   std::optional<MissionTime> last_judged_{};
   std::optional<MissionTime> standing_since_{};
 };
