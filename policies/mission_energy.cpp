@@ -35,9 +35,9 @@ namespace {
 using flyball::MapSetting;
 using flyball::Observation;
 
-constexpr double at_limit = 0.9;          // Of the speed: the reference eases towards it.
-constexpr double failed_plan_j = 1500.0;  // Some 5 s of a stop, plans and a start, at 300 W.
-constexpr double spacing_m = 20.0;        // From obstacle to obstacle, in RoboRun's congestion.
+constexpr double at_limit = 0.9;         // Of the speed: the reference eases towards it.
+constexpr double failed_plan_j = 750.0;  // A loss of some 2.5 s of speed, at 300 W.
+constexpr double spacing_m = 20.0;       // From obstacle to obstacle, in RoboRun's congestion.
 
 // Where an RGB-D camera's noise, .0657 d - .4193 beyond 6 m (MAVBench's code), is half a cell.
 // Farther off it fills the cells beside an obstacle too, and closes gaps.
@@ -233,7 +233,8 @@ class MissionEnergy final : public flyball::Policy {
   }
 
   void limit_lattice(const Observation& seen, bool near, flyball::Surroundings& around) noexcept {
-    if (near) {  // The mission says so, from farther off than any gap shows.
+    // The mission says so, from farther off than any gap shows; or a new goal asks for a plan.
+    if (near || seen.phase != flyball::MissionPhase::cruise) {
       around.coarsest_m = std::min(around.coarsest_m, large_m_);
     }
     failed_.note(seen, search_->in_force().resolution_m > large_m_);

@@ -118,7 +118,9 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   query.goal_W =
       sub_goal_W(context_, query.start_W, *goal_W_, context_.counters.planner_failures_in_row);
   asked_at_ = now;
-  query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0;
+  // Where the narrow tube has found no way twice, a wide one will not.
+  query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0 ||
+                       context_.counters.planner_failures_in_row > 1;
   wants_plan_ = false;
   ++context_.counters.replans;
   return query;
@@ -184,15 +186,15 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     return;
   }
   pending_id_ = 0;
+  planning_s_.push_back(to_seconds(now - asked_at_));
+  while (planning_s_.size() > plans_remembered) {
+    planning_s_.pop_front();
+  }
   if (!planned.failure.empty()) {
     plan_failed(now, planned);
     return;
   }
   context_.counters.planner_failures_in_row = stalls_;
-  planning_s_.push_back(to_seconds(now - asked_at_));
-  while (planning_s_.size() > plans_remembered) {
-    planning_s_.pop_front();
-  }
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, splice_m_)) {
     ++refusals_;

@@ -264,7 +264,7 @@ double PathFollower::planned_stop_m() const {
 }
 
 double PathFollower::farthest_stop_m() const {
-  return std::min(path_.length_m(), free_until_m_.front() - stop_margin_m);
+  return std::min(path_.length_m(), free_until_m_.back() - stop_margin_m);
 }
 
 bool PathFollower::is_at_end() const {

@@ -59,7 +59,7 @@ class PathFollower {
   /// Where a comfortable stop would end, inside what is known to be free: the committed stop while
   /// a plan is sought.
   [[nodiscard]] double planned_stop_m() const;
-  /// The end of what is known to be free for the body at a crawl: so far a stop can wait.
+  /// The end of what is known to be free with room for the wide tube: so far a stop can wait.
   [[nodiscard]] double farthest_stop_m() const;
   [[nodiscard]] bool is_at_end() const;
   /// At the end of its path, or without one.

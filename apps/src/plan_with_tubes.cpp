@@ -3,15 +3,13 @@
 
 #include "flyball/runtime/random.h"
 
-#include <algorithm>
-
 namespace flyball {
 namespace {
 
 // Beside the tube of cruise speed: two of the cells with which that speed can be flown (.30 m),
-// one that an obstacle fills by its border and one that must be known free. A path with so much
-// room keeps a map of such cells passable; a corner that is cut closer costs fine cells, and half
-// the speed.
+// one that an obstacle fills by its border and one that must be known free. (Larger ones keep their
+// distance by themselves.) A path with so much room keeps a map of such cells passable; a corner
+// that is cut closer costs fine cells, and half the speed.
 constexpr double room_m = 0.6;
 
 constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
@@ -45,12 +43,12 @@ class Search {
     if (query_.may_be_tight) {
       return try_with(context_.narrow_body(), budget);
     }
+    const int part = budget / 8;
     const Cylinder wide = context_.body_at(context_.knobs.value("mission.max_speed_m_s"));
     const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
-    constexpr int least = 100;
-    const int part = std::max(least, budget / 8);
-    return try_with(roomy, part) || try_with(wide, part) ||
-           try_with(context_.narrow_body(), std::max(least, budget - 2 * part));
+    const bool has_small_cells = 2.0 * context_.map().resolution_m() <= room_m;
+    return (has_small_cells && try_with(roomy, part)) || try_with(wide, part) ||
+           try_with(context_.narrow_body(), budget - 2 * part);
   }
 
   void look_for_shorter() {
