@@ -12,8 +12,8 @@
 // Where the vehicle waits, or flies without a map, only the clock is left to save.
 //
 // A mapper with a lattice of cells keeps what was hit at its finest level, so finer cells are
-// there as soon as they are asked for. Others start a map of their own: with them, what is narrow
-// is looked at from nearby only, and two levels are used.
+// there when they are asked for. Others start a map of their own: with them, what is narrow is
+// looked at from nearby only, and two levels are used.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/failed_plans.h"
@@ -35,7 +35,8 @@ namespace {
 using flyball::MapSetting;
 using flyball::Observation;
 
-constexpr double at_limit = 0.9;         // Of the speed: the reference eases towards it.
+constexpr double at_limit = 0.9;  // Of the speed: the reference eases towards it.
+constexpr double standing_m_s = 0.1;
 constexpr double failed_plan_j = 750.0;  // A loss of some 2.5 s of speed, at 300 W.
 constexpr double spacing_m = 20.0;       // From obstacle to obstacle, in RoboRun's congestion.
 
@@ -141,9 +142,8 @@ class MissionEnergy final : public flyball::Policy {
   flyball::Status set_levels(const flyball::Parameters& given, const flyball::KnobSettings& knobs) {
     const flyball::KnobSpec* spec = knobs.spec("map.resolution_m");
     is_lattice_ = spec != nullptr && !spec->legal.empty();
-    constexpr double usual_m = 0.8;  // MAVBench's coarse cells.
     const double given_m = given.number("coarse_m");
-    const double coarsest_m = is_lattice_ ? spec->legal.back() : usual_m;
+    const double coarsest_m = is_lattice_ ? spec->legal.back() : 0.8;  // MAVBench's coarse cells.
     const double fine_m = nearest_level(given.number("fine_m"), knobs);
     const double coarse_m = nearest_level(given_m > 0.0 ? given_m : coarsest_m, knobs);
     if (fine_m >= coarse_m) {
@@ -234,9 +234,12 @@ class MissionEnergy final : public flyball::Policy {
 
   void limit_lattice(const Observation& seen, bool near, flyball::Surroundings& around) noexcept {
     // The mission says so, from farther off than any gap shows; or a new goal asks for a plan.
-    if (near || seen.phase != flyball::MissionPhase::cruise) {
-      around.coarsest_m = std::min(around.coarsest_m, large_m_);
-    }
+    // Where it stands it waits for one, and what it is planned in must still be the map when it
+    // comes.
+    const bool cruises = seen.phase == flyball::MissionPhase::cruise;
+    const bool waits = cruises && !(seen.speed_m_s > standing_m_s);
+    around.coarsest_m = std::min({around.coarsest_m, near || !cruises ? large_m_ : 1e9,
+                                  waits ? search_->in_force().resolution_m : 1e9});
     failed_.note(seen, search_->in_force().resolution_m > large_m_);
     around.large_m = large_m_;
     around.large_j_m = failed_.per_m() * failed_plan_j;

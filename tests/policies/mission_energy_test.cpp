@@ -127,4 +127,33 @@ TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed
   EXPECT_LE(seen.map_resolution_m, 0.355);
 }
 
+// A plan that is being made in fine cells must still be true in the map when it comes.
+TEST(MissionEnergy, has_no_larger_cells_than_before_while_it_stands_and_waits_for_a_plan) {
+  flyball::Observation seen = before_a_door();
+  Rule rule;
+  ASSERT_EQ(rule.wish(seen, "map.resolution_m"), 0.15);
+  const flyball::MissionTime at_door = seen.now;
+  seen = cruising();
+  seen.map_resolution_m = 0.15;
+  seen.speed_m_s = 0.05;
+  seen.now = at_door + 600s;  // Long past the door and what else holds finer cells.
+  EXPECT_EQ(rule.wish(seen, "map.resolution_m"), 0.15);
+  seen.speed_m_s = 6.0;
+  for (int i = 0; i < 40; ++i) {
+    seen.now += 250ms;
+    ++seen.map_revision;
+    seen.map_resolution_m = rule.wish(seen, "map.resolution_m");
+  }
+  EXPECT_GT(seen.map_resolution_m, 0.15);
+}
+
+TEST(MissionEnergy, has_no_large_cells_before_a_new_goal_asks_for_a_plan) {
+  for (const auto phase : {flyball::MissionPhase::take_off, flyball::MissionPhase::land}) {
+    flyball::Observation seen = cruising();
+    seen.phase = phase;
+    seen.speed_m_s = 0.0;
+    EXPECT_LE(Rule{}.wish(seen, "map.resolution_m"), 0.355);
+  }
+}
+
 }  // namespace
