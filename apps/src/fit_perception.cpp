@@ -3,6 +3,7 @@
 #include "fit_perception.h"
 
 #include "perception_nodes.h"
+#include "scenario_parameters.h"
 
 namespace flyball {
 
@@ -31,7 +32,7 @@ Status Perception::look(const Pose& X_WB, KernelLoads& loads) {
   if (!work) {
     return work.error();
   }
-  loads[context_.scenario.kernels.mapper].calls.push_back(*work);
+  loads[mapper_cost(context_.scenario.kernels)].calls.push_back(*work);
   context_.kernels.mapper->commit();
   return Done{};
 }
