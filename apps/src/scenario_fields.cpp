@@ -142,6 +142,18 @@ Fields watch_fields() {
   };
 }
 
+Fields barometer_fields() {
+  constexpr auto in = &Scenario::barometer;
+  using B = BarometerSpec;
+  return {
+      {"barometer.white_noise_pa", &at<in, &B::white_noise_pa>, 0, 1000,
+       "standard deviation of one sample; 1.2 Pa are a decimetre"},
+      {"barometer.wander_pa", &at<in, &B::wander_pa>, 0, 10000, "standard deviation of the bias"},
+      {"barometer.wander_time_s", &at<in, &B::wander_time_s>, 0.1, 1e6,
+       "correlation time of the bias"},
+  };
+}
+
 Fields gps_fields() {
   constexpr auto in = &Scenario::gps;
   using G = GpsSpec;
@@ -255,6 +267,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, camera_fields());
   append(all, colour_camera_fields());
   append(all, gps_fields());
+  append(all, barometer_fields());
   append(all, kernel_fields());
   append(all, scan_fields());
   append(all, explore_fields());

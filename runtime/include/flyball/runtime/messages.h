@@ -71,6 +71,7 @@ struct NavigationSample {
   double height_m{};           ///< Above the WGS-84 ellipsoid.
   Vec3 v_gps_W{Vec3::Zero()};  ///< Doppler velocity, east-north-up [m/s].
   Eigen::Quaterniond q_WB_ahrs{Eigen::Quaterniond::Identity()};  ///< From the flight controller.
+  double pressure_pa{};                                          ///< 0 without a barometer.
 };
 
 /// Where the vehicle believes it is.
