@@ -52,30 +52,34 @@ const DeadReckoning::Felt& DeadReckoning::felt_at(MissionTime t) const {
   return after == felt_.end() ? felt_.back() : *after;
 }
 
-/// Noise of 3 cm against the error of a fix's speed: the height is the barometer's at once, the
-/// speed when the fix's is too old.
-void DeadReckoning::climb(PoseEstimate& estimate, double age_s) const {
-  const double z_then_m = (fix_ ? fix_->X_WB : X_WB_start_).translation().z();
-  estimate.X_WB.translation().z() = z_then_m + climb_.height_m() - height_then_m_;
-  if (age_s >= coasting_s) {
-    estimate.v_WB.z() = climb_.climb_m_s();
+/// A barometer's noise of 3 cm against the error of a fix's speed: the height is the barometer's.
+Pose DeadReckoning::pose_at(MissionTime t) const {
+  Pose X_WB = fix_ ? fix_->X_WB : X_WB_start_;
+  if (felt_.empty()) {
+    return X_WB;
   }
+  const double z_then_m = X_WB.translation().z();
+  const Felt& then = felt_at(t);
+  if (fix_) {
+    const double age_s = to_seconds(t - fix_->captured);
+    X_WB.translation() += std::clamp(age_s, 0.0, coasting_s) * fix_->v_WB;
+    const Eigen::Quaterniond turned = felt_at(fix_->captured).q_WB.conjugate() * then.q_WB;
+    X_WB.linear() =
+        (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
+  }
+  if (has_barometer_) {
+    X_WB.translation().z() = z_then_m + then.height_m - height_then_m_;
+  }
+  return X_WB;
 }
 
 PoseEstimate DeadReckoning::estimate(const NavigationSample& sample) {
   feel(sample);
-  PoseEstimate estimate{sample.stamp, X_WB_start_, Vec3::Zero()};
-  const double age_s = fix_ ? to_seconds(sample.stamp - fix_->captured) : coasting_s;
-  if (fix_) {
-    estimate.v_WB = age_s < coasting_s ? fix_->v_WB : Vec3::Zero();
-    estimate.X_WB = fix_->X_WB;
-    estimate.X_WB.translation() += std::clamp(age_s, 0.0, coasting_s) * fix_->v_WB;
-    const Eigen::Quaterniond turned = felt_at(fix_->captured).q_WB.conjugate() * felt_.back().q_WB;
-    estimate.X_WB.linear() =
-        (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
-  }
-  if (has_barometer_) {
-    climb(estimate, age_s);
+  PoseEstimate estimate{sample.stamp, pose_at(sample.stamp), Vec3::Zero()};
+  if (fix_ && to_seconds(sample.stamp - fix_->captured) < coasting_s) {
+    estimate.v_WB = fix_->v_WB;
+  } else if (has_barometer_) {
+    estimate.v_WB.z() = climb_.climb_m_s();
   }
   return estimate;
 }

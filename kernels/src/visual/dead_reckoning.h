@@ -22,6 +22,9 @@ class DeadReckoning {
   void start(const Pose& X_WB);
   void correct(const VisualFix& fix);
   [[nodiscard]] PoseEstimate estimate(const NavigationSample& sample);
+  /// Where it was at a time of the last five seconds, as far as is known now.
+  [[nodiscard]] Pose pose_at(MissionTime t) const;
+  [[nodiscard]] bool knows_height() const { return has_barometer_; }
 
  private:
   struct Felt {
@@ -31,7 +34,6 @@ class DeadReckoning {
   };
   void feel(const NavigationSample& sample);
   [[nodiscard]] const Felt& felt_at(MissionTime t) const;
-  void climb(PoseEstimate& estimate, double age_s) const;
 
   std::deque<Felt> felt_;  ///< In the last seconds.
   ClimbFilter climb_{};
