@@ -167,7 +167,7 @@ void ClosedLoop::publish_navigation() {
 
 void ClosedLoop::publish_depth() {
   const Pose& X_WB = vehicle_.state().X_WB;
-  const Pose X_WC = camera_pose(X_WB);
+  const Pose X_WC = camera_pose(X_WB, context_.scenario.camera);
   const std::uint64_t number = frame_count_++;
   const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
   if (context_.view) {

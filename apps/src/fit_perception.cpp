@@ -21,7 +21,7 @@ MissionBrief brief_of(const World& world) {
 
 Status Perception::look(const Pose& X_WB, KernelLoads& loads) {
   Work points;
-  X_WC_ = camera_pose(X_WB);
+  X_WC_ = camera_pose(X_WB, context_.scenario.camera);
   view_ = context_.kernels.point_cloud->build(camera_.frame(X_WC_, MissionTime{}, frames_++),
                                               range_m(), points);
   loads[context_.scenario.kernels.point_cloud].calls.push_back(points);

@@ -77,6 +77,12 @@ Fields camera_fields() {
        "noise of an RGB-D camera, growing with depth"},
       {"camera.extra_noise_m", &at<in, &C::extra_noise_m>, 0, 10,
        "standard deviation added at every depth"},
+      {"camera.count", &at<in, &C::count>, 1, 12,
+       "cameras around one place, evenly; the first one looks ahead"},
+      {"camera.forward_m", &at<in, &C::forward_m>, -2, 2, "of that place, from the body's centre"},
+      {"camera.up_m", &at<in, &C::up_m>, -2, 2, "as forward_m"},
+      {"camera.pitch_down_rad", &at<in, &C::pitch_down_rad>, -1.5, 1.5,
+       "of each camera, from level"},
   };
 }
 
