@@ -4,6 +4,7 @@
 #include "flight_recorder.h"
 #include "sub_goal.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flyball {
@@ -21,6 +22,8 @@ constexpr double least_lead_s = 0.1;
 constexpr double most_lead_s = 3.0;
 constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
 constexpr double arrival_m = 0.3;
+// Out of what reaches into the tube; farther than the tube is wide it would need a path.
+constexpr std::array<double, 4> aside_m{0.005, 0.015, 0.03, 0.06};
 constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
 constexpr double least_lead_in_m = 0.3;
@@ -172,9 +175,28 @@ void Navigator::trust_own_place() {
   context_.kernels.mapper->declare_clear(follower_.position_W(), context_.narrow_body());
 }
 
+// What is occupied stays so: a millimetre of it in the tube, and no plan would ever begin here.
+void Navigator::step_aside() {
+  const auto is_blocked = [&](const Vec3& p_W) {
+    return context_.map().body_state(p_W, context_.narrow_body()) == CellState::occupied;
+  };
+  const Vec3 here_W = follower_.position_W();
+  constexpr double eighth_rad = 0.7853981633974483;
+  for (const double step_m : aside_m) {
+    for (int turn = 0; turn < 8 && is_blocked(follower_.position_W()); ++turn) {
+      const double yaw_rad = turn * eighth_rad;
+      const Vec3 p_W = here_W + step_m * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
+      if (!is_blocked(p_W)) {
+        hover_at(p_W, follower_.yaw_rad());
+      }
+    }
+  }
+}
+
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   ++context_.counters.planner_failures_in_row;
   if (planned.failure == "start blocked" && at_rest_since_) {
+    step_aside();
     trust_own_place();
   }
   not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});

@@ -76,6 +76,7 @@ class Navigator {
   [[nodiscard]] bool is_leg_ending() const;
   [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
+  void step_aside();
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] double lead_s() const;
   [[nodiscard]] double last_stop_m() const;

@@ -9,9 +9,10 @@
 
 namespace flyball {
 
-/// One request, with the tube that cruise speed needs where it fits, else with a narrower one. If
-/// the way found is a detour, a much shorter one is looked for with the narrowest tube: the first
-/// path of a sampling planner goes around a house as likely as through its door.
+/// One request, with the tube that cruise speed needs, and room beside it, where both fit, else
+/// with a narrower one; all within the knob `planner.budget`. If the way found is a detour, a much
+/// shorter one is looked for with the narrowest tube: the first path of a sampling planner goes
+/// around a house as likely as through its door.
 ///
 /// @param body  Out: for which the plan was found.
 /// @return      Its work is that of all attempts.

@@ -188,6 +188,30 @@ TEST(Navigator, calls_the_place_clear_where_it_rests_when_a_plan_cannot_begin_th
   EXPECT_LT((trip.rig.mapper->declared_W[0] - Vec3{0, 0, 1.5}).norm(), 1e-9);
 }
 
+TEST(Navigator, steps_out_of_what_reaches_into_its_tube_when_a_plan_cannot_begin_there) {
+  Trip trip;
+  const double radius_m = trip.rig.context->narrow_body().radius_m;
+  // The cell's border is a centimetre inside of the tube.
+  const double inside_m = 0.01;
+  trip.navigator.hover_at(Vec3{0, 3.0 - 0.15 - radius_m + inside_m, 1.5}, 0.0);
+  trip.map.fill({Vec3{-2, 2.85, 0}, Vec3{60, 3, 3}}, CellState::occupied);
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.tick(60);
+  const Cylinder body = trip.rig.context->narrow_body();
+  const Vec3 before_W = trip.navigator.follower().position_W();
+  ASSERT_EQ(trip.map.body_state(before_W, body), CellState::occupied);
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.navigator.path_planned(trip.now, {query->id, {}, "start blocked"});
+  trip.tick(60);
+  const Vec3 after_W = trip.navigator.follower().position_W();
+  EXPECT_NE(trip.map.body_state(after_W, body), CellState::occupied);
+  EXPECT_LT((after_W - before_W).norm(), 0.031);
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_LT((again->start_W - after_W).norm(), 1e-9);
+}
+
 TEST(Navigator, counts_a_plan_that_led_nowhere_as_failed_until_it_moves) {
   Trip trip;
   const auto fly_for = [&](int ticks) {

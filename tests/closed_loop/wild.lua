@@ -2,7 +2,10 @@
 --
 -- Random and extreme wishes for every knob, now and then none that makes sense at all: whatever it
 -- says, the vehicle may lose time but must not touch anything. A test flies some missions with it;
--- for many: flyball compare SCENARIO --policies tests/closed_loop/wild.lua --seeds 1..200
+-- for many (200 of these: no collision, 140 end by the limit of time; 2 minutes on one core):
+--   flyball compare delivery_forest --policies tests/closed_loop/wild.lua --seeds 1..200 --set kernels.mapper=flyball
+--     --set kernels.mapper_parameters.cost_of=octomap --set world.goal_distance_m=20 --set world.width_m=20
+--     --set camera.width_px=32 --set camera.height_px=18 --set mission.time_limit_s=40
 
 description = "Random and extreme wishes"
 
