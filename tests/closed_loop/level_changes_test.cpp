@@ -66,5 +66,21 @@ TEST(LevelChanges, keep_what_was_seen_at_the_finest_level) {
   EXPECT_GE(static_cast<double>(kept), 0.98 * static_cast<double>(before.size()));
 }
 
+/// Of a flight with this mapper at the price of stock OctoMap.
+std::string trace_hash(const std::string& mapper, std::map<std::string, ParameterValue> chosen) {
+  Scenario scenario = among_trees();
+  scenario.world.parameters["goal_distance_m"] = 20.0;
+  scenario.kernels.mapper = mapper;
+  scenario.kernels.mapper_parameters = std::move(chosen);
+  return kit::flown(scenario).summary.trace_hash;
+}
+
+TEST(LevelChanges, give_the_stock_kernels_flight_where_each_resolution_has_its_layer) {
+  const ParameterValue stock{std::string{"stock"}};
+  const ParameterValue octomap{std::string{"octomap"}};
+  EXPECT_EQ(trace_hash("flyball", {{"layers", stock}, {"cost_of", octomap}}),
+            trace_hash("octomap", {}));
+}
+
 }  // namespace
 }  // namespace flyball

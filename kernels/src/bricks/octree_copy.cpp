@@ -7,20 +7,17 @@
 namespace flyball {
 namespace {
 
-// A brick's miss of 12 steps is OctoMap's log(.4 / .6) = -.405, its hit of 25 is log(.7 / .3) =
-// .847.
-constexpr float steps_per_log_odds = 29.6F;
 constexpr unsigned tree_depth = 16;
 constexpr unsigned chunk_depth = tree_depth - chunk_level;
 
 float log_odds_of(std::int8_t cell) {
-  return static_cast<float>(cell) / steps_per_log_odds;
+  return static_cast<float>(cell) / log_odds_steps;
 }
 
 /// Rounding never makes a free cell occupied, nor the other way round.
 std::int8_t cell_of(float log_odds, bool is_occupied) {
   const float steps =
-      std::nearbyint(std::clamp(log_odds * steps_per_log_odds, static_cast<float>(log_odds::least),
+      std::nearbyint(std::clamp(log_odds * log_odds_steps, static_cast<float>(log_odds::least),
                                 static_cast<float>(log_odds::most)));
   const auto cell = static_cast<int>(steps);
   return static_cast<std::int8_t>(is_occupied ? std::max(cell, 0) : std::min(cell, -1));
