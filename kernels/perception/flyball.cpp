@@ -74,6 +74,9 @@ class FlyballMapper final : public flyball::Mapper {
                              std::optional<double> resolution_m) const override {
     return map_->write(path, resolution_m);
   }
+  [[nodiscard]] Status keep_forgotten(const std::string& path) override {
+    return map_->keep_forgotten(path);
+  }
   [[nodiscard]] Status read(const std::string& path) override { return map_->read(path); }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "brick_contents.h"
 #include "brick_view.h"
+#include "chunk_log.h"
 #include "map_file.h"
 #include "pyramid_scan.h"
 #include "ray_scan.h"
@@ -45,7 +46,8 @@ class LatticeMapper final : public Mapper {
         {"most_traversals", 0.0, 0.0, 1e12,
          "cells a scan's rays may cross, near first; 0: no limit"},
         {"keep_radius_m", 0.0, 0.0, 1e5,
-         "what lies farther from the vehicle is forgotten; 0: nothing is"},
+         "what lies farther from the vehicle is forgotten, but for the file of the whole map; 0: "
+         "nothing is"},
     };
   }
 
@@ -90,7 +92,12 @@ class LatticeMapper final : public Mapper {
     if (pending_ != nullptr) {
       map_.apply(pending_->bricks);
       if (keep_radius_m_ > 0.0) {
-        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m));
+        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m),
+                         [this](const Chunk& chunk) {
+                           if (forgotten_) {
+                             forgotten_->append(chunk);
+                           }
+                         });
       }
       view_.activate(pending_level_);
       pending_ = nullptr;
@@ -115,7 +122,25 @@ class LatticeMapper final : public Mapper {
 
   [[nodiscard]] Status write(const std::string& path,
                              std::optional<double> resolution_m) const override {
-    return write_map_file(map_, resolution_m, path);
+    if (!forgotten_ || forgotten_->is_empty()) {
+      return write_map_file(map_, resolution_m, path);
+    }
+    BrickMap whole{map_.lattice().cell_m(0)};
+    if (auto status = forgotten_->add_to(whole); !status) {
+      return status;
+    }
+    for (const auto& chunk : map_.chunks()) {
+      add_chunk(*chunk, whole);
+    }
+    return write_map_file(whole, resolution_m, path);
+  }
+
+  [[nodiscard]] Status keep_forgotten(const std::string& path) override {
+    if (!(keep_radius_m_ > 0.0)) {
+      return Done{};
+    }
+    forgotten_ = std::make_unique<ChunkLog>(path);
+    return forgotten_->status();
   }
 
   [[nodiscard]] Status read(const std::string& path) override {
@@ -223,6 +248,7 @@ class LatticeMapper final : public Mapper {
 
   BrickMap map_{default_finest_m};
   BrickView view_{map_};
+  std::unique_ptr<ChunkLog> forgotten_{};  ///< Null where nothing is, and where nobody asks.
   std::vector<std::unique_ptr<RayScan>> exact_{};  ///< One for each level, which sets its counts.
   std::unique_ptr<RayScan> close_{};
   std::unique_ptr<PyramidScan> pyramid_{};
