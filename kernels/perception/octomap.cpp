@@ -23,7 +23,6 @@ using flyball::Status;
 class TreeStore {
  public:
   using Cells = octomap::OcTree;
-  using Key = octomap::OcTreeKey;
 
   explicit TreeStore(double cell_m) : tree_{std::make_unique<octomap::OcTree>(cell_m)} {
     tree_->setClampingThresMin(0.12);  // both as in MAVBench's code
@@ -35,15 +34,13 @@ class TreeStore {
 
   void write(const std::vector<flyball::BrickMasks>& masks) { record_.write(masks, *tree_); }
 
-  [[nodiscard]] std::optional<Key> key_of(const octomap::point3d& hit_W) const {
-    Key key;
-    return tree_->coordToKeyChecked(hit_W, key) ? std::optional{key} : std::nullopt;
-  }
-  [[nodiscard]] bool is_confirmed(const Key& key) const {
-    const octomap::OcTreeNode* node = tree_->search(key);
+  [[nodiscard]] bool is_confirmed(const flyball::CellKey& cell) const {
+    const octomap::OcTreeNode* node = tree_->search(key_of(cell));
     return node != nullptr && node->getLogOdds() >= flyball::confirmed_log_odds;
   }
-  void confirm(const Key& key) { tree_->setNodeValue(key, flyball::confirmed_log_odds); }
+  void confirm(const flyball::CellKey& cell) {
+    tree_->setNodeValue(key_of(cell), flyball::confirmed_log_odds);
+  }
 
   void add_to(flyball::ClearCells& clear) const { clear.add(*tree_); }
 
@@ -73,6 +70,11 @@ class TreeStore {
   }
 
  private:
+  static octomap::OcTreeKey key_of(const flyball::CellKey& cell) {
+    const auto key = [](int k) { return static_cast<octomap::key_type>(k); };
+    return {key(cell.x), key(cell.y), key(cell.z)};
+  }
+
   std::unique_ptr<octomap::OcTree> tree_;  ///< It cannot be moved.
   flyball::OctreeRecord record_{};
 };

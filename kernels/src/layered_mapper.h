@@ -9,14 +9,14 @@
 /// A store has
 ///   Store(cell_m), cells()             what LayeredView looks at; empty at first
 ///   write(masks)                       of one scan
-///   Key, key_of(hit_W)                 of a cell; nothing beyond the last one
-///   is_confirmed(key), confirm(key)    whether a cell is occupied beyond doubt; makes it so
+///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
 ///   add_to(clear)                      tells all that it knows
 ///   counts(), bytes()                  as in MapContents
 ///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
 
 #include "flyball/kernels/mapper.h"
 
+#include "bricks/bits.h"
 #include "bricks/clear_cells.h"
 #include "bricks/ray_scan.h"
 #include "layered_view.h"
@@ -25,7 +25,6 @@
 #include <cmath>
 #include <exception>
 #include <memory>
-#include <optional>
 
 namespace flyball {
 
@@ -71,7 +70,7 @@ class LayeredMapper final : public Mapper {
         }
       }
       if (pending_->is_wide()) {
-        pending_->confirm(scan_.hits_W);
+        pending_->confirm(masks_->bricks);
       }
       pending_->show_in(view_);
       pending_ = nullptr;
@@ -161,17 +160,13 @@ class LayeredMapper final : public Mapper {
       }
     }
 
-    void confirm(const std::vector<octomap::point3d>& hits_W) {
-      std::optional<typename Store::Key> last;
-      for (const octomap::point3d& hit_W : hits_W) {
-        const auto key = store.key_of(hit_W);
-        // Neighbouring pixels mostly hit the same cell.
-        if (!key || key == last) {
-          continue;
-        }
-        last = key;
-        if (store.is_confirmed(*key) && !walls.is_confirmed(*key)) {
-          walls.confirm(*key);
+    void confirm(const std::vector<BrickMasks>& changes) {
+      for (const BrickMasks& change : changes) {
+        for (std::uint64_t left = change.hit; left != 0; left &= left - 1) {
+          const CellKey cell = cell_of(change.brick, static_cast<unsigned>(lowest_bit(left)));
+          if (store.is_confirmed(cell) && !walls.is_confirmed(cell)) {
+            walls.confirm(cell);
+          }
         }
       }
     }

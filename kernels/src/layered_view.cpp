@@ -2,6 +2,7 @@
 // tested-in: octomap_view
 #include "layered_view.h"
 
+#include "bricks/box_words.h"
 #include "bricks/brick_walk.h"
 #include "bricks/obstacle_columns.h"
 #include "octree_walk.h"
@@ -37,6 +38,28 @@ OctreeWalk walk_in(const octomap::OcTree& tree) {
 }
 BrickWalk walk_in(const BrickMap& map) {
   return BrickWalk{map, 0};
+}
+
+/// What a box of cells in a map has, as far as a look at whole bricks tells.
+struct Glance {
+  bool may_have_occupied{true};
+  bool may_have_unknown{true};
+};
+
+Glance glance_at(const octomap::OcTree& /*tree*/, const Aabb& /*box*/) {
+  return {};
+}
+Glance glance_at(const BrickMap& map, const Aabb& box) {
+  KeyBox keys;
+  if (!keys_in(map.lattice(), box, touch_m, keys) || keys.is_empty()) {
+    return {};
+  }
+  const BoxBricks bricks{keys};
+  if (!bricks.fits()) {
+    return {};
+  }
+  const BoxWords words{map, 0, bricks};
+  return {words.may_have_occupied(), words.may_have_unknown()};
 }
 
 template <class Visit>
@@ -91,12 +114,27 @@ CellState LayeredView<Cells>::body_state(const Vec3& p_WB, const Cylinder& body)
     return CellState::unknown;
   }
   const BodyShape shape{p_WB, body};
+  if (is_plainly_free(shape.bounds())) {
+    return CellState::free;
+  }
   if (hits(shape, Use::move)) {
     return CellState::occupied;
   }
   const auto is_open = [&](const Aabb& part) { return !clear_.cover(part, shape); };
   return any_gap({layers_.size(), Use::move}, shape.bounds(), shape, is_open) ? CellState::unknown
                                                                               : CellState::free;
+}
+
+/// The usual case in the open: maps without an obstacle there, up to one that knows all of it.
+template <class Cells>
+bool LayeredView<Cells>::is_plainly_free(const Aabb& box) const {
+  for (std::size_t layer = 0; layer < layers_.size() && !is_vague(layer, Use::move); ++layer) {
+    const Glance seen = glance_at(*layers_[layer].cells, box);
+    if (seen.may_have_occupied || !seen.may_have_unknown) {
+      return !seen.may_have_occupied;
+    }
+  }
+  return false;
 }
 
 template <class Cells>

@@ -87,6 +87,7 @@ class LayeredView final : public OccupancyView {
   [[nodiscard]] bool is_vague(std::size_t layer, Use use) const;
   /// Of a layer that answers for a finer one: where its free cells stand. Else null.
   [[nodiscard]] const octomap::OcTree* trusted(std::size_t layer, Use use) const;
+  [[nodiscard]] bool is_plainly_free(const Aabb& box) const;
   /// Shows the parts of `region` in the shape that none of the first `layers.count` maps knows.
   template <class Shape, class Show>
   [[nodiscard]] bool any_gap(Layers layers,

@@ -15,7 +15,6 @@ namespace flyball {
 class BrickStore {
  public:
   using Cells = BrickMap;
-  using Key = CellKey;
 
   explicit BrickStore(double cell_m) : map_{cell_m} {}
 
@@ -24,18 +23,14 @@ class BrickStore {
 
   void write(const std::vector<BrickMasks>& masks) { map_.apply(masks); }
 
-  [[nodiscard]] std::optional<Key> key_of(const octomap::point3d& hit_W) const {
-    const Vec3 p_W{hit_W.x(), hit_W.y(), hit_W.z()};
-    return map_.lattice().contains(p_W) ? std::optional{map_.lattice().cell(p_W)} : std::nullopt;
-  }
-  [[nodiscard]] bool is_confirmed(const Key& key) const {
+  [[nodiscard]] bool is_confirmed(const CellKey& cell) const {
     constexpr auto steps = static_cast<std::int8_t>(confirmed_log_odds * log_odds_steps);
-    const Chunk& chunk = map_.chunk_at(key.above(chunk_level));
-    return chunk.bricks[brick_number(key.above(brick_level))].cells[bit_in_brick(key)] >= steps;
+    const Chunk& chunk = map_.chunk_at(cell.above(chunk_level));
+    return chunk.bricks[brick_number(cell.above(brick_level))].cells[bit_in_brick(cell)] >= steps;
   }
-  void confirm(const Key& key) {
-    const BrickMasks hit{key.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(key)};
-    while (!is_confirmed(key)) {
+  void confirm(const CellKey& cell) {
+    const BrickMasks hit{cell.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(cell)};
+    while (!is_confirmed(cell)) {
       map_.apply({hit});
     }
   }
