@@ -45,6 +45,34 @@ std::int8_t most_in(const Chunk& chunk, const CellKey& cell, int level) {
   return most;
 }
 
+void prune_below(octomap::OcTreeNode* node, octomap::OcTree& tree) {
+  if (tree.nodeHasChildren(node)) {
+    for (unsigned child = 0; child < 8; ++child) {
+      if (tree.nodeChildExists(node, child)) {
+        prune_below(tree.getNodeChild(node, child), tree);
+      }
+    }
+    (void)tree.pruneNode(node);
+  }
+}
+
+/// The part of the tree that a chunk fills: without this a map would need ten times its memory.
+void prune_chunk(const CellKey& chunk, int level, octomap::OcTree& tree) {
+  const octomap::OcTreeKey key =
+      coarse_key({chunk.x << (chunk_level - level), chunk.y << (chunk_level - level),
+                  chunk.z << (chunk_level - level)},
+                 level);
+  octomap::OcTreeNode* node = tree.getRoot();
+  for (int depth = tree_depth - 1; node != nullptr && depth >= chunk_level - level; --depth) {
+    const unsigned child = octomap::computeChildIdx(key, depth);
+    const bool exists = tree.nodeHasChildren(node) && tree.nodeChildExists(node, child);
+    node = exists ? tree.getNodeChild(node, child) : nullptr;
+  }
+  if (node != nullptr) {
+    prune_below(node, tree);
+  }
+}
+
 void add_chunk(const BrickMap& map, const Chunk& chunk, int level, octomap::OcTree& tree) {
   const int edge = 1 << (chunk_level - level);
   for (int z = 0; z < edge; ++z) {
@@ -113,6 +141,7 @@ std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level) {
   tree->setClampingThresMax(0.97);
   for (const auto& chunk : map.chunks()) {
     add_chunk(map, *chunk, level, *tree);
+    prune_chunk(chunk->key, level, *tree);
   }
   tree->updateInnerOccupancy();
   tree->prune();
