@@ -73,16 +73,31 @@ void prune_chunk(const CellKey& chunk, int level, octomap::OcTree& tree) {
   }
 }
 
-void add_chunk(const BrickMap& map, const Chunk& chunk, int level, octomap::OcTree& tree) {
+struct CellsToAdd {
+  int level;
+  TreeCells kind;
+};
+
+void add_chunk(const BrickMap& map,
+               const Chunk& chunk,
+               const CellsToAdd& wanted,
+               octomap::OcTree& tree) {
+  const int level = wanted.level;
   const int edge = 1 << (chunk_level - level);
   for (int z = 0; z < edge; ++z) {
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
         const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
-        if (map.state(cell, level) != CellState::unknown) {
-          tree.setNodeValue(coarse_key(cell, level), log_odds_of(most_in(chunk, cell, level)),
-                            true);
+        const CellState state = map.state(cell, level);
+        if (state == CellState::unknown) {
+          continue;
         }
+        const float likeliest = state == CellState::occupied ? tree.getClampingThresMaxLog()
+                                                             : tree.getClampingThresMinLog();
+        const float value = wanted.kind == TreeCells::likeliest
+                                ? likeliest
+                                : log_odds_of(most_in(chunk, cell, level));
+        tree.setNodeValue(coarse_key(cell, level), value, true);
       }
     }
   }
@@ -135,12 +150,12 @@ void fill_cube(Brick& brick, const CellKey& first, int edge, std::int8_t value) 
 
 }  // namespace
 
-std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level) {
+std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level, TreeCells cells) {
   auto tree = std::make_unique<octomap::OcTree>(map.lattice().cell_m(level));
   tree->setClampingThresMin(0.12);  // both as in MAVBench's code
   tree->setClampingThresMax(0.97);
   for (const auto& chunk : map.chunks()) {
-    add_chunk(map, *chunk, level, *tree);
+    add_chunk(map, *chunk, {level, cells}, *tree);
     prune_chunk(chunk->key, level, *tree);
   }
   tree->updateInnerOccupancy();
