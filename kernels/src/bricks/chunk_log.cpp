@@ -50,6 +50,24 @@ bool read_as_bytes(std::ifstream& file, T& value) {
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
+bool add_entry(std::ifstream& file, BrickMap& map) {
+  Entry entry;
+  if (!read_as_bytes(file, entry)) {
+    return false;
+  }
+  Brick brick{};
+  for (std::size_t number = 0; number < 512; ++number) {
+    if (!has(entry.known, number)) {
+      continue;
+    }
+    if (!read_as_bytes(file, brick)) {
+      return false;
+    }
+    add_brick(key_of(entry.chunk, number), brick, map);
+  }
+  return true;
+}
+
 }  // namespace
 
 ChunkLog::ChunkLog(std::string path)
@@ -84,17 +102,8 @@ Status ChunkLog::add_to(BrickMap& map) {
     return written;
   }
   std::ifstream file{path_, std::ios::binary};
-  Entry entry;
-  Brick brick;
   for (std::size_t i = 0; i < chunks_; ++i) {
-    bool is_read = read_as_bytes(file, entry);
-    for (std::size_t number = 0; is_read && number < 512; ++number) {
-      if (has(entry.known, number)) {
-        is_read = read_as_bytes(file, brick);
-        add_brick(key_of(entry.chunk, number), brick, map);
-      }
-    }
-    if (!is_read) {
+    if (!add_entry(file, map)) {
       return Error{ErrorCode::failed, "what the map forgot cannot be read from \"" + path_ + "\""};
     }
   }

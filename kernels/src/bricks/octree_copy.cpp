@@ -78,6 +78,20 @@ struct CellsToAdd {
   TreeCells kind;
 };
 
+struct CellOf {
+  const Chunk& chunk;
+  const CellKey& cell;
+  const CellsToAdd& wanted;
+};
+
+float value_of(const CellOf& of, const octomap::OcTree& tree) {
+  const float log_odds = log_odds_of(most_in(of.chunk, of.cell, of.wanted.level));
+  if (of.wanted.kind == TreeCells::log_odds) {
+    return log_odds;
+  }
+  return log_odds < 0.0F ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog();
+}
+
 void add_chunk(const BrickMap& map,
                const Chunk& chunk,
                const CellsToAdd& wanted,
@@ -88,16 +102,9 @@ void add_chunk(const BrickMap& map,
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
         const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
-        const CellState state = map.state(cell, level);
-        if (state == CellState::unknown) {
-          continue;
+        if (map.state(cell, level) != CellState::unknown) {
+          tree.setNodeValue(coarse_key(cell, level), value_of({chunk, cell, wanted}, tree), true);
         }
-        const float likeliest = state == CellState::occupied ? tree.getClampingThresMaxLog()
-                                                             : tree.getClampingThresMinLog();
-        const float value = wanted.kind == TreeCells::likeliest
-                                ? likeliest
-                                : log_odds_of(most_in(chunk, cell, level));
-        tree.setNodeValue(coarse_key(cell, level), value, true);
       }
     }
   }
