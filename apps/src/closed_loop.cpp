@@ -47,6 +47,7 @@ ClosedLoop::ClosedLoop(MissionContext& context,
                context.scenario.vehicle.battery_charge},
       camera_{world, context.scenario.camera, context.scenario.seed},
       gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
+      barometer_{context.scenario.barometer, EarthOrigin{}.height_m, context.scenario.seed},
       imu_{ImuSpec{}, context.scenario.seed},
       clearance_{world},
       movers_{world.movers},
@@ -157,14 +158,16 @@ void ClosedLoop::publish_navigation() {
       1, static_cast<std::uint64_t>(std::lround(
              1.0 / (context_.scenario.gps.rate_hz * to_seconds(Duration{navigation_period})))));
   const bool with_fix = navigation_count_++ % per_fix == 0;
-  executor_.publish(topics_.navigation, gps_.sample(vehicle_.state(), queue_.now(), with_fix));
+  NavigationSample sample = gps_.sample(vehicle_.state(), queue_.now(), with_fix);
+  sample.pressure_pa = barometer_.sample(vehicle_.state().X_WB.translation().z(), queue_.now());
+  executor_.publish(topics_.navigation, sample);
   executor_.publish(topics_.status,
                     FlightStatus{is_airborne(), controller_.is_done(vehicle_.state())});
 }
 
 void ClosedLoop::publish_depth() {
   const Pose& X_WB = vehicle_.state().X_WB;
-  const Pose X_WC = camera_pose(X_WB);
+  const Pose X_WC = camera_pose(X_WB, context_.scenario.camera);
   const std::uint64_t number = frame_count_++;
   const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
   if (context_.view) {

@@ -5,6 +5,7 @@
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
 #include "flyball/runtime/virtual_executor.h"
+#include "flyball/sim/barometer.h"
 #include "flyball/sim/battery.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/flight_controller.h"
@@ -70,6 +71,7 @@ class ClosedLoop {
   Battery battery_;
   DepthCamera camera_;
   Gps gps_;
+  Barometer barometer_;
   Imu imu_;
   Clearance clearance_;
   std::vector<Mover> movers_;

@@ -55,7 +55,8 @@ class LeastPower {
 /// Eq. 2 with the longest range free and the least latency.
 double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
   Work pixels;
-  pixels.add("pixels", static_cast<double>(scenario.camera.width_px) * scenario.camera.height_px);
+  const DepthCameraSpec& camera = scenario.camera;
+  pixels.add("pixels", static_cast<double>(camera.count) * camera.width_px * camera.height_px);
   const Duration least = Guard{GuardSettings{}}.reaction_time() +
                          setup.platform->job_time(scenario.kernels.point_cloud, pixels,
                                                   setup.platform->frequencies().back());

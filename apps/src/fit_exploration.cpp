@@ -4,6 +4,7 @@
 
 #include "exploration_flight.h"
 #include "fit_perception.h"
+#include "fit_sight.h"
 #include "mission_setup.h"
 #include "plan_with_tubes.h"
 
@@ -17,6 +18,7 @@ class Exploration {
   Exploration(const ExplorationScene& scene, MissionContext& context, const World& world)
       : scene_{scene},
         context_{context},
+        world_{world},
         perception_{context, world},
         judge_{make_judge(context)},
         here_{world.start_W + Vec3::UnitZ() * world.cruise_height_m,
@@ -37,6 +39,9 @@ class Exploration {
         return seen.error();
       }
       ++loads_.views;
+    }
+    if (const Status seen = see(stretches_, scene_.scenario, world_, loads_.kernels); !seen) {
+      return seen.error();
     }
     return std::move(loads_);
   }
@@ -77,8 +82,12 @@ class Exploration {
     const Path path = Path::polyline(plan.waypoints_W);
     for (double s_m = look_every_m; s_m < path.length_m(); s_m += look_every_m) {
       const Path::Sample on_way = path.at(s_m);
-      if (const Status seen = look({on_way.p_W, yaw_of(on_way.tangent_W)}); !seen) {
+      const Viewpoint ahead{on_way.p_W, yaw_of(on_way.tangent_W)};
+      if (const Status seen = look(ahead); !seen) {
         return seen;
+      }
+      if (scene_.sight_every > 0 && looks_++ % scene_.sight_every == 0) {
+        stretches_.push_back({looking(ahead.p_W, ahead.yaw_rad), scene_.speed_m_s, scene_.sight_s});
       }
     }
     here_ = next;
@@ -88,25 +97,36 @@ class Exploration {
 
   const ExplorationScene& scene_;
   MissionContext& context_;
+  const World& world_;
   Perception perception_;
   std::unique_ptr<ExplorationJudge> judge_;
   Viewpoint here_{};
   std::vector<Viewpoint> taken_{};
   std::vector<Vec3> unreachable_W_{};
+  std::vector<Stretch> stretches_{};
   ExplorationLoads loads_{};
   int asked_{};
+  int looks_{};  ///< On ways.
 };
+
+Scenario exploration_of(const char* world) {
+  Scenario scenario;
+  scenario.name = "platform_fit";
+  scenario.seed = 1;
+  scenario.world.generator = world;
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
+  return scenario;
+}
 
 }  // namespace
 
 ExplorationScene scene_c() {
-  Scenario scenario;
-  scenario.name = "platform_fit";
-  scenario.seed = 1;
-  scenario.world.generator = "office";
-  scenario.kernels.mapper = "flyball";
-  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
-  return {scenario, 100};
+  return {exploration_of("office"), 100, 0, 0.0, 0.0};
+}
+
+ExplorationScene scene_d() {
+  return {exploration_of("collapsed_building"), 100, 4, 1.0, 1.0};
 }
 
 Result<ExplorationLoads> record(const ExplorationScene& scene) {

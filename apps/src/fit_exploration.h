@@ -13,10 +13,15 @@ namespace flyball {
 struct ExplorationScene {
   Scenario scenario{};
   int most_views{};
+  int sight_every{};   ///< From one look on the way in so many a localizer sees the way ahead,
+  double sight_s{};    ///< for so long; never when `sight_every` is 0,
+  double speed_m_s{};  ///< at the speed that the world allows.
 };
 
 /// The shipped mapping_office, seed 1.
 [[nodiscard]] ExplorationScene scene_c();
+/// The shipped search_collapsed_building, seed 1, searched all over.
+[[nodiscard]] ExplorationScene scene_d();
 
 struct ExplorationLoads {
   KernelLoads kernels{};

@@ -3,6 +3,7 @@
 #include "fit_perception.h"
 
 #include "perception_nodes.h"
+#include "scenario_parameters.h"
 
 namespace flyball {
 
@@ -20,7 +21,7 @@ MissionBrief brief_of(const World& world) {
 
 Status Perception::look(const Pose& X_WB, KernelLoads& loads) {
   Work points;
-  X_WC_ = camera_pose(X_WB);
+  X_WC_ = camera_pose(X_WB, context_.scenario.camera);
   view_ = context_.kernels.point_cloud->build(camera_.frame(X_WC_, MissionTime{}, frames_++),
                                               range_m(), points);
   loads[context_.scenario.kernels.point_cloud].calls.push_back(points);
@@ -31,7 +32,7 @@ Status Perception::look(const Pose& X_WB, KernelLoads& loads) {
   if (!work) {
     return work.error();
   }
-  loads[context_.scenario.kernels.mapper].calls.push_back(*work);
+  loads[mapper_cost(context_.scenario.kernels)].calls.push_back(*work);
   context_.kernels.mapper->commit();
   return Done{};
 }

@@ -43,7 +43,7 @@ Result<std::vector<VisualFrame>> frames_of(const Stretch& stretch,
   for (int i = 0; i < static_cast<int>(std::lround(stretch.duration_s * rate_hz)); ++i) {
     Pose X_WB = stretch.X_WB;
     X_WB.translation() += X_WB.linear().col(0) * flown_m(stretch, i / rate_hz);
-    const Pose X_WC = camera_pose(X_WB);
+    const Pose X_WC = camera_pose(X_WB, scenario.camera);
     const MissionTime now{from_seconds(i / rate_hz)};
     const auto sequence = static_cast<std::uint64_t>(i);
     View view;

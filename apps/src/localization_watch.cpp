@@ -35,6 +35,7 @@ void LocalizationWatch::fixed(MissionTime now, const VisualFix& fix) {
   } else if (fix.tracked && lost_since_) {
     lost_s_ += to_seconds(now - *lost_since_);
     lost_since_.reset();
+    search_height_W_m_.reset();
   }
 }
 
@@ -67,7 +68,7 @@ const PoseEstimate& LocalizationWatch::passed_before(double path_m) const {
   return trail_[i];
 }
 
-std::optional<Setpoint> LocalizationWatch::search(MissionTime now) {
+std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height_W_m) {
   if (!lost_since_ || trail_.empty()) {
     return std::nullopt;
   }
@@ -77,7 +78,9 @@ std::optional<Setpoint> LocalizationWatch::search(MissionTime now) {
       passed_before(std::clamp(back_since_s * back_speed_m_s, 0.0, way_back_m));
   Setpoint setpoint;
   setpoint.stamp = now;
+  search_height_W_m_ = search_height_W_m_.value_or(height_W_m);
   setpoint.p_WB = at.X_WB.translation();
+  setpoint.p_WB.z() = *search_height_W_m_;
   setpoint.yaw_rad = wrap_angle(yaw_of(at.X_WB.linear().col(0)) + look_aside(since_s - stop_s) +
                                 look_aside(back_since_s - back_s));
   return setpoint;

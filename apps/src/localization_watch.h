@@ -29,8 +29,9 @@ class LocalizationWatch {
 
   /// While lost: it stops where it last knew that it was, looks to both sides, flies back three
   /// metres of its own path, and looks again. Positions are the flight controller's, which holds
-  /// them without the companion computer.
-  [[nodiscard]] std::optional<Setpoint> search(MissionTime now);
+  /// them without the companion computer. It stays as high as it was when the search began: by then
+  /// it may have climbed.
+  [[nodiscard]] std::optional<Setpoint> search(MissionTime now, double height_W_m);
 
   /// `localization_error_m_mean`, `_max`, `localization_lost` (times), `localization_lost_s`;
   /// without an estimate none, without images only the errors.
@@ -42,6 +43,7 @@ class LocalizationWatch {
 
   std::deque<PoseEstimate> trail_{};  ///< A decimetre apart, newest last.
   std::optional<MissionTime> lost_since_{};
+  std::optional<double> search_height_W_m_{};
   bool has_fixes_{};
   int times_lost_{};
   double lost_s_{};

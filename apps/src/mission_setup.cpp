@@ -94,10 +94,8 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                           nullptr);
 }
 
-}  // namespace
-
-const Registry& all_plugins() {
-  static const Registry registry = [] {
+Registry& plugins() {
+  static Registry registry = [] {
     Registry all;
     register_kernels(all);
     register_policies(all);
@@ -106,6 +104,16 @@ const Registry& all_plugins() {
     return all;
   }();
   return registry;
+}
+
+}  // namespace
+
+const Registry& all_plugins() {
+  return plugins();
+}
+
+void add_plugins(const std::function<void(Registry&)>& add) {
+  add(plugins());
 }
 
 Result<MissionSetup> set_up(const Scenario& scenario) {

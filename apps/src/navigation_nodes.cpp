@@ -19,10 +19,11 @@ Work expected_map_work(const MissionContext& context) {
   const Intrinsics camera = context.scenario.camera.intrinsics();
   const double resolution_m = context.knobs.value("map.resolution_m");
   const double range_m = context.knobs.value("map.range_m");
-  const double rays = static_cast<double>(camera.width_px) * camera.height_px;
+  const int cameras = context.scenario.camera.count;
+  const double rays = static_cast<double>(cameras) * camera.width_px * camera.height_px;
   const double tan_x = 0.5 * camera.width_px / camera.focal_px;
   const double tan_y = 0.5 * camera.height_px / camera.focal_px;
-  const double volume_m3 = 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
+  const double volume_m3 = cameras * 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
   Work work;
   work.add("frame", 1.0);
   work.add("rays", rays);

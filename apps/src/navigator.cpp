@@ -253,7 +253,7 @@ std::optional<Setpoint> Navigator::search_place(MissionTime now, const PoseEstim
   const bool cruises = context_.phase == MissionPhase::cruise;
   if (cruises && context_.localization.is_lost()) {
     is_searching_ = true;
-    return context_.localization.search(now);
+    return context_.localization.search(now, where.X_WB.translation().z());
   }
   if (is_searching_ && goal_W_) {
     hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));

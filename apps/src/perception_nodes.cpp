@@ -110,8 +110,8 @@ void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& co
     }
     const MapperSettings settings{context.knobs.value("map.resolution_m"),
                                   context.knobs.value("map.range_m")};
-    const auto work =
-        context.kernels.mapper->prepare(frame->cloud_C.value(), camera_pose(pose->X_WB), settings);
+    const auto work = context.kernels.mapper->prepare(
+        frame->cloud_C.value(), camera_pose(pose->X_WB, context.scenario.camera), settings);
     if (!work) {
       context.event(job.now(), "frame not mapped: " + work.error().message);
       return Work{};
@@ -158,15 +158,17 @@ std::optional<PoseEstimate> PoseHistory::at(MissionTime t) const {
   return mixed;
 }
 
-Pose camera_pose(const Pose& X_WB) {
+Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera) {
   const double yaw = yaw_of(X_WB.linear().col(0));
   Eigen::Matrix3d R_BC;  // clang-format off
   R_BC << 0, 0, 1,
          -1, 0, 0,
           0, -1, 0;  // clang-format on
+  const Eigen::Matrix3d R_WL = Eigen::AngleAxisd{yaw, Vec3::UnitZ()}.toRotationMatrix();
   Pose X_WC = Pose::Identity();
-  X_WC.linear() = Eigen::AngleAxisd{yaw, Vec3::UnitZ()}.toRotationMatrix() * R_BC;
-  X_WC.translation() = X_WB.translation();
+  X_WC.linear() =
+      R_WL * R_BC * Eigen::AngleAxisd{-camera.pitch_down_rad, Vec3::UnitX()}.toRotationMatrix();
+  X_WC.translation() = X_WB.translation() + R_WL * Vec3{camera.forward_m, 0.0, camera.up_m};
   return X_WC;
 }
 

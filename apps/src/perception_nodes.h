@@ -20,8 +20,8 @@ class PoseHistory {
   std::deque<PoseEstimate> poses_;
 };
 
-/// The camera sits in the body's centre and looks ahead; its mount takes out roll and pitch.
-[[nodiscard]] Pose camera_pose(const Pose& X_WB);
+/// The first camera of the scenario; its mount takes out the body's roll and pitch.
+[[nodiscard]] Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera);
 
 struct PerceptionTopics {
   Topic<PoseEstimate> pose;

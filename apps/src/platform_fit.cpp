@@ -36,6 +36,9 @@ constexpr std::array<PaperTime, 8> fitted_times{{{"depth_to_points", 2.0},
                                                  {"nbvp", 2647.0}}};
 constexpr std::array<PaperTime, 3> mapping_times{
     {{"depth_to_points", 2.0}, {"octomap", 482.0}, {"visual_slam_frames", 46.0}}};
+// Search and rescue.
+constexpr std::array<PaperTime, 4> search_times{
+    {{"depth_to_points", 2.0}, {"octomap", 427.0}, {"visual_slam_frames", 45.0}, {"nbvp", 2693.0}}};
 
 double model_ms(const PlatformModel& model, const char* kernel, const Work& work) {
   return 1e3 * to_seconds(ModeledPlatform{model}.job_time(kernel, work, paper_clock));
@@ -78,11 +81,16 @@ Status fit_kernels(const PlatformModel& model, const KernelLoads& loads, Platfor
   return Done{};
 }
 
-void predict_rooms(const PlatformModel& model, const KernelLoads& loads, PlatformFit& fit) {
-  for (const PaperTime& paper : mapping_times) {
+template <typename Times>
+void predict(const PlatformModel& model,
+             const Times& times,
+             const char* scene,
+             const KernelLoads& loads,
+             PlatformFit& fit) {
+  for (const PaperTime& paper : times) {
     if (const auto load = loads.find(paper.kernel); load != loads.end()) {
       fit.predictions.push_back(
-          {paper.kernel, "rooms", model_ms(model, paper.kernel, load->second.mean()), paper.ms});
+          {paper.kernel, scene, model_ms(model, paper.kernel, load->second.mean()), paper.ms});
     }
   }
 }
@@ -171,12 +179,18 @@ Result<PlatformFit> fit_platform(const std::string& name_or_path) {
     return office.error();
   }
   delivery->kernels.insert({"nbvp", office->kernels.at("nbvp")});
+  const auto ruin = record(scene_d());
+  if (!ruin) {
+    return ruin.error();
+  }
   PlatformFit fit;
   fit.platform = model->name;
   if (const Status fitted = fit_kernels(*model, delivery->kernels, fit); !fitted) {
     return fitted.error();
   }
-  predict_rooms(*model, *rooms, fit);
+  predict(*model, mapping_times, "rooms (mapping)", *rooms, fit);
+  predict(*model, search_times, "rooms (search)", *rooms, fit);
+  predict(*model, search_times, "ruin (search)", ruin->kernels, fit);
   predict_resolution(*model, *delivery, fit);
   return fit;
 }
@@ -184,7 +198,9 @@ Result<PlatformFit> fit_platform(const std::string& name_or_path) {
 std::string to_text(const PlatformFit& fit) {
   std::string text =
       fit.platform + " at " + rounded(1e-9 * paper_clock.value(), 4) +
-      " GHz, outdoors in a delivery (scene A); nbvp while an office is mapped (scene C)\n\n" +
+      " GHz, outdoors in a delivery (scene A); nbvp while an office is mapped (scene C)\n"
+      "predicted in the rooms of its building (scene B) and while a ruin is searched (scene "
+      "D)\n\n" +
       fit_table(fit) + "\n" + prediction_table(fit) + "\n" +
       (fit.is_in_step() ? "Every scale is within 2 % of its fit.\n"
                         : "A scale is over 2 % off its fit. Paste:\n");

@@ -101,6 +101,24 @@ std::string origin_of(const std::string& key, const GivenValues& given) {
   return found == given.end() ? "default" : found->second.origin;
 }
 
+/// A file's parameters are those of the kernel or world that it names: whoever exchanges that one
+/// starts from the other one's defaults.
+void drop_exchanged(const ScenarioText& file, const Groups& groups, GivenValues& given) {
+  for (const ParameterGroup& group : groups) {
+    const auto filed = file.values.find(group.selector);
+    const auto chosen = given.find(group.selector);
+    if (filed == file.values.end() || as_text(filed->second) == as_text(chosen->second)) {
+      continue;
+    }
+    for (const auto& [key, value] : file.values) {
+      const auto now = given.find(key);
+      if (key.rfind(group.prefix, 0) == 0 && now->second.origin == value.origin) {
+        given.erase(now);
+      }
+    }
+  }
+}
+
 void append_parameters(const Scenario& scenario,
                        const Groups& groups,
                        const std::string& selector,
@@ -143,13 +161,15 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
   if (!file) {
     return std::vector<Error>{file.error()};
   }
-  ScenarioText read = read_scenario_file(*file);
+  const ScenarioText filed = read_scenario_file(*file);
+  ScenarioText read = filed;
   for (const std::string& override : overrides) {
     read_override(override, read);
   }
   const Fields fields = scenario_fields();
   Scenario scenario;
   assign_all(scenario, fields, read);
+  drop_exchanged(filed, parameter_groups(scenario), read.values);
   report_unknown_keys(fields, parameter_groups(scenario), read);
   for (const auto& check :
        {read_parameters(scenario, read.values), read_events(scenario, read.values),

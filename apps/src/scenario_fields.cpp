@@ -77,6 +77,12 @@ Fields camera_fields() {
        "noise of an RGB-D camera, growing with depth"},
       {"camera.extra_noise_m", &at<in, &C::extra_noise_m>, 0, 10,
        "standard deviation added at every depth"},
+      {"camera.count", &at<in, &C::count>, 1, 12,
+       "cameras around one place, evenly; the first one looks ahead"},
+      {"camera.forward_m", &at<in, &C::forward_m>, -2, 2, "of that place, from the body's centre"},
+      {"camera.up_m", &at<in, &C::up_m>, -2, 2, "as forward_m"},
+      {"camera.pitch_down_rad", &at<in, &C::pitch_down_rad>, -1.5, 1.5,
+       "of each camera, from level"},
   };
 }
 
@@ -139,6 +145,18 @@ Fields watch_fields() {
        "of the hover, above the ground; 0: standing there with the rotors off"},
       {"watch.longest_s", &at<in, &W::longest_s>, 0.01, 3600,
        "longer between two maps is a failure"},
+  };
+}
+
+Fields barometer_fields() {
+  constexpr auto in = &Scenario::barometer;
+  using B = BarometerSpec;
+  return {
+      {"barometer.white_noise_pa", &at<in, &B::white_noise_pa>, 0, 1000,
+       "standard deviation of one sample; 1.2 Pa are a decimetre"},
+      {"barometer.wander_pa", &at<in, &B::wander_pa>, 0, 10000, "standard deviation of the bias"},
+      {"barometer.wander_time_s", &at<in, &B::wander_time_s>, 0.1, 1e6,
+       "correlation time of the bias"},
   };
 }
 
@@ -255,6 +273,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, camera_fields());
   append(all, colour_camera_fields());
   append(all, gps_fields());
+  append(all, barometer_fields());
   append(all, kernel_fields());
   append(all, scan_fields());
   append(all, explore_fields());

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double beyond_range = 1.001;  // so that a mapper with the same range cuts the ray there
 
-/// `ray_C` has depth 1. A depth that is not a number, or not in front of the camera, is a broken
-/// measurement: it must neither mark nor clear anything.
+/// `ray_C` has depth 1 in its own camera. A depth that is not a number, or not in front of the
+/// camera, is a broken measurement: it must neither mark nor clear anything.
 void add(flyball::PointCloud& cloud, const flyball::Vec3& ray_C, double depth_m, double reach_m) {
   if (std::isnan(depth_m) || depth_m <= 0.0) {
     return;
@@ -27,23 +27,39 @@ void add(flyball::PointCloud& cloud, const flyball::Vec3& ray_C, double depth_m,
   }
 }
 
-flyball::PointCloud back_project(const flyball::DepthImage& image, double range_m) {
+void append(flyball::PointCloud& cloud,
+            const flyball::DepthImage& image,
+            const Eigen::Matrix3d& R_CS,
+            double range_m) {
   const flyball::Intrinsics& camera = image.camera;
   const auto pixels =
       static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
   FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
                  image.depth_m.size(), camera.width_px, camera.height_px);
-  flyball::PointCloud cloud{image.captured, image.sequence, {}, {}, camera};
-  cloud.hits_C.reserve(pixels);
-  cloud.clear_C.reserve(pixels);
   const double reach_m = std::min(range_m, image.max_range_m);
   std::size_t pixel = 0;
   for (int row = 0; row < camera.height_px; ++row) {
     const double y = (row - camera.centre_y_px) / camera.focal_px;
     for (int column = 0; column < camera.width_px; ++column) {
       const double x = (column - camera.centre_x_px) / camera.focal_px;
-      add(cloud, {x, y, 1.0}, image.depth_m[pixel++], reach_m);
+      add(cloud, R_CS * flyball::Vec3{x, y, 1.0}, image.depth_m[pixel++], reach_m);
     }
+  }
+}
+
+/// Of several cameras the points are no longer the pixels of one image.
+flyball::PointCloud back_project(const flyball::DepthFrame& frame, double range_m) {
+  const flyball::DepthImage& ahead = frame.image.value();
+  flyball::PointCloud cloud{frame.captured, frame.sequence, {}, {}, std::nullopt};
+  const std::size_t pixels = ahead.depth_m.size() * (1 + frame.sides.size());
+  cloud.hits_C.reserve(pixels);
+  cloud.clear_C.reserve(pixels);
+  append(cloud, ahead, Eigen::Matrix3d::Identity(), range_m);
+  for (const flyball::SideView& side : frame.sides) {
+    append(cloud, side.image.value(), side.R_CS, range_m);
+  }
+  if (frame.sides.empty()) {
+    cloud.camera = ahead.camera;
   }
   return cloud;
 }
@@ -54,10 +70,10 @@ class DepthToPoints final : public flyball::PointCloudBuilder {
                                  double range_m,
                                  flyball::Work& work) override {
     FLYBALL_ASSERT(range_m > 0.0, "range_m=%g", range_m);
-    work.add("pixels", frame.pixels);
+    work.add("pixels", frame.pixels * (1.0 + static_cast<double>(frame.sides.size())));
     return {frame.captured, frame.sequence,
             flyball::Deferred<flyball::PointCloud>{
-                [image = frame.image, range_m] { return back_project(image.value(), range_m); }}};
+                [frame, range_m] { return back_project(frame, range_m); }}};
   }
 };
 

@@ -4,7 +4,8 @@
 //
 // Visual SLAM on RGB-D frames: ORB features, PnP with RANSAC, keyframes, a pose graph when a loop
 // closes. Between frames the pose is reckoned on. It loses its track when two frames show too
-// little in common, and finds it again when it sees a place that it knows.
+// little in common, and finds it again when it sees a place that it knows. A map that has hardly
+// begun is not worth looking for: it begins anew where the vehicle is reckoned to be.
 
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/registry.h"
@@ -52,7 +53,11 @@ class VisualSlam final : public flyball::SeeingLocalizer {
       slam_->start(last_.X_WB * frame.X_BC);
       has_begun_ = true;
     }
-    const auto outcome = slam_->track(frame, work);
+    auto outcome = slam_->track(frame, work);
+    if (outcome && !outcome->tracked && is_young()) {
+      slam_->start(reckoning_.pose_at(frame.captured) * frame.X_BC);
+      outcome = slam_->track(frame, work);
+    }
     if (!outcome) {
       return outcome.error();
     }
@@ -72,6 +77,14 @@ class VisualSlam final : public flyball::SeeingLocalizer {
   }
 
  private:
+  /// ORB-SLAM2 resets a map that is lost with five keyframes or fewer (Mur-Artal & Tardos 2017, the
+  /// authors' code). Where the vehicle is then must be known some other way: while it climbs from
+  /// the ground, when the ground fills the image and changes fastest, its height is.
+  [[nodiscard]] bool is_young() const {
+    constexpr std::size_t few_keyframes = 5;
+    return reckoning_.knows_height() && slam_->map().keyframes().size() <= few_keyframes;
+  }
+
   /// Half of the new difference quotient: a centimetre of noise in 50 ms is .2 m/s. A loop moves
   /// the pose, not the vehicle.
   [[nodiscard]] Vec3 speed_to(const VisualFix& fix, bool loop_closed) const {

@@ -39,6 +39,13 @@ double cheap_normal(RandomStream& random) {
   return (static_cast<double>(sum) - mean) / sigma;
 }
 
+/// The orientation of the ring's camera `i` in the first one's frame: turned around the upright.
+Eigen::Matrix3d turned(const DepthCameraSpec& spec, int i) {
+  constexpr double full_turn_rad = 6.283185307179586;
+  const Vec3 up_C{0.0, -std::cos(spec.pitch_down_rad), -std::sin(spec.pitch_down_rad)};
+  return Eigen::AngleAxisd{full_turn_rad * i / spec.count, up_C}.toRotationMatrix();
+}
+
 }  // namespace
 
 Intrinsics DepthCameraSpec::intrinsics() const {
@@ -181,9 +188,19 @@ DepthImage DepthCamera::capture(const Pose& X_WC, MissionTime now, std::uint64_t
 
 DepthFrame DepthCamera::frame(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const {
   const Intrinsics& camera = scene_->camera;
-  return {
-      now, sequence, camera.width_px * camera.height_px,
-      Deferred<DepthImage>{[this, X_WC, now, sequence] { return capture(X_WC, now, sequence); }}};
+  const auto count = static_cast<std::uint64_t>(scene_->spec.count);
+  const auto deferred = [this, now](const Pose& from, std::uint64_t number) {
+    return Deferred<DepthImage>{[this, from, now, number] { return capture(from, now, number); }};
+  };
+  DepthFrame frame{now, sequence, camera.width_px * camera.height_px,
+                   deferred(X_WC, count * sequence)};
+  for (std::uint64_t i = 1; i < count; ++i) {
+    const Eigen::Matrix3d R_CS = turned(scene_->spec, static_cast<int>(i));
+    Pose X_WS = X_WC;
+    X_WS.linear() = X_WC.linear() * R_CS;
+    frame.sides.push_back({R_CS, deferred(X_WS, count * sequence + i)});
+  }
+  return frame;
 }
 
 }  // namespace flyball

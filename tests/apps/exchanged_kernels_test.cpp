@@ -57,6 +57,17 @@ TEST(ExchangedSmoother, delivers_with_minimum_jerk) {
   EXPECT_GT(record.summary.kernels.at("minimum_jerk").calls, 1U);
 }
 
+TEST(ExchangedCameras, delivers_with_six_around) {
+  Scenario one = between_trees();
+  Scenario six = one;
+  six.camera.count = 6;
+  six.camera.horizontal_field_rad = 1.1;
+  const MissionRecord record = kit::flown(six);
+  EXPECT_EQ(record.summary.status, MissionStatus::succeeded) << to_string(record.summary.failure);
+  EXPECT_NEAR(record.summary.kernels.at("depth_to_points").mission_ms_mean,
+              6.0 * kit::flown(one).summary.kernels.at("depth_to_points").mission_ms_mean, 1.0);
+}
+
 TEST(ExchangedWeather, delivers_in_light_gusts) {
   Scenario calm = kit::short_delivery();
   Scenario gusty = calm;

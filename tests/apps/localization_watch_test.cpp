@@ -46,13 +46,13 @@ TEST(LocalizationWatch, is_lost_from_the_first_frame_without_a_pose_to_the_next_
 
 TEST(LocalizationWatch, stops_then_looks_to_both_sides_then_flies_back) {
   LocalizationWatch watch = lost_after(6.0);
-  ASSERT_TRUE(watch.search(at(10.0)));
-  EXPECT_NEAR(watch.search(at(11.0))->p_WB.x(), 6.0, 0.2);
-  EXPECT_EQ(watch.search(at(11.0))->yaw_rad, 0.0) << "stopping";
+  ASSERT_TRUE(watch.search(at(10.0), 2.0));
+  EXPECT_NEAR(watch.search(at(11.0), 2.0)->p_WB.x(), 6.0, 0.2);
+  EXPECT_EQ(watch.search(at(11.0), 2.0)->yaw_rad, 0.0) << "stopping";
   double left = 0.0;
   double right = 0.0;
   for (double t = 11.5; t < 17.4; t += 0.1) {
-    const auto look = watch.search(at(t));
+    const auto look = watch.search(at(t), 2.0);
     ASSERT_TRUE(look);
     EXPECT_GT(look->p_WB.x(), 5.75) << "in place";
     left = std::max(left, look->yaw_rad);
@@ -60,14 +60,23 @@ TEST(LocalizationWatch, stops_then_looks_to_both_sides_then_flies_back) {
   }
   EXPECT_NEAR(left, 1.047, 0.02);
   EXPECT_NEAR(right, -1.047, 0.02);
-  const auto back = watch.search(at(21.5));
+  const auto back = watch.search(at(21.5), 2.0);
   EXPECT_NEAR(back->p_WB.x(), 3.0, 0.5) << "along its own path";
   EXPECT_NEAR(back->yaw_rad, 0.0, 0.01) << "looking as it did when it came";
 }
 
+TEST(LocalizationWatch, searches_at_the_height_that_it_had_when_the_search_began) {
+  LocalizationWatch watch = lost_after(6.0);
+  EXPECT_EQ(watch.search(at(10.0), 3.5)->p_WB.z(), 3.5);
+  EXPECT_EQ(watch.search(at(20.0), 1.0)->p_WB.z(), 3.5);
+  watch.fixed(at(21.0), fix(true));
+  watch.fixed(at(22.0), fix(false));
+  EXPECT_EQ(watch.search(at(22.1), 1.5)->p_WB.z(), 1.5);
+}
+
 TEST(LocalizationWatch, flies_back_no_farther_than_it_came) {
   LocalizationWatch watch = lost_after(1.0);
-  EXPECT_GE(watch.search(at(29.0))->p_WB.x(), 0.0);
+  EXPECT_GE(watch.search(at(29.0), 2.0)->p_WB.x(), 0.0);
 }
 
 TEST(LocalizationWatch, gives_up_when_all_was_in_vain) {

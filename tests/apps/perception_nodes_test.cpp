@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception_nodes.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -38,12 +40,26 @@ TEST(CameraPose, looks_along_the_heading_and_stays_level) {
   X_WB.linear() = (Eigen::AngleAxisd{1.0, Vec3::UnitZ()} * Eigen::AngleAxisd{0.4, Vec3::UnitY()} *
                    Eigen::AngleAxisd{-0.3, Vec3::UnitX()})
                       .toRotationMatrix();
-  const Pose X_WC = camera_pose(X_WB);
+  const Pose X_WC = camera_pose(X_WB, {});
   const Vec3 ahead = X_WC.linear() * Vec3::UnitZ();
   EXPECT_NEAR(ahead.z(), 0.0, 1e-12);
   EXPECT_NEAR(yaw_of(ahead), yaw_of(X_WB.linear().col(0)), 1e-12);
   EXPECT_NEAR((X_WC.linear() * Vec3::UnitY()).z(), -1.0, 1e-12);  // y of the image points down.
   EXPECT_EQ(X_WC.translation(), X_WB.translation());
+}
+
+TEST(CameraPose, is_mounted_where_the_scenario_says) {
+  Pose X_WB = Pose::Identity();
+  X_WB.linear() = Eigen::AngleAxisd{1.5707963267948966, Vec3::UnitZ()}.toRotationMatrix();
+  DepthCameraSpec mount;
+  mount.forward_m = 0.2;
+  mount.up_m = -0.1;
+  mount.pitch_down_rad = 0.5;
+  const Pose X_WC = camera_pose(X_WB, mount);
+  EXPECT_TRUE(X_WC.translation().isApprox(Vec3{0.0, 0.2, -0.1}));
+  const Vec3 ahead = X_WC.linear() * Vec3::UnitZ();
+  EXPECT_NEAR(ahead.z(), -std::sin(0.5), 1e-12);
+  EXPECT_NEAR(ahead.y(), std::cos(0.5), 1e-12);
 }
 
 }  // namespace

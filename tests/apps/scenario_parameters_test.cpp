@@ -49,6 +49,30 @@ TEST(ScenarioParameters, a_mappers_own_settings_come_from_the_file_and_the_comma
   EXPECT_EQ(entry->origin, "mine.toml:4");
 }
 
+TEST(ScenarioParameters, a_files_settings_go_when_their_kernel_or_world_is_exchanged) {
+  const std::string file =
+      "[world]\ngenerator = \"forest\"\nwidth_m = 30.0\n"
+      "[kernels]\ndetector = \"hog\"\n[kernels.detector_parameters]\nthreshold = 0.2\n";
+  const auto result =
+      loaded(file, {"kernels.detector=haar", "world.generator=empty", "world.goal_distance_m=44"});
+  ASSERT_TRUE(std::holds_alternative<LoadedScenario>(result)) << said(file);
+  const Scenario& exchanged = std::get<LoadedScenario>(result).scenario;
+  EXPECT_EQ(exchanged.kernels.detector_parameters.count("threshold"), 0U);
+  EXPECT_EQ(std::get<double>(exchanged.world.parameters.at("goal_distance_m")), 44.0);
+  const auto kept =
+      loaded(file, {"kernels.detector=\"hog\"", "kernels.detector_parameters.level_step=1.2"});
+  const Scenario& same = std::get<LoadedScenario>(kept).scenario;
+  EXPECT_EQ(std::get<double>(same.kernels.detector_parameters.at("level_step")), 1.2);
+  EXPECT_EQ(std::get<double>(same.kernels.detector_parameters.at("threshold")), 0.2);
+}
+
+TEST(ScenarioParameters, settings_of_the_command_line_must_fit_what_it_exchanges) {
+  const std::string errors =
+      said("[kernels]\ndetector = \"hog\"\n",
+           {"kernels.detector=haar", "kernels.detector_parameters.threshold=1.2"});
+  EXPECT_NE(errors.find("threshold"), std::string::npos) << errors;
+}
+
 TEST(ScenarioParameters, what_is_written_reads_back) {
   const auto first = loaded(fast_map, {"kernels.mapper_parameters.most_traversals=1.5e6"});
   const std::string written = to_toml(std::get<LoadedScenario>(first).scenario);

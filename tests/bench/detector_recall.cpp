@@ -39,6 +39,8 @@ std::vector<Subject> subjects() {
   std::vector<Subject> all;
   all.push_back({"hog, scale 1.5", "hog", Given{}, 1.5});
   all.push_back({"hog, scale 2", "hog", Given{}, 2.0});
+  all.push_back({"hog, scale 2, as in photography_park", "hog",
+                 Given{{"level_step", 1.1}, {"threshold", -0.2}}, 2.0});
   all.push_back({"haar, scale 1.5", "haar", Given{}, 1.5});
   all.push_back({"yolo (yolo-fastest-1.1), scale 1", "yolo", Given{}, 1.0});
   all.push_back({"yolo (yolo-fastest-1.1-xl), scale 1", "yolo",

@@ -73,7 +73,7 @@ std::vector<Look> look_around(const Scenario& scenario, const World& world) {
     }
     Pose X_WB = Pose::Identity();
     X_WB.translation() = p_W;
-    Look view{{}, camera_pose(X_WB)};
+    Look view{{}, camera_pose(X_WB, {})};
     const DepthFrame frame = camera.frame(view.X_WC, MissionTime{}, views.size());
     (void)frame.image.value();  // The sensor's time is not the kernel's.
     Work work;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visual/dead_reckoning.h"
 
+#include "flyball/runtime/atmosphere.h"
+
 #include "visual/motion.h"
 
 #include <gtest/gtest.h>
@@ -70,6 +72,39 @@ TEST(DeadReckoning, stands_still_when_fixes_fail_to_come) {
   const auto late = reckoning.estimate(sample(5.0, 0.0));
   EXPECT_LT((late.X_WB.translation() - Vec3{1, 0, 2}).norm(), 1e-9);
   EXPECT_EQ(late.v_WB, (Vec3{0, 0, 0}));
+}
+
+NavigationSample climbing(double t_s, double height_m) {
+  NavigationSample felt = sample(t_s, 0.0);
+  felt.pressure_pa = standard_pressure_pa(400.0 + height_m);
+  return felt;
+}
+
+TEST(DeadReckoning, knows_how_high_it_has_climbed_without_a_fix) {
+  DeadReckoning reckoning;
+  Pose X_WB = Pose::Identity();
+  X_WB.translation() = Vec3{3, 4, 0.1};
+  reckoning.start(X_WB);
+  PoseEstimate now;
+  for (int i = 0; i <= 300; ++i) {
+    now = reckoning.estimate(climbing(0.01 * i, 0.01 * i));
+  }
+  EXPECT_LT((now.X_WB.translation() - Vec3{3, 4, 3.1}).norm(), 0.02);
+  EXPECT_NEAR(now.v_WB.z(), 1.0, 0.02);
+}
+
+TEST(DeadReckoning, climbs_from_an_old_fix_as_the_barometer_says) {
+  DeadReckoning reckoning;
+  reckoning.start(Pose::Identity());
+  PoseEstimate now;
+  for (int i = 0; i <= 1000; ++i) {  // Longer than attitudes are remembered.
+    now = reckoning.estimate(climbing(0.01 * i, 0.005 * i));
+    if (i == 110) {
+      reckoning.correct(fix(1.0, {5, 0, 0.6}, {0, 0, 0}));
+    }
+  }
+  EXPECT_LT((now.X_WB.translation() - Vec3{5, 0, 0.6 + 4.5}).norm(), 0.02);
+  EXPECT_NEAR(now.v_WB.z(), 0.5, 0.02);
 }
 
 }  // namespace

@@ -108,5 +108,23 @@ TEST(DepthToPoints, knows_its_work_before_the_frame_is_rendered) {
   EXPECT_EQ(rendered, 1);
 }
 
+TEST(DepthToPoints, puts_what_another_camera_saw_where_it_looked) {
+  SideView left;
+  left.R_CS = Eigen::AngleAxisd{-1.5707963267948966, Vec3::UnitY()}.toRotationMatrix();
+  left.image = Deferred<DepthImage>::of(image_of(2.0F));
+  const DepthImage ahead = image_of(infinity);
+  DepthFrame frame{ahead.captured, ahead.sequence, 45, Deferred<DepthImage>::of(ahead)};
+  frame.sides = {left};
+  Work work;
+  const PointCloud cloud = make_builder()->build(frame, 10.0, work).cloud_C.value();
+  EXPECT_EQ(work.count("pixels"), 90.0);
+  EXPECT_EQ(cloud.clear_C.size(), 45U);
+  ASSERT_EQ(cloud.hits_C.size(), 45U);
+  for (const Eigen::Vector3f& p : cloud.hits_C) {
+    EXPECT_NEAR(p.x(), -2.0F, 1e-5F);  // x of C points to the right.
+  }
+  EXPECT_FALSE(cloud.camera) << "no longer one image";
+}
+
 }  // namespace
 }  // namespace flyball

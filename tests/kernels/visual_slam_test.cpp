@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/kernels/kernels.h"
 #include "flyball/kernels/localizer.h"
+#include "flyball/runtime/atmosphere.h"
 #include "flyball/runtime/registry.h"
 
 #include "circle_flight.h"
@@ -94,6 +95,32 @@ double features_with(const std::map<std::string, ParameterValue>& given) {
   Work work;
   (void)localizer->see(Clock{}.look(kit::circle_pose(0.0)), work).value();
   return work.count("features");
+}
+
+NavigationSample felt_at(double t_s, double height_m) {
+  NavigationSample sample;
+  sample.stamp = MissionTime{from_seconds(t_s)};
+  sample.q_WB_ahrs = Eigen::Quaterniond{kit::circle_pose(0.0).linear()};
+  sample.pressure_pa = standard_pressure_pa(height_m);
+  return sample;
+}
+
+TEST(VisualSlam, begins_a_young_map_anew_at_the_height_that_the_barometer_says) {
+  const auto localizer = make();
+  Clock clock;
+  Work work;
+  (void)localizer->estimate(felt_at(0.0, 400.0), work);
+  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
+  for (int i = 1; i <= 300; ++i) {
+    (void)localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work);
+  }
+  clock.frames = 30;
+  Pose X_WC = kit::circle_pose(20.0);  // Nothing of what it knows is in sight.
+  const auto fix = localizer->see(clock.look(X_WC), work);
+  ASSERT_TRUE(fix);
+  EXPECT_TRUE(fix->tracked);
+  EXPECT_NEAR(fix->X_WB.translation().z(), kit::circle_pose(0.0).translation().z() + 3.0, 0.05);
+  EXPECT_EQ(fix->keyframes, 1);
 }
 
 TEST(VisualSlam, looks_for_as_many_corners_as_it_is_told) {

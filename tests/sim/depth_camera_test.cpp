@@ -205,5 +205,60 @@ TEST(DepthCamera, handles_widths_that_are_no_multiple_of_its_packets) {
                           [](float depth) { return std::abs(depth - 5.0F) < 2e-6F; }));
 }
 
+float middle(const DepthImage& image) {
+  return pixel(image, image.camera.width_px / 2, image.camera.height_px / 2);
+}
+
+/// Walls 5 m ahead, 3 m to the left, 7 m behind and 2 m to the right.
+World around_the_origin() {
+  World world;
+  world.has_ground = false;
+  world.boxes = {{{5.0, -50.0, -50.0}, {6.0, 50.0, 50.0}},
+                 {{-50.0, 3.0, -50.0}, {50.0, 4.0, 50.0}},
+                 {{-8.0, -50.0, -50.0}, {-7.0, 50.0, 50.0}},
+                 {{-50.0, -3.0, -50.0}, {50.0, -2.0, 50.0}}};
+  return world;
+}
+
+TEST(DepthCamera, one_of_four_looks_to_each_side) {
+  DepthCameraSpec spec = noiseless();
+  spec.count = 4;
+  const DepthCamera camera{around_the_origin(), spec, 1};
+  const DepthFrame frame = camera.frame(looking_east(Vec3::Zero()), MissionTime{}, 9);
+  EXPECT_NEAR(middle(frame.image.value()), 5.0F, 1e-4F);
+  ASSERT_EQ(frame.sides.size(), 3U);
+  EXPECT_NEAR(middle(frame.sides[0].image.value()), 3.0F, 1e-4F) << "left";
+  EXPECT_NEAR(middle(frame.sides[1].image.value()), 7.0F, 1e-4F) << "behind";
+  EXPECT_NEAR(middle(frame.sides[2].image.value()), 2.0F, 1e-4F) << "right";
+}
+
+TEST(DepthCamera, a_ring_that_looks_down_stays_upright) {
+  World world;  // The ground alone.
+  world.bounds_W = {{-50.0, -50.0, 0.0}, {50.0, 50.0, 5.0}};
+  DepthCameraSpec spec = noiseless();
+  spec.count = 6;
+  spec.pitch_down_rad = 0.5;
+  const DepthCamera camera{world, spec, 1};
+  Pose X_WC = looking_east({0.0, 0.0, 2.0});
+  X_WC.linear() *= Eigen::AngleAxisd{-spec.pitch_down_rad, Vec3::UnitX()}.toRotationMatrix();
+  const DepthFrame frame = camera.frame(X_WC, MissionTime{}, 1);
+  const float ahead_m = middle(frame.image.value());
+  EXPECT_NEAR(ahead_m, 2.0 / std::sin(0.5), 0.05);
+  for (const SideView& side : frame.sides) {
+    EXPECT_NEAR(middle(side.image.value()), ahead_m, 1e-3F);
+  }
+}
+
+TEST(DepthCamera, each_camera_of_a_ring_has_its_own_noise) {
+  DepthCameraSpec spec;
+  spec.extra_noise_m = 0.1;
+  spec.count = 2;
+  World world = with_wall(5.0);
+  world.boxes.push_back({{-6.0, -100.0, -100.0}, {-5.0, 100.0, 100.0}});
+  const DepthCamera camera{world, spec, 1};
+  const DepthFrame frame = camera.frame(looking_east(Vec3::Zero()), MissionTime{}, 3);
+  EXPECT_NE(frame.image.value().depth_m, frame.sides[0].image.value().depth_m);
+}
+
 }  // namespace
 }  // namespace flyball

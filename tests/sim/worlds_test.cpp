@@ -53,7 +53,8 @@ TEST_P(SeededWorlds, leave_room_to_take_off_and_land) {
 INSTANTIATE_TEST_SUITE_P(
     All,
     SeededWorlds,
-    testing::Values("farm", "forest", "outdoor_to_indoor", "congestion", "mixed", "office"));
+    testing::Values(
+        "city_blocks", "farm", "forest", "outdoor_to_indoor", "congestion", "mixed", "office"));
 
 TEST(Empty, has_a_goal_at_the_distance_that_was_asked_for) {
   const auto world = made_world("empty", 1, {{"goal_distance_m", 70.0}});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visual/dead_reckoning.h"
 
+#include "flyball/runtime/atmosphere.h"
+
 #include <algorithm>
 
 namespace flyball {
@@ -14,41 +16,71 @@ constexpr double coasting_s = 0.5;  // At 5 m/s^2 the speed is wrong by 2.5 m/s 
 }  // namespace
 
 void DeadReckoning::start(const Pose& X_WB) {
-  attitudes_.clear();
+  felt_.clear();
   fix_ = std::nullopt;
+  climb_ = {};
+  has_barometer_ = false;
   X_WB_start_ = X_WB;
 }
 
 void DeadReckoning::correct(const VisualFix& fix) {
-  if (fix.tracked) {
-    fix_ = fix;
+  if (!fix.tracked) {
+    return;
+  }
+  fix_ = fix;
+  if (!felt_.empty()) {
+    height_then_m_ = felt_at(fix.captured).height_m;
   }
 }
 
-Eigen::Quaterniond DeadReckoning::attitude_at(MissionTime t) const {
-  const auto after = std::lower_bound(
-      attitudes_.begin(), attitudes_.end(), t,
-      [](const Attitude& attitude, MissionTime time) { return attitude.stamp < time; });
-  return after == attitudes_.end() ? attitudes_.back().q_WB : after->q_WB;
+void DeadReckoning::feel(const NavigationSample& sample) {
+  if (sample.pressure_pa > 0.0) {
+    climb_.update(pressure_height_m(sample.pressure_pa), sample.stamp);
+    height_then_m_ = has_barometer_ ? height_then_m_ : climb_.height_m();
+    has_barometer_ = true;
+  }
+  felt_.push_back({sample.stamp, sample.q_WB_ahrs.normalized(), climb_.height_m()});
+  while (felt_.front().stamp + memory < sample.stamp) {
+    felt_.pop_front();
+  }
+}
+
+const DeadReckoning::Felt& DeadReckoning::felt_at(MissionTime t) const {
+  const auto after =
+      std::lower_bound(felt_.begin(), felt_.end(), t,
+                       [](const Felt& felt, MissionTime time) { return felt.stamp < time; });
+  return after == felt_.end() ? felt_.back() : *after;
+}
+
+/// A barometer's noise of 3 cm against the error of a fix's speed: the height is the barometer's.
+Pose DeadReckoning::pose_at(MissionTime t) const {
+  Pose X_WB = fix_ ? fix_->X_WB : X_WB_start_;
+  if (felt_.empty()) {
+    return X_WB;
+  }
+  const double z_then_m = X_WB.translation().z();
+  const Felt& then = felt_at(t);
+  if (fix_) {
+    const double age_s = to_seconds(t - fix_->captured);
+    X_WB.translation() += std::clamp(age_s, 0.0, coasting_s) * fix_->v_WB;
+    const Eigen::Quaterniond turned = felt_at(fix_->captured).q_WB.conjugate() * then.q_WB;
+    X_WB.linear() =
+        (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
+  }
+  if (has_barometer_) {
+    X_WB.translation().z() = z_then_m + then.height_m - height_then_m_;
+  }
+  return X_WB;
 }
 
 PoseEstimate DeadReckoning::estimate(const NavigationSample& sample) {
-  attitudes_.push_back({sample.stamp, sample.q_WB_ahrs.normalized()});
-  while (attitudes_.front().stamp + memory < sample.stamp) {
-    attitudes_.pop_front();
+  feel(sample);
+  PoseEstimate estimate{sample.stamp, pose_at(sample.stamp), Vec3::Zero()};
+  if (fix_ && to_seconds(sample.stamp - fix_->captured) < coasting_s) {
+    estimate.v_WB = fix_->v_WB;
+  } else if (has_barometer_) {
+    estimate.v_WB.z() = climb_.climb_m_s();
   }
-  PoseEstimate estimate{sample.stamp, X_WB_start_, Vec3::Zero()};
-  if (!fix_) {
-    return estimate;
-  }
-  const double age_s = to_seconds(sample.stamp - fix_->captured);
-  estimate.v_WB = age_s < coasting_s ? fix_->v_WB : Vec3::Zero();
-  estimate.X_WB = fix_->X_WB;
-  estimate.X_WB.translation() += std::clamp(age_s, 0.0, coasting_s) * fix_->v_WB;
-  const Eigen::Quaterniond turned =
-      attitude_at(fix_->captured).conjugate() * attitudes_.back().q_WB;
-  estimate.X_WB.linear() =
-      (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
   return estimate;
 }
 

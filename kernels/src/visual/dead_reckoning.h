@@ -8,27 +8,37 @@
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/messages.h"
 
+#include "visual/climb_filter.h"
 #include <deque>
 
 namespace flyball {
 
 /// A fix is as old as the camera's interval and the computer together. Until the next one the
-/// vehicle goes on as fast as the fix said, and turns as the flight controller's attitude does.
-/// After half a second without a fix the position stands: it is not known, and the error grows.
+/// vehicle goes on as fast as the fix said, climbs as the barometer says, and turns as the flight
+/// controller's attitude does. After half a second without a fix the place over ground stands: it
+/// is not known, and the error grows. The height goes on.
 class DeadReckoning {
  public:
   void start(const Pose& X_WB);
   void correct(const VisualFix& fix);
   [[nodiscard]] PoseEstimate estimate(const NavigationSample& sample);
+  /// Where it was at a time of the last five seconds, as far as is known now.
+  [[nodiscard]] Pose pose_at(MissionTime t) const;
+  [[nodiscard]] bool knows_height() const { return has_barometer_; }
 
  private:
-  struct Attitude {
+  struct Felt {
     MissionTime stamp;
     Eigen::Quaterniond q_WB;
+    double height_m;  ///< By the barometer.
   };
-  [[nodiscard]] Eigen::Quaterniond attitude_at(MissionTime t) const;
+  void feel(const NavigationSample& sample);
+  [[nodiscard]] const Felt& felt_at(MissionTime t) const;
 
-  std::deque<Attitude> attitudes_;  ///< Of the last seconds.
+  std::deque<Felt> felt_;  ///< In the last seconds.
+  ClimbFilter climb_{};
+  bool has_barometer_{};
+  double height_then_m_{};          ///< At the start, later at the fix.
   std::optional<VisualFix> fix_{};  ///< The last one that was tracked.
   Pose X_WB_start_{Pose::Identity()};
 };

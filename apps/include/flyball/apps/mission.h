@@ -34,8 +34,14 @@ struct MissionHooks {
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
 };
 
-/// Every kernel, policy, world and workload compiled in.
+/// Every kernel, policy, world and workload compiled in, and what was added.
 [[nodiscard]] const Registry& all_plugins();
+/// Kernels, policies, worlds and workloads of the caller's own; scenarios ask for them by name.
+/// Before the first flight, from one thread.
+///
+/// @param add  A `FLYBALL_PLUGIN` function, or one that calls several. A name that is taken is a
+///             programming error, as it is in the tree.
+void add_plugins(const std::function<void(Registry&)>& add);
 
 /// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out;
 ///        those of `Mapper::read` and `Mapper::write` for the map files.

@@ -44,7 +44,7 @@ struct PlatformFit {
   [[nodiscard]] bool is_in_step() const;
 };
 
-/// Runs the kernels on the two scenes and compares with the paper. Takes some seconds.
+/// Runs the kernels on the four scenes and compares with the paper. Takes some seconds.
 ///
 /// @param name_or_path  `jetson_tx2`, or a platform file.
 /// @error `not_found`, `invalid_input` (the file, or a kernel without a price in it), `failed`.

@@ -8,6 +8,7 @@
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/sim/barometer.h"
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/gps.h"
@@ -150,6 +151,7 @@ struct Scenario {
   DepthCameraSpec camera{};
   ColourCameraSpec colour_camera{};
   GpsSpec gps{};
+  BarometerSpec barometer{};
   KernelSettings kernels{};
   MapSettings map{};
   PlannerSettings planner{};

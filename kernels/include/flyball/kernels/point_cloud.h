@@ -16,7 +16,7 @@ class PointCloudBuilder : public Kernel {
   /// of that length.
   ///
   /// @param range_m  Positive; longer than the sensor's range is cut to it.
-  /// @return         Points in C. Adds `pixels` to `work`.
+  /// @return         Points in C, those of the side views too. Adds `pixels` to `work`.
   ///
   /// Where the work does not depend on what the pixels show, neither they nor the points are
   /// computed before somebody looks at the cloud; an implementation whose work does depend on them

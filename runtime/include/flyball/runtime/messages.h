@@ -33,13 +33,20 @@ struct DepthImage {
   std::vector<float> depth_m{};
 };
 
+/// What another camera at the same place saw at the same time; S is its frame.
+struct SideView {
+  Eigen::Matrix3d R_CS{Eigen::Matrix3d::Identity()};
+  Deferred<DepthImage> image{};
+};
+
 /// A frame as the sensor publishes it. Most are overtaken before somebody looks, and then the
 /// simulator need not render them.
 struct DepthFrame {
   MissionTime captured{};
   std::uint64_t sequence{};
-  int pixels{};
+  int pixels{};  ///< Of each image.
   Deferred<DepthImage> image{};
+  std::vector<SideView> sides{};  ///< Beside the camera that looks ahead, if there are any.
 };
 
 /// Returns of one frame in the camera frame C.
@@ -71,6 +78,7 @@ struct NavigationSample {
   double height_m{};           ///< Above the WGS-84 ellipsoid.
   Vec3 v_gps_W{Vec3::Zero()};  ///< Doppler velocity, east-north-up [m/s].
   Eigen::Quaterniond q_WB_ahrs{Eigen::Quaterniond::Identity()};  ///< From the flight controller.
+  double pressure_pa{};                                          ///< 0 without a barometer.
 };
 
 /// Where the vehicle believes it is.

@@ -20,6 +20,10 @@ struct DepthCameraSpec {
   /// sigma = max(0, .0035 d - .0023) for d < 6 m, .0657 d - .4193 beyond: MAVBench's code.
   bool rgbd_noise{true};
   double extra_noise_m{};  ///< Standard deviation at every depth, independent of the other noise.
+  int count{1};            ///< Cameras around one place, evenly; the first one looks ahead.
+  double forward_m{};      ///< Of that place, from the body's centre; a mount keeps it level.
+  double up_m{};
+  double pitch_down_rad{};  ///< Of each optical axis.
 
   [[nodiscard]] Intrinsics intrinsics() const;
 };
@@ -39,7 +43,8 @@ class DepthCamera {
   ///
   /// @cost 1-2 ms for 256 x 144 pixels on one x86 core.
   [[nodiscard]] DepthImage capture(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
-  /// The same image, captured when somebody looks at it. @pre The camera lives until then.
+  /// The same image, and those of the other cameras of the spec, captured when somebody looks at
+  /// them. @pre The camera lives until then.
   [[nodiscard]] DepthFrame frame(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
   [[nodiscard]] const DepthCameraSpec& spec() const;
 
