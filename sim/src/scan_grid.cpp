@@ -16,7 +16,6 @@ using Index = ScanGrid::Index;
 
 constexpr int tree_depth = 16;  // OctoMap's keys have 16 bits an axis.
 constexpr int tree_centre = 1 << (tree_depth - 1);
-constexpr double max_cells = 2e8;  // 200 MB; a whole storey has 4e6.
 
 struct Leaf {
   Index low;
@@ -181,7 +180,7 @@ Result<ScanGrid> read_scan(const std::string& path) {
     low = low.cwiseMin(leaf.low);
     high = high.cwiseMax(leaf.low + Index::Constant(leaf.size - 1));
   }
-  if ((high - low + Index::Ones()).cast<double>().prod() > max_cells) {
+  if ((high - low + Index::Ones()).cast<double>().prod() > most_grid_cells) {
     return unreadable(path, "has an extent of more than 2e8 cells; crop it or use a coarser one");
   }
   ScanGrid grid{resolution_m, low, high};

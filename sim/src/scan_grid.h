@@ -15,6 +15,9 @@
 
 namespace flyball {
 
+/// What a grid may have: 200 MB; a whole storey has 4e6.
+inline constexpr double most_grid_cells = 2e8;
+
 /// Cells of the finest size over the extent of what the file knows.
 class ScanGrid {
  public:

@@ -17,8 +17,6 @@ namespace {
 using Index = ScanGrid::Index;
 using Triangle = std::array<Vec3, 3>;
 
-constexpr double max_cells = 2e8;  // 200 MB.
-
 Error unreadable(const std::string& path, const std::string& why) {
   return {ErrorCode::invalid_input, "mesh file \"" + path + "\" " + why};
 }
@@ -130,7 +128,7 @@ Result<ScanGrid> read_mesh(const std::string& path, const MeshReading& reading) 
   const Vec3 cells = (extent.max - extent.min) / reading.cell_m + Vec3::Ones();
   const double farthest_m =
       std::max(extent.min.cwiseAbs().maxCoeff(), extent.max.cwiseAbs().maxCoeff());
-  if (!(cells.prod() <= max_cells) ||
+  if (!(cells.prod() <= most_grid_cells) ||
       !(farthest_m / reading.cell_m < std::numeric_limits<int>::max() / 2)) {
     return unreadable(path,
                       "has an extent of more than 2e8 cells; set a larger cell_m, or a "

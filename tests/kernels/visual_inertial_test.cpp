@@ -39,7 +39,9 @@ struct Companion {
   VisualFix next(bool in_the_dark = false, bool with_depth = true) {
     const double t_s = frame_s * frames;
     while (felt_s <= t_s + 1e-9) {
-      localizer->feel(imu.sample(run.at(felt_s), MissionTime{from_seconds(felt_s)}));
+      ImuSample felt = imu.sample(run.at(felt_s), MissionTime{from_seconds(felt_s)});
+      felt.f_B.z() -= dropped_m_s2;
+      localizer->feel(felt);
       felt_s += imu_s;
     }
     const Pose X_WC = run.at(t_s).X_WB * kit::ahead_from_body();
@@ -64,6 +66,7 @@ struct Companion {
   Work work;
   double felt_s{};
   double miss_m{};
+  double dropped_m_s2{};  ///< A broken accelerometer.
   int frames{};
 };
 
@@ -116,6 +119,21 @@ TEST(VisualInertial, goes_on_in_the_dark_for_a_second_but_not_for_three) {
     (void)companion.next(true);
   }
   EXPECT_FALSE(companion.next(true).tracked);
+}
+
+TEST(VisualInertial, knows_that_it_has_failed_when_what_it_feels_is_absurd) {
+  Companion flight{{2.0, 0.3, false}};
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(flight.next().tracked) << i;
+  }
+  flight.dropped_m_s2 = 15.0;  // As if it fell with more than gravity.
+  bool is_lost = false;
+  for (int i = 0; i < 20 && !is_lost; ++i) {
+    is_lost = !flight.next().tracked;
+  }
+  EXPECT_TRUE(is_lost);
+  flight.dropped_m_s2 = 0.0;
+  EXPECT_FALSE(flight.next().tracked) << "it knows no place that it could find again";
 }
 
 TEST(VisualInertial, gives_the_same_answer_twice) {

@@ -13,16 +13,14 @@
 
 namespace flyball {
 
-/// From `$FLYBALL_MODELS`, or ../shared/models beside the checkout.
+/// From `$FLYBALL_MODELS`, which ctest sets to ../shared/models beside the checkout unless somebody
+/// else has.
 inline Result<std::string> find_test_model(const std::string& file) {
   namespace fs = std::filesystem;
   const char* given = std::getenv("FLYBALL_MODELS");  // NOLINT(concurrency-mt-unsafe)
-  const fs::path checkout = fs::path{__FILE__}.parent_path().parent_path().parent_path();
-  const fs::path folder =
-      given != nullptr ? fs::path{given} : checkout.parent_path() / "shared/models";
-  const fs::path path = folder / file;
-  if (!fs::is_regular_file(path)) {
-    return Error{ErrorCode::not_found, "no model"};
+  const fs::path path = fs::path{given != nullptr ? given : ""} / file;
+  if (given == nullptr || !fs::is_regular_file(path)) {
+    return Error{ErrorCode::not_found, "no " + file + " in $FLYBALL_MODELS"};
   }
   return path.string();
 }

@@ -56,6 +56,18 @@ Innovation stacked(const std::vector<Innovation>& parts) {
   return all;
 }
 
+/// The failure detection of VINS-Mono (Qin et al. 2018, the authors' code): biases that no sensor
+/// has, or a jump of 5 m, of 1 m upwards, from one frame to the next; those at their 10 Hz.
+bool is_absurd(const InertialFilter& filter) {
+  constexpr double most_accel_bias_m_s2 = 2.5;
+  constexpr double most_gyro_bias_rad_s = 1.0;
+  constexpr double most_m_s = 50.0;
+  constexpr double most_climb_m_s = 10.0;
+  return !(filter.accel_bias_now().norm() <= most_accel_bias_m_s2 &&
+           filter.gyro_bias_now().norm() <= most_gyro_bias_rad_s &&
+           filter.v_WB().norm() <= most_m_s && std::abs(filter.v_WB().z()) <= most_climb_m_s);
+}
+
 ImuSample between(const ImuSample& a, const ImuSample& b) {
   return {b.stamp, 0.5 * (a.w_WB_B + b.w_WB_B), 0.5 * (a.f_B + b.f_B)};
 }
@@ -70,7 +82,7 @@ void InertialOdometry::start(const std::optional<Pose>& X_WB) {
   waiting_.clear();
   recent_f_B_.clear();
   X_WB_start_ = X_WB;
-  has_begun_ = has_moved_ = false;
+  has_begun_ = has_moved_ = has_failed_ = false;
 }
 
 void InertialOdometry::feel(const ImuSample& sample) {
@@ -253,7 +265,8 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
   if (outcome.tracks >= enough_tracks) {
     last_sight_ = frame.captured;
   }
-  outcome.tracked = frame.captured - last_sight_ < blind_limit;
+  has_failed_ = has_failed_ || is_absurd(filter_);
+  outcome.tracked = !has_failed_ && frame.captured - last_sight_ < blind_limit;
   return outcome;
 }
 

@@ -12,7 +12,7 @@
 namespace flyball {
 
 struct OdometryOutcome {
-  bool tracked{};  ///< Saw enough within the last second and a half.
+  bool tracked{};  ///< Saw enough within the last second and a half, and makes sense.
   int tracks{};    ///< Points in the newest image that were in the one before.
   int believed{};  ///< Tracks that corrected the filter.
 };
@@ -60,6 +60,7 @@ class InertialOdometry {
   MissionTime last_sight_{};
   bool has_begun_{};
   bool has_moved_{};
+  bool has_failed_{};  ///< For good: it knows no place that it could find again.
 };
 
 }  // namespace flyball
