@@ -199,6 +199,11 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (const Status read = hooks.start_map.empty() ? Done{} : mapper.read(hooks.start_map); !read) {
     return read.error();
   }
+  if (const Status kept =
+          hooks.final_map.empty() ? Done{} : mapper.keep_forgotten(hooks.final_map + ".forgotten");
+      !kept) {
+    return kept.error();
+  }
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->world;

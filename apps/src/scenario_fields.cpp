@@ -45,7 +45,7 @@ Fields vehicle_fields() {
   return {
       {"vehicle.airframe", &at<in, &V::airframe>, 0, 0, "a shipped airframe or a .toml file"},
       {"vehicle.payload_kg", &at<in, &V::payload_kg>, 0, 20, "mass that is carried to the goal"},
-      {"vehicle.physics_step_s", &at<in, &V::physics_step_s>, 1e-4, 4e-3, "of the multibody model"},
+      {"vehicle.physics_step_s", &at<in, &V::physics_step_s>, 1e-4, 1e-2, "of the multibody model"},
       {"vehicle.battery_charge", &at<in, &V::battery_charge>, 0.01, 1,
        "share of the full charge at the start"},
       {"vehicle.rotor_power",

@@ -2,293 +2,86 @@
 // flyball-link: octomap octomath
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The brick map: one lattice of cells of finest_m, 2, 4 and 8 times as wide, and the resolution is
-// the level on it at which space is freed and asked about. Hits always go into the finest cells,
-// and a coarser level frees only blocks that are seen through as a whole, so the level can change
-// with every scan and nothing is lost or blown up.
-//
-// A scan goes through here: cloud -> front-end -> masks (prepare) -> brick map -> view (commit).
-// At the finest level the front-end is the chosen one; above it, space is held against the depth
-// image block by block. A cloud that names no camera has no image: its rays are walked, at the
-// finest level.
+// The map in bricks. Either one lattice whose resolution is a level (bricks/lattice_mapper.h), or,
+// as stock OctoMap has it, cells for each resolution that was used (layered_mapper.h): then flights
+// are those with mapper octomap, and the host answers faster.
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
-#include "bricks/brick_contents.h"
-#include "bricks/brick_view.h"
-#include "bricks/map_file.h"
-#include "bricks/pyramid_scan.h"
-#include "bricks/ray_scan.h"
-#include "bricks/work_limit.h"
-#include <algorithm>
-#include <cmath>
-#include <exception>
+#include "bricks/brick_store.h"
+#include "bricks/lattice_mapper.h"
 
 namespace {
 
 using flyball::Error;
 using flyball::ErrorCode;
-using flyball::RayScan;
-
-constexpr int coarsest_level = 3;
-
-Error invalid(std::string message) {
-  return {ErrorCode::invalid_input, std::move(message)};
-}
-
-bool is_finite(const std::vector<Eigen::Vector3f>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [](const Eigen::Vector3f& p) { return p.allFinite(); });
-}
-
-octomap::point3d to_octomap(const flyball::Vec3& p) {
-  const Eigen::Vector3f single = p.cast<float>();
-  return {single.x(), single.y(), single.z()};
-}
-
-/// Rounded to floats as stock OctoMap gets them.
-void to_world(const flyball::PointCloud& cloud_C, const flyball::Pose& X_WC, flyball::Scan& scan) {
-  const auto add = [&](const auto& points_C, auto& points_W) {
-    points_W.clear();
-    for (const Eigen::Vector3f& p_C : points_C) {
-      points_W.push_back(to_octomap(X_WC * p_C.template cast<double>()));
-    }
-  };
-  add(cloud_C.hits_C, scan.hits_W);
-  add(cloud_C.clear_C, scan.clear_W);
-  scan.origin_W = to_octomap(X_WC.translation());
-}
-
-enum class FrontEnd : std::uint8_t { exact, rays, pyramid };
+using flyball::Result;
+using flyball::Status;
+using flyball::Vec3;
 
 class FlyballMapper final : public flyball::Mapper {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    return {
-        {"finest_m", 0.15, 0.01, 10.0,
-         "finest cells; the map's resolution is this times 1, 2, 4, 8"},
-        {"front_end",
-         "pyramid",
-         0.0,
-         0.0,
-         "at the finest level: exact (stock OctoMap's cells), rays, or pyramid (coarse to fine)",
-         {"exact", "pyramid", "rays"}},
-        {"cost_of",
-         "flyball",
-         0.0,
-         0.0,
-         "whose work is reported: its own, or what stock OctoMap would do at this resolution",
-         {"flyball", "octomap"}},
-        {"most_traversals", 0.0, 0.0, 1e12,
-         "cells a scan's rays may cross, near first; 0: no limit"},
-        {"keep_radius_m", 0.0, 0.0, 1e5,
-         "what lies farther from the vehicle is forgotten; 0: nothing is"},
-    };
+    auto specs = flyball::make_lattice_mapper()->parameters();
+    specs.push_back({"layers",
+                     "one",
+                     0.0,
+                     0.0,
+                     "one: coarse cells are freed when seen through as a whole; stock: every "
+                     "resolution has its own cells, freed by any ray, front-end exact",
+                     {"one", "stock"}});
+    return specs;
   }
 
   void configure(const flyball::Parameters& chosen) override {
-    const std::string& front_end = chosen.text("front_end");
-    front_end_ = front_end == "exact"  ? FrontEnd::exact
-                 : front_end == "rays" ? FrontEnd::rays
-                                       : FrontEnd::pyramid;
-    reports_stock_work_ = chosen.text("cost_of") == "octomap";
-    most_traversals_ = chosen.number("most_traversals");
-    keep_radius_m_ = chosen.number("keep_radius_m");
-    begin(chosen.number("finest_m"));
-  }
-
-  [[nodiscard]] std::vector<double> resolutions_m() const override {
-    std::vector<double> cells_m;
-    for (int level = 0; level <= coarsest_level; ++level) {
-      cells_m.push_back(map_.lattice().cell_m(level));
+    refusal_.clear();
+    if (chosen.text("layers") != "stock") {
+      map_ = flyball::make_lattice_mapper();
+      map_->configure(chosen);
+      return;
     }
-    return cells_m;
-  }
-
-  flyball::Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
-                                         const flyball::Pose& X_WC,
-                                         const flyball::MapperSettings& settings) override {
-    pending_ = nullptr;
-    if (auto status = check(cloud_C, X_WC, settings); !status) {
-      return status.error();
-    }
-    const auto level = level_of(settings.resolution_m);
-    if (!level) {
-      return level.error();
-    }
-    try {
-      return integrate(cloud_C, X_WC, settings, *level);
-    } catch (const std::exception& e) {
-      return Error{ErrorCode::failed, std::string{"flyball map: "} + e.what()};
-    }
-  }
-
-  void commit() override {
-    if (pending_ != nullptr) {
-      map_.apply(pending_->bricks);
-      if (keep_radius_m_ > 0.0) {
-        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m));
+    map_ = std::make_unique<flyball::LayeredMapper<flyball::BrickStore>>();
+    for (const char* limit : {"most_traversals", "keep_radius_m"}) {
+      if (chosen.number(limit) > 0.0) {
+        refusal_ = std::string{"layers = \"stock\" knows no "} + limit +
+                   "; leave it out, or set layers to \"one\"";
       }
-      view_.activate(pending_level_);
-      pending_ = nullptr;
     }
   }
 
-  void declare_clear(const flyball::Vec3& centre_W, const flyball::Cylinder& space) override {
-    view_.declare_clear(centre_W, space);
+  [[nodiscard]] std::vector<double> resolutions_m() const override { return map_->resolutions_m(); }
+
+  Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
+                                const flyball::Pose& X_WC,
+                                const flyball::MapperSettings& settings) override {
+    if (!refusal_.empty()) {
+      return Error{ErrorCode::invalid_input, refusal_};
+    }
+    return map_->prepare(cloud_C, X_WC, settings);
   }
+  void commit() override { map_->commit(); }
 
-  [[nodiscard]] const flyball::OccupancyView& view() const override { return view_; }
-
+  void declare_clear(const Vec3& centre_W, const flyball::Cylinder& space) override {
+    map_->declare_clear(centre_W, space);
+  }
+  [[nodiscard]] const flyball::OccupancyView& view() const override { return map_->view(); }
   [[nodiscard]] std::vector<flyball::OccupiedCell> occupied() const override {
-    std::vector<flyball::OccupiedCell> cells;
-    view_.for_each_occupied([&](const flyball::Aabb& cube) {
-      cells.push_back({0.5 * (cube.min + cube.max), cube.max.x() - cube.min.x()});
-    });
-    return cells;
+    return map_->occupied();
   }
-
-  [[nodiscard]] flyball::MapContents contents() const override {
-    return flyball::contents_of(map_, coarsest_level);
+  [[nodiscard]] flyball::MapContents contents() const override { return map_->contents(); }
+  [[nodiscard]] Status write(const std::string& path,
+                             std::optional<double> resolution_m) const override {
+    return map_->write(path, resolution_m);
   }
-
-  [[nodiscard]] flyball::Status write(const std::string& path,
-                                      std::optional<double> resolution_m) const override {
-    return flyball::write_map_file(map_, resolution_m, path);
+  [[nodiscard]] Status keep_forgotten(const std::string& path) override {
+    return map_->keep_forgotten(path);
   }
-
-  [[nodiscard]] flyball::Status read(const std::string& path) override {
-    auto map = flyball::read_map_file(path);
-    if (!map) {
-      return map.error();
-    }
-    begin(map->lattice().cell_m(0));
-    map_ = std::move(*map);
-    view_.activate(0);
-    return flyball::Done{};
-  }
+  [[nodiscard]] Status read(const std::string& path) override { return map_->read(path); }
 
  private:
-  static constexpr double default_finest_m = 0.15;
-
-  void begin(double finest_m) {
-    map_ = flyball::BrickMap{finest_m};
-    pending_ = nullptr;
-    exact_.clear();
-    for (int level = 0; level <= coarsest_level; ++level) {
-      exact_.push_back(
-          std::make_unique<RayScan>(map_.lattice().cell_m(level), RayScan::Match::stock));
-    }
-    close_ = std::make_unique<RayScan>(finest_m, RayScan::Match::close);
-    pyramid_ = std::make_unique<flyball::PyramidScan>(finest_m);
-    pyramid_->refine_near_camera();
-  }
-
-  /// A map that is still empty takes a resolution off its lattice as its finest.
-  flyball::Result<int> level_of(double resolution_m) {
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      for (int level = 0; level <= coarsest_level; ++level) {
-        if (std::abs(map_.lattice().cell_m(level) - resolution_m) < 1e-9) {
-          return level;
-        }
-      }
-      if (!map_.chunks().empty()) {
-        break;
-      }
-      begin(resolution_m);
-    }
-    return invalid("map.resolution_m " + std::to_string(resolution_m) +
-                   " must be 1, 2, 4 or 8 times " + std::to_string(map_.lattice().cell_m(0)));
-  }
-
-  [[nodiscard]] flyball::Status check(const flyball::PointCloud& cloud_C,
-                                      const flyball::Pose& X_WC,
-                                      const flyball::MapperSettings& settings) const {
-    const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-    if (!is_positive(settings.resolution_m) || !is_positive(settings.range_m)) {
-      return invalid("map.resolution_m " + std::to_string(settings.resolution_m) +
-                     " and map.range_m " + std::to_string(settings.range_m) + " must be positive");
-    }
-    const double finest_m = map_.chunks().empty()
-                                ? std::min(settings.resolution_m, map_.lattice().cell_m(0))
-                                : map_.lattice().cell_m(0);
-    if (settings.range_m > RayScan::most_cells_per_ray * finest_m) {
-      return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 250 cells of " +
-                     std::to_string(finest_m) + " m; shorten it or coarsen the map");
-    }
-    if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
-      return invalid("scan " + std::to_string(cloud_C.sequence) +
-                     " has a coordinate that is not finite");
-    }
-    // A pyramid looks at the whole box around its view, up to the next chunk.
-    const double edge_m = map_.lattice().edge_m() - settings.range_m - 64.0 * finest_m;
-    if (X_WC.translation().cwiseAbs().maxCoeff() >= edge_m) {
-      return invalid("camera is over " + std::to_string(edge_m) + " m from the map's centre");
-    }
-    return flyball::Done{};
-  }
-
-  flyball::Work integrate(const flyball::PointCloud& cloud_C,
-                          const flyball::Pose& X_WC,
-                          const flyball::MapperSettings& settings,
-                          int level) {
-    eye_W_ = X_WC.translation();
-    const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
-    if (!looks || reports_stock_work_ || most_traversals_ > 0.0) {
-      to_world(cloud_C, X_WC, scan_);
-    }
-    scan_.range_m = settings.range_m;
-    const flyball::ScanMasks* stock = nullptr;
-    if (reports_stock_work_) {
-      stock = &exact_[static_cast<std::size_t>(level)]->compute(scan_);
-    }
-    flyball::Work work = work_of(stock);
-    if (most_traversals_ > 0.0) {
-      scan_.range_m = range_within(scan_, map_.lattice().cell_m(0), most_traversals_);
-    }
-    const bool is_done = stock != nullptr && !looks && level == 0 &&
-                         front_end_ == FrontEnd::exact && !(most_traversals_ > 0.0);
-    pending_ = is_done ? stock
-               : looks ? &pyramid_->compute(cloud_C, X_WC, scan_.range_m, level)
-                       : &walker().compute(scan_);
-    pending_level_ = level;
-    return reports_stock_work_ ? work : work_of(pending_);
-  }
-
-  [[nodiscard]] RayScan& walker() { return front_end_ == FrontEnd::exact ? *exact_[0] : *close_; }
-
-  static flyball::Work work_of(const flyball::ScanMasks* masks) {
-    flyball::Work work;
-    if (masks != nullptr) {
-      work.add("frame", 1.0);
-      work.add("rays", masks->rays);
-      work.add("traversals", masks->traversals);
-      work.add("updates", masks->updates);
-      if (masks->blocks > 0.0) {
-        work.add("blocks", masks->blocks);
-      }
-    }
-    return work;
-  }
-
-  FrontEnd front_end_{FrontEnd::pyramid};
-  bool reports_stock_work_{};
-  double most_traversals_{};
-  double keep_radius_m_{};
-
-  flyball::BrickMap map_{default_finest_m};
-  flyball::BrickView view_{map_};
-  std::vector<std::unique_ptr<RayScan>> exact_{};  ///< One for each level, which sets its counts.
-  std::unique_ptr<RayScan> close_{};
-  std::unique_ptr<flyball::PyramidScan> pyramid_{};
-  flyball::Scan scan_{};
-  const flyball::ScanMasks* pending_{};
-  int pending_level_{};
-  flyball::Vec3 eye_W_{flyball::Vec3::Zero()};  ///< Of the pending scan.
-
- public:
-  FlyballMapper() { begin(default_finest_m); }
+  std::unique_ptr<flyball::Mapper> map_{flyball::make_lattice_mapper()};
+  std::string refusal_{};
 };
 
 }  // namespace

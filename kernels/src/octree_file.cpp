@@ -171,6 +171,20 @@ class TreeCheck {
   std::string fault_{};
 };
 
+/// OctoMap's `writeBinary`, which would also talk about it on standard error.
+void write_bt(octomap::OcTree& tree, std::ostream& file) {
+  tree.toMaxLikelihood();
+  tree.prune();
+  file << "# Octomap OcTree binary file\n"
+          "# (feel free to add / change comments, but leave the first line as it is!)\n"
+          "#\n"
+          "id OcTree\n"
+       << "size " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  if (tree.size() > 0) {
+    tree.writeBinaryData(file);
+  }
+}
+
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -215,9 +229,9 @@ Status write_octree(octomap::OcTree& tree, const std::string& path) {
   const std::string beside = path + ".part";
   try {
     std::ofstream file{beside, std::ios::binary};
-    const bool is_written = file && (is_binary ? tree.writeBinary(file) : tree.write(file));
+    is_binary ? write_bt(tree, file) : static_cast<void>(tree.write(file));
     file.close();
-    if (!is_written || !file) {
+    if (!file) {
       std::error_code ignored;
       fs::remove(beside, ignored);
       return failed;

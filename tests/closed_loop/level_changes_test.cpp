@@ -28,6 +28,13 @@ Scenario among_trees() {
   return scenario;
 }
 
+Scenario in_rooms() {
+  Scenario scenario = among_trees();
+  scenario.world.generator = "office";
+  scenario.world.parameters = {};
+  return scenario;
+}
+
 /// The finest cells that are occupied when the mission has lasted so long.
 Cells occupied_after(const Scenario& scenario, double time_s) {
   const ScratchFolder scratch;
@@ -56,14 +63,33 @@ TEST(LevelChanges, every_5_s_cost_no_collision) {
 }
 
 TEST(LevelChanges, keep_what_was_seen_at_the_finest_level) {
-  const Cells before = occupied_after(among_trees(), 10.0);  // fine, coarse
-  const Cells after = occupied_after(among_trees(), 20.0);   // and both once more
-  std::size_t kept = 0;
-  for (const auto& cell : before) {
-    kept += after.count(cell);
+  for (const Scenario& scenario : {among_trees(), in_rooms()}) {
+    const Cells before = occupied_after(scenario, 10.0);  // fine, coarse
+    const Cells after = occupied_after(scenario, 20.0);   // and both once more
+    std::size_t kept = 0;
+    for (const auto& cell : before) {
+      kept += after.count(cell);
+    }
+    ASSERT_GT(before.size(), 200U);
+    EXPECT_GE(static_cast<double>(kept), 0.98 * static_cast<double>(before.size()))
+        << scenario.world.generator;
   }
-  ASSERT_GT(before.size(), 200U);
-  EXPECT_GE(static_cast<double>(kept), 0.98 * static_cast<double>(before.size()));
+}
+
+/// Of a flight with this mapper at the price of stock OctoMap.
+std::string trace_hash(const std::string& mapper, std::map<std::string, ParameterValue> chosen) {
+  Scenario scenario = among_trees();
+  scenario.world.parameters["goal_distance_m"] = 20.0;
+  scenario.kernels.mapper = mapper;
+  scenario.kernels.mapper_parameters = std::move(chosen);
+  return kit::flown(scenario).summary.trace_hash;
+}
+
+TEST(LevelChanges, give_the_stock_kernels_flight_where_each_resolution_has_its_layer) {
+  const ParameterValue stock{std::string{"stock"}};
+  const ParameterValue octomap{std::string{"octomap"}};
+  EXPECT_EQ(trace_hash("flyball", {{"layers", stock}, {"cost_of", octomap}}),
+            trace_hash("octomap", {}));
 }
 
 }  // namespace

@@ -25,6 +25,10 @@ inline constexpr std::int8_t most = 103;
 }
 }  // namespace log_odds
 
+/// A brick's steps in one unit of OctoMap's log-odds: a miss of 12 is its log(.4 / .6) = -.405, a
+/// hit of 25 its log(.7 / .3) = .847.
+inline constexpr float log_odds_steps = 29.6F;
+
 struct alignas(64) Brick {
   std::array<std::int8_t, 64> cells;
 };

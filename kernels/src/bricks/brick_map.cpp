@@ -137,7 +137,9 @@ void BrickMap::fill(const CellKey& brick, const Brick& cells) {
   chunk.set_masks(number, masks);
 }
 
-std::size_t BrickMap::drop_beyond(const Vec3& p_W, double radius_m) {
+std::size_t BrickMap::drop_beyond(const Vec3& p_W,
+                                  double radius_m,
+                                  const std::function<void(const Chunk&)>& show) {
   const auto is_far = [&](const Chunk& chunk) {
     const Aabb cube = lattice_.cube(chunk.key, chunk_level);
     const Vec3 nearest = p_W.cwiseMax(cube.min).cwiseMin(cube.max);
@@ -146,6 +148,7 @@ std::size_t BrickMap::drop_beyond(const Vec3& p_W, double radius_m) {
   std::size_t kept = 0;  // In their order, which decides the order in which cells are shown.
   for (auto& chunk : chunks_) {
     if (is_far(*chunk)) {
+      show(*chunk);
       *chunk = Chunk{CellKey{}};
       spare_.push_back(std::move(chunk));
     } else if (&chunks_[kept] != &chunk) {

@@ -19,6 +19,7 @@
 #include "packed_cell.h"
 #include "scan_masks.h"
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -95,8 +96,12 @@ class BrickMap {
   /// Forgets the chunks that lie farther from `p_W` than `radius_m` as a whole. Their memory is
   /// kept for new ones.
   ///
-  /// @return  How many.
-  std::size_t drop_beyond(const Vec3& p_W, double radius_m);
+  /// @param show  Sees each of them before it goes.
+  /// @return      How many.
+  std::size_t drop_beyond(
+      const Vec3& p_W,
+      double radius_m,
+      const std::function<void(const Chunk&)>& show = [](const Chunk&) {});
 
   /// @param cell  Key at `level`, which is 0..5.
   [[nodiscard]] BlockSummary summary(const CellKey& cell, int level) const;

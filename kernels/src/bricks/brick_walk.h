@@ -21,21 +21,32 @@ class BrickWalk {
   /// `show(part)` returns true, and says whether it did.
   template <class Shape, class Show>
   [[nodiscard]] bool any_occupied(const Shape& shape, Show&& show) const {
-    return any_chunk(scope(shape), [&](const CellKey& at, const Chunk* chunk, const auto& scope) {
-      return chunk != nullptr && occupied_below({*chunk, at, 0, chunk_level}, scope, show);
-    });
+    return any_occupied(shape.bounds(), shape, show);
+  }
+  /// The same, cut to `region`.
+  template <class Shape, class Show>
+  [[nodiscard]] bool any_occupied(const Aabb& region, const Shape& shape, Show&& show) const {
+    return any_chunk(
+        scope(region, shape), [&](const CellKey& at, const Chunk* chunk, const auto& scope) {
+          return chunk != nullptr && occupied_below({*chunk, at, 0, chunk_level}, scope, show);
+        });
   }
 
   /// The same for cubes of which nothing is known.
   template <class Shape, class Show>
   [[nodiscard]] bool any_unknown(const Shape& shape, Show&& show) const {
-    if (!lattice_.contains(shape.bounds().min) || !lattice_.contains(shape.bounds().max)) {
-      return show(shape.bounds());
+    return any_unknown(shape.bounds(), shape, show);
+  }
+  template <class Shape, class Show>
+  [[nodiscard]] bool any_unknown(const Aabb& region, const Shape& shape, Show&& show) const {
+    if (!lattice_.contains(region.min) || !lattice_.contains(region.max)) {
+      return show(region);
     }
-    return any_chunk(scope(shape), [&](const CellKey& at, const Chunk* chunk, const auto& scope) {
-      return chunk == nullptr ? show_part(lattice_.cube(at, chunk_level), scope, show)
-                              : unknown_below({*chunk, at, 0, chunk_level}, scope, show);
-    });
+    return any_chunk(
+        scope(region, shape), [&](const CellKey& at, const Chunk* chunk, const auto& scope) {
+          return chunk == nullptr ? show_part(lattice_.cube(at, chunk_level), scope, show)
+                                  : unknown_below({*chunk, at, 0, chunk_level}, scope, show);
+        });
   }
 
  private:
@@ -70,7 +81,7 @@ class BrickWalk {
   };
 
   template <class Shape>
-  [[nodiscard]] Scope<Shape> scope(const Shape& shape) const {
+  [[nodiscard]] Scope<Shape> scope(const Aabb& region, const Shape& shape) const {
     const double edge = lattice_.edge_m();
     const auto keys = [&](const Vec3& p) {
       const auto key = [&](double x) {
@@ -78,7 +89,6 @@ class BrickWalk {
       };
       return Keys{key(p.x()), key(p.y()), key(p.z())};
     };
-    const Aabb region = shape.bounds();
     const Vec3 margin = Vec3::Constant(touch_m);
     return {shape, region, keys(region.min + margin), keys(region.max - margin),
             keys(shape.focus())};

@@ -15,10 +15,16 @@ class ClearSpaces {
   /// Cylinders that are kept; past it the oldest of the thinnest goes.
   static constexpr std::size_t max_clear = 16;
 
+  struct Space {
+    Vec3 centre_W;
+    Cylinder space;
+  };
+
   ClearSpaces() { spaces_.reserve(max_clear); }
 
   /// Ignored when an earlier cylinder contains it.
   void declare(const Vec3& centre_W, const Cylinder& space);
+  [[nodiscard]] const std::vector<Space>& all() const { return spaces_; }
   [[nodiscard]] bool is_empty() const { return spaces_.empty(); }
   [[nodiscard]] bool contains(const Vec3& p_W) const;
   /// The cells of a brick that lie in one of the cylinders as a whole.
@@ -29,10 +35,6 @@ class ClearSpaces {
   [[nodiscard]] bool cover(const Aabb& part, const BodyShape& body) const;
 
  private:
-  struct Space {
-    Vec3 centre_W;
-    Cylinder space;
-  };
   static bool holds_disc(const Space& outer, const Vec3& p_W, double radius_m);
   static bool holds_heights(const Space& outer, double low_m, double high_m);
   static bool holds_rectangle(const Space& outer, const Aabb& box);

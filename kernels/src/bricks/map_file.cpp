@@ -28,7 +28,9 @@ Status write_map_file(const BrickMap& map,
                                                std::to_string(*resolution_m) + " m"};
   }
   try {
-    return write_octree(*to_octree(map, level), path);
+    const bool is_bt = path.size() > 3 && path.compare(path.size() - 3, 3, ".bt") == 0;
+    const auto cells = is_bt ? TreeCells::likeliest : TreeCells::log_odds;
+    return write_octree(*to_octree(map, level, cells), path);
   } catch (const std::exception& e) {
     return Error{ErrorCode::failed, "map file \"" + path + "\": " + e.what()};
   }

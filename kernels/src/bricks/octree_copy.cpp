@@ -7,20 +7,17 @@
 namespace flyball {
 namespace {
 
-// A brick's miss of 12 steps is OctoMap's log(.4 / .6) = -.405, its hit of 25 is log(.7 / .3) =
-// .847.
-constexpr float steps_per_log_odds = 29.6F;
 constexpr unsigned tree_depth = 16;
 constexpr unsigned chunk_depth = tree_depth - chunk_level;
 
 float log_odds_of(std::int8_t cell) {
-  return static_cast<float>(cell) / steps_per_log_odds;
+  return static_cast<float>(cell) / log_odds_steps;
 }
 
 /// Rounding never makes a free cell occupied, nor the other way round.
 std::int8_t cell_of(float log_odds, bool is_occupied) {
   const float steps =
-      std::nearbyint(std::clamp(log_odds * steps_per_log_odds, static_cast<float>(log_odds::least),
+      std::nearbyint(std::clamp(log_odds * log_odds_steps, static_cast<float>(log_odds::least),
                                 static_cast<float>(log_odds::most)));
   const auto cell = static_cast<int>(steps);
   return static_cast<std::int8_t>(is_occupied ? std::max(cell, 0) : std::min(cell, -1));
@@ -48,15 +45,65 @@ std::int8_t most_in(const Chunk& chunk, const CellKey& cell, int level) {
   return most;
 }
 
-void add_chunk(const BrickMap& map, const Chunk& chunk, int level, octomap::OcTree& tree) {
+void prune_below(octomap::OcTreeNode* node, octomap::OcTree& tree) {
+  if (tree.nodeHasChildren(node)) {
+    for (unsigned child = 0; child < 8; ++child) {
+      if (tree.nodeChildExists(node, child)) {
+        prune_below(tree.getNodeChild(node, child), tree);
+      }
+    }
+    (void)tree.pruneNode(node);
+  }
+}
+
+/// The part of the tree that a chunk fills: without this a map would need ten times its memory.
+void prune_chunk(const CellKey& chunk, int level, octomap::OcTree& tree) {
+  const octomap::OcTreeKey key =
+      coarse_key({chunk.x << (chunk_level - level), chunk.y << (chunk_level - level),
+                  chunk.z << (chunk_level - level)},
+                 level);
+  octomap::OcTreeNode* node = tree.getRoot();
+  for (int depth = tree_depth - 1; node != nullptr && depth >= chunk_level - level; --depth) {
+    const unsigned child = octomap::computeChildIdx(key, depth);
+    const bool exists = tree.nodeHasChildren(node) && tree.nodeChildExists(node, child);
+    node = exists ? tree.getNodeChild(node, child) : nullptr;
+  }
+  if (node != nullptr) {
+    prune_below(node, tree);
+  }
+}
+
+struct CellsToAdd {
+  int level;
+  TreeCells kind;
+};
+
+struct CellOf {
+  const Chunk& chunk;
+  const CellKey& cell;
+  const CellsToAdd& wanted;
+};
+
+float value_of(const CellOf& of, const octomap::OcTree& tree) {
+  const float log_odds = log_odds_of(most_in(of.chunk, of.cell, of.wanted.level));
+  if (of.wanted.kind == TreeCells::log_odds) {
+    return log_odds;
+  }
+  return log_odds < 0.0F ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog();
+}
+
+void add_chunk(const BrickMap& map,
+               const Chunk& chunk,
+               const CellsToAdd& wanted,
+               octomap::OcTree& tree) {
+  const int level = wanted.level;
   const int edge = 1 << (chunk_level - level);
   for (int z = 0; z < edge; ++z) {
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
         const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
         if (map.state(cell, level) != CellState::unknown) {
-          tree.setNodeValue(coarse_key(cell, level), log_odds_of(most_in(chunk, cell, level)),
-                            true);
+          tree.setNodeValue(coarse_key(cell, level), value_of({chunk, cell, wanted}, tree), true);
         }
       }
     }
@@ -110,12 +157,13 @@ void fill_cube(Brick& brick, const CellKey& first, int edge, std::int8_t value) 
 
 }  // namespace
 
-std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level) {
+std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level, TreeCells cells) {
   auto tree = std::make_unique<octomap::OcTree>(map.lattice().cell_m(level));
   tree->setClampingThresMin(0.12);  // both as in MAVBench's code
   tree->setClampingThresMax(0.97);
   for (const auto& chunk : map.chunks()) {
-    add_chunk(map, *chunk, level, *tree);
+    add_chunk(map, *chunk, {level, cells}, *tree);
+    prune_chunk(chunk->key, level, *tree);
   }
   tree->updateInnerOccupancy();
   tree->prune();

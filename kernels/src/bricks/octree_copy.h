@@ -16,9 +16,15 @@ namespace flyball {
 /// Most chunks that a tree may fill: 550 MB.
 inline constexpr std::size_t most_chunks_read = 16384;
 
+/// What a cell of a tree holds: how likely it is occupied, or, in a fraction of the memory, only
+/// which of the two is likelier (OctoMap's maximum likelihood, as in a `.bt` file).
+enum class TreeCells : std::uint8_t { log_odds, likeliest };
+
 /// The cells of one level, pruned. At a coarser one than the finest, cells that are free in part
 /// only are unknown.
-[[nodiscard]] std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level);
+[[nodiscard]] std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map,
+                                                         int level,
+                                                         TreeCells cells = TreeCells::log_odds);
 
 /// A map with the tree's cells as its finest.
 ///

@@ -4,6 +4,9 @@
 /// @file
 /// A range scan as OctoMap takes it.
 
+#include "flyball/kernels/mapper.h"
+
+#include <string>
 #include <vector>
 
 #include <octomap/octomap_types.h>
@@ -17,5 +20,19 @@ struct Scan {
   std::vector<octomap::point3d> clear_W{};  ///< Ends of rays that met nothing.
   double range_m{};                         ///< Rays are cut there, and then mark nothing.
 };
+
+/// Into the world, rounded to floats as stock OctoMap gets them.
+void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan);
+
+/// What is checked of a scan whatever the map.
+///
+/// @param cell_m  Of the cells that its rays cross.
+/// @param edge_m  The camera must be nearer to the map's centre along each axis.
+/// @error `invalid_input` with what is wrong.
+[[nodiscard]] Status check_scan(const PointCloud& cloud_C,
+                                const Pose& X_WC,
+                                const MapperSettings& settings,
+                                double cell_m,
+                                double edge_m);
 
 }  // namespace flyball

@@ -17,6 +17,12 @@ namespace flyball {
   return static_cast<unsigned>((cell.z & 3) << 4 | (cell.y & 3) << 2 | (cell.x & 3));
 }
 
+/// The cell of a brick that has this bit.
+[[nodiscard]] inline CellKey cell_of(const CellKey& brick, unsigned bit) {
+  return {4 * brick.x + static_cast<int>(bit & 3U), 4 * brick.y + static_cast<int>(bit >> 2U & 3U),
+          4 * brick.z + static_cast<int>(bit >> 4U)};
+}
+
 struct BrickMasks {
   CellKey brick{};  ///< At `brick_level`.
   std::uint64_t free{};

@@ -92,6 +92,13 @@ class Mapper : public Kernel {
                                      [[maybe_unused]] std::optional<double> resolution_m) const {
     return Error{ErrorCode::unavailable, "this mapper writes no files; try: mapper flyball"};
   }
+  /// What this mapper forgets from now on goes into this file, which it deletes in the end, and
+  /// `write` puts it back into the map. To be called before the first `prepare`, once configured.
+  ///
+  /// @error `failed` when the file cannot be made. What goes wrong later is an error of `write`.
+  [[nodiscard]] virtual Status keep_forgotten([[maybe_unused]] const std::string& path) {
+    return Done{};  // Most mappers forget nothing.
+  }
   /// Replaces the map by that of an OctoMap file; the mapper's finest resolution becomes the
   /// file's. A file that is broken in any way is refused, and the map stays as it was.
   ///

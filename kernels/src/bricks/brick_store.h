@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Bricks as a store of LayeredMapper: the cells of one resolution, freed by stock's rule.
+
+#include "../layered_mapper.h"
+#include "brick_contents.h"
+#include "brick_map.h"
+#include "map_file.h"
+#include "octree_copy.h"
+
+namespace flyball {
+
+class BrickStore {
+ public:
+  using Cells = BrickMap;
+
+  explicit BrickStore(double cell_m) : map_{cell_m} {}
+
+  [[nodiscard]] double cell_m() const { return map_.lattice().cell_m(0); }
+  [[nodiscard]] const BrickMap& cells() const { return map_; }
+
+  void write(const std::vector<BrickMasks>& masks) { map_.apply(masks); }
+
+  [[nodiscard]] bool is_confirmed(const CellKey& cell) const {
+    constexpr auto steps = static_cast<std::int8_t>(confirmed_log_odds * log_odds_steps);
+    const Chunk& chunk = map_.chunk_at(cell.above(chunk_level));
+    return chunk.bricks[brick_number(cell.above(brick_level))].cells[bit_in_brick(cell)] >= steps;
+  }
+  void confirm(const CellKey& cell) {
+    const BrickMasks hit{cell.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(cell)};
+    while (!is_confirmed(cell)) {
+      map_.apply({hit});
+    }
+  }
+
+  void add_to(ClearCells& clear) const { clear.add(*to_octree(map_, 0)); }
+
+  [[nodiscard]] MapLevel counts() const { return contents_of(map_, 0).levels.front(); }
+  [[nodiscard]] std::size_t bytes() const { return map_.bytes(); }
+
+  [[nodiscard]] Status write_file(const std::string& path) const {
+    return write_map_file(map_, std::nullopt, path);
+  }
+  [[nodiscard]] static Result<BrickStore> read_file(const std::string& path) {
+    auto map = read_map_file(path);
+    if (!map) {
+      return map.error();
+    }
+    return BrickStore{std::move(*map)};
+  }
+
+ private:
+  explicit BrickStore(BrickMap map) : map_{std::move(map)} {}
+
+  BrickMap map_;
+};
+
+}  // namespace flyball

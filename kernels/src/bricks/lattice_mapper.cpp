@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: flyball
+#include "lattice_mapper.h"
+
+#include "brick_contents.h"
+#include "brick_view.h"
+#include "chunk_log.h"
+#include "map_file.h"
+#include "pyramid_scan.h"
+#include "ray_scan.h"
+#include "scan.h"
+#include "work_limit.h"
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace flyball {
+namespace {
+
+constexpr int coarsest_level = 3;
+
+Error invalid(std::string message) {
+  return {ErrorCode::invalid_input, std::move(message)};
+}
+
+enum class FrontEnd : std::uint8_t { exact, rays, pyramid };
+
+class LatticeMapper final : public Mapper {
+ public:
+  [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
+    return {
+        {"finest_m", 0.15, 0.01, 10.0,
+         "finest cells; the map's resolution is this times 1, 2, 4, 8"},
+        {"front_end",
+         "pyramid",
+         0.0,
+         0.0,
+         "at the finest level: exact (stock OctoMap's cells), rays, or pyramid (coarse to fine)",
+         {"exact", "pyramid", "rays"}},
+        {"cost_of",
+         "flyball",
+         0.0,
+         0.0,
+         "whose work is reported: its own, or what stock OctoMap would do at this resolution",
+         {"flyball", "octomap"}},
+        {"most_traversals", 0.0, 0.0, 1e12,
+         "cells a scan's rays may cross, near first; 0: no limit"},
+        {"keep_radius_m", 0.0, 0.0, 1e5,
+         "what lies farther from the vehicle is forgotten, but for the file of the whole map; 0: "
+         "nothing is"},
+    };
+  }
+
+  void configure(const Parameters& chosen) override {
+    const std::string& front_end = chosen.text("front_end");
+    front_end_ = front_end == "exact"  ? FrontEnd::exact
+                 : front_end == "rays" ? FrontEnd::rays
+                                       : FrontEnd::pyramid;
+    reports_stock_work_ = chosen.text("cost_of") == "octomap";
+    most_traversals_ = chosen.number("most_traversals");
+    keep_radius_m_ = chosen.number("keep_radius_m");
+    begin(chosen.number("finest_m"));
+  }
+
+  [[nodiscard]] std::vector<double> resolutions_m() const override {
+    std::vector<double> cells_m;
+    for (int level = 0; level <= coarsest_level; ++level) {
+      cells_m.push_back(map_.lattice().cell_m(level));
+    }
+    return cells_m;
+  }
+
+  Result<Work> prepare(const PointCloud& cloud_C,
+                       const Pose& X_WC,
+                       const MapperSettings& settings) override {
+    pending_ = nullptr;
+    if (auto status = check(cloud_C, X_WC, settings); !status) {
+      return status.error();
+    }
+    const auto level = level_of(settings.resolution_m);
+    if (!level) {
+      return level.error();
+    }
+    try {
+      return integrate(cloud_C, X_WC, settings, *level);
+    } catch (const std::exception& e) {
+      return Error{ErrorCode::failed, std::string{"flyball map: "} + e.what()};
+    }
+  }
+
+  void commit() override {
+    if (pending_ != nullptr) {
+      map_.apply(pending_->bricks);
+      if (keep_radius_m_ > 0.0) {
+        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m),
+                         [this](const Chunk& chunk) {
+                           if (forgotten_) {
+                             forgotten_->append(chunk);
+                           }
+                         });
+      }
+      view_.activate(pending_level_);
+      pending_ = nullptr;
+    }
+  }
+
+  void declare_clear(const Vec3& centre_W, const Cylinder& space) override {
+    view_.declare_clear(centre_W, space);
+  }
+
+  [[nodiscard]] const OccupancyView& view() const override { return view_; }
+
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override {
+    std::vector<OccupiedCell> cells;
+    view_.for_each_occupied([&](const Aabb& cube) {
+      cells.push_back({0.5 * (cube.min + cube.max), cube.max.x() - cube.min.x()});
+    });
+    return cells;
+  }
+
+  [[nodiscard]] MapContents contents() const override { return contents_of(map_, coarsest_level); }
+
+  [[nodiscard]] Status write(const std::string& path,
+                             std::optional<double> resolution_m) const override {
+    if (!forgotten_ || forgotten_->is_empty()) {
+      return write_map_file(map_, resolution_m, path);
+    }
+    BrickMap whole{map_.lattice().cell_m(0)};
+    if (auto status = forgotten_->add_to(whole); !status) {
+      return status;
+    }
+    for (const auto& chunk : map_.chunks()) {
+      add_chunk(*chunk, whole);
+    }
+    return write_map_file(whole, resolution_m, path);
+  }
+
+  [[nodiscard]] Status keep_forgotten(const std::string& path) override {
+    if (!(keep_radius_m_ > 0.0)) {
+      return Done{};
+    }
+    forgotten_ = std::make_unique<ChunkLog>(path);
+    return forgotten_->status();
+  }
+
+  [[nodiscard]] Status read(const std::string& path) override {
+    auto map = read_map_file(path);
+    if (!map) {
+      return map.error();
+    }
+    begin(map->lattice().cell_m(0));
+    map_ = std::move(*map);
+    view_.activate(0);
+    return Done{};
+  }
+
+ private:
+  static constexpr double default_finest_m = 0.15;
+
+  void begin(double finest_m) {
+    map_ = BrickMap{finest_m};
+    pending_ = nullptr;
+    exact_.clear();
+    for (int level = 0; level <= coarsest_level; ++level) {
+      exact_.push_back(
+          std::make_unique<RayScan>(map_.lattice().cell_m(level), RayScan::Match::stock));
+    }
+    close_ = std::make_unique<RayScan>(finest_m, RayScan::Match::close);
+    pyramid_ = std::make_unique<PyramidScan>(finest_m);
+    pyramid_->refine_near_camera();
+  }
+
+  /// A map that is still empty takes a resolution off its lattice as its finest.
+  Result<int> level_of(double resolution_m) {
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      for (int level = 0; level <= coarsest_level; ++level) {
+        if (std::abs(map_.lattice().cell_m(level) - resolution_m) < 1e-9) {
+          return level;
+        }
+      }
+      if (!map_.chunks().empty()) {
+        break;
+      }
+      begin(resolution_m);
+    }
+    return invalid("map.resolution_m " + std::to_string(resolution_m) +
+                   " must be 1, 2, 4 or 8 times " + std::to_string(map_.lattice().cell_m(0)));
+  }
+
+  [[nodiscard]] Status check(const PointCloud& cloud_C,
+                             const Pose& X_WC,
+                             const MapperSettings& settings) const {
+    const double finest_m = map_.chunks().empty()
+                                ? std::min(settings.resolution_m, map_.lattice().cell_m(0))
+                                : map_.lattice().cell_m(0);
+    // A pyramid looks at the whole box around its view, up to the next chunk.
+    const double edge_m = map_.lattice().edge_m() - settings.range_m - 64.0 * finest_m;
+    return check_scan(cloud_C, X_WC, settings, finest_m, edge_m);
+  }
+
+  Work integrate(const PointCloud& cloud_C,
+                 const Pose& X_WC,
+                 const MapperSettings& settings,
+                 int level) {
+    eye_W_ = X_WC.translation();
+    const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
+    if (!looks || reports_stock_work_ || most_traversals_ > 0.0) {
+      to_world(cloud_C, X_WC, scan_);
+    }
+    scan_.range_m = settings.range_m;
+    const ScanMasks* stock = nullptr;
+    if (reports_stock_work_) {
+      stock = &exact_[static_cast<std::size_t>(level)]->compute(scan_);
+    }
+    Work work = work_of(stock);
+    if (most_traversals_ > 0.0) {
+      scan_.range_m = range_within(scan_, map_.lattice().cell_m(0), most_traversals_);
+    }
+    const bool is_done = stock != nullptr && !looks && level == 0 &&
+                         front_end_ == FrontEnd::exact && !(most_traversals_ > 0.0);
+    pending_ = is_done ? stock
+               : looks ? &pyramid_->compute(cloud_C, X_WC, scan_.range_m, level)
+                       : &walker().compute(scan_);
+    pending_level_ = level;
+    return reports_stock_work_ ? work : work_of(pending_);
+  }
+
+  [[nodiscard]] RayScan& walker() { return front_end_ == FrontEnd::exact ? *exact_[0] : *close_; }
+
+  static Work work_of(const ScanMasks* masks) {
+    Work work;
+    if (masks != nullptr) {
+      work.add("frame", 1.0);
+      work.add("rays", masks->rays);
+      work.add("traversals", masks->traversals);
+      work.add("updates", masks->updates);
+      if (masks->blocks > 0.0) {
+        work.add("blocks", masks->blocks);
+      }
+    }
+    return work;
+  }
+
+  FrontEnd front_end_{FrontEnd::pyramid};
+  bool reports_stock_work_{};
+  double most_traversals_{};
+  double keep_radius_m_{};
+
+  BrickMap map_{default_finest_m};
+  BrickView view_{map_};
+  std::unique_ptr<ChunkLog> forgotten_{};  ///< Null where nothing is, and where nobody asks.
+  std::vector<std::unique_ptr<RayScan>> exact_{};  ///< One for each level, which sets its counts.
+  std::unique_ptr<RayScan> close_{};
+  std::unique_ptr<PyramidScan> pyramid_{};
+  Scan scan_{};
+  const ScanMasks* pending_{};
+  int pending_level_{};
+  Vec3 eye_W_{Vec3::Zero()};  ///< Of the pending scan.
+
+ public:
+  LatticeMapper() { begin(default_finest_m); }
+};
+
+}  // namespace
+
+std::unique_ptr<Mapper> make_lattice_mapper() {
+  return std::make_unique<LatticeMapper>();
+}
+
+}  // namespace flyball
