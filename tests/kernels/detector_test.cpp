@@ -40,8 +40,8 @@ class EveryDetector : public testing::TestWithParam<const char*> {
     detector = make(GetParam());
     ASSERT_NE(detector, nullptr);
     const Status started = start(*detector);
-    if (!started && started.error().message == "no model") {
-      GTEST_SKIP() << "skipped: no model";
+    if (!started && started.error().code == ErrorCode::not_found) {
+      GTEST_SKIP() << "no weights of the network";
     }
     ASSERT_TRUE(started.ok()) << started.error().message;
   }
@@ -93,7 +93,7 @@ TEST(Haar, says_which_package_brings_its_cascades) {
 TEST(Yolo, counts_the_multiply_adds_that_its_authors_state) {
   const auto yolo = make("yolo");
   if (!start(*yolo).ok()) {
-    GTEST_SKIP() << "skipped: no model";
+    GTEST_SKIP() << "no weights of the network";
   }
   Work work;
   ASSERT_TRUE(yolo->detect(empty_scene(320, 320), 1.0, work).ok());

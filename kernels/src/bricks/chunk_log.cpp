@@ -81,7 +81,9 @@ ChunkLog::~ChunkLog() {
 Status ChunkLog::status() const {
   if (!file_) {
     return Error{ErrorCode::failed,
-                 "cannot write \"" + path_ + "\", where the map keeps what it forgets"};
+                 "cannot write \"" + path_ +
+                     "\", where the map keeps what it forgets; name a map file in a "
+                     "folder that can be written to"};
   }
   return Done{};
 }
