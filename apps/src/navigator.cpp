@@ -181,14 +181,13 @@ void Navigator::step_aside() {
     return context_.map().body_state(p_W, context_.narrow_body()) == CellState::occupied;
   };
   const Vec3 here_W = follower_.position_W();
+  constexpr std::size_t turns = 8;
   constexpr double eighth_rad = 0.7853981633974483;
-  for (const double step_m : aside_m) {
-    for (int turn = 0; turn < 8 && is_blocked(follower_.position_W()); ++turn) {
-      const double yaw_rad = turn * eighth_rad;
-      const Vec3 p_W = here_W + step_m * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
-      if (!is_blocked(p_W)) {
-        hover_at(p_W, follower_.yaw_rad());
-      }
+  for (std::size_t i = 0; i < turns * aside_m.size() && is_blocked(follower_.position_W()); ++i) {
+    const double yaw_rad = static_cast<double>(i % turns) * eighth_rad;
+    const Vec3 p_W = here_W + aside_m[i / turns] * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
+    if (!is_blocked(p_W)) {
+      hover_at(p_W, follower_.yaw_rad());
     }
   }
 }
