@@ -21,6 +21,7 @@
 #include "bricks/ray_scan.h"
 #include "layered_view.h"
 #include "octomap_tree.h"
+#include "shown_cells.h"
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -83,13 +84,7 @@ class LayeredMapper final : public Mapper {
 
   [[nodiscard]] const OccupancyView& view() const override { return view_; }
 
-  [[nodiscard]] std::vector<OccupiedCell> occupied() const override {
-    std::vector<OccupiedCell> cells;
-    view_.for_each_occupied([&](const Aabb& cube) {
-      cells.push_back({0.5 * (cube.min + cube.max), cube.max.x() - cube.min.x()});
-    });
-    return cells;
-  }
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return shown_cells(view_); }
 
   [[nodiscard]] MapContents contents() const override {
     MapContents contents;

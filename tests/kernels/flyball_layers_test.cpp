@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/kernels/kernels.h"
 #include "flyball/kernels/mapper.h"
-#include "flyball/runtime/registry.h"
 
+#include "made_mapper.h"
 #include "scratch_folder.h"
 #include "synthetic_scans.h"
 #include "wall_scan.h"
@@ -18,26 +17,12 @@ namespace {
 constexpr Cylinder body{0.35, 0.15};
 constexpr double range_m = 7.0;
 
-std::unique_ptr<Mapper> make(const std::string& name,
-                             const std::map<std::string, ParameterValue>& given = {}) {
-  Registry registry;
-  register_kernels(registry);
-  auto mapper = registry.make<Mapper>(name);
-  const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
-  mapper->configure(std::get<Parameters>(chosen));
-  return mapper;
-}
-
 std::unique_ptr<Mapper> make_layers() {
-  return make("flyball", {{"layers", std::string{"stock"}}});
+  return kit::made_mapper("flyball", {{"layers", std::string{"stock"}}});
 }
 
 Work insert_scan(Mapper& mapper, kit::Place place, int frame, double resolution_m) {
-  const auto scan = kit::synthetic_scan(place, frame, range_m, 96);
-  const auto work = mapper.prepare(scan.cloud_C, scan.X_WC, {resolution_m, range_m});
-  EXPECT_TRUE(work.ok());
-  mapper.commit();
-  return work.ok() ? *work : Work{};
+  return kit::insert_scan(mapper, place, frame, resolution_m, range_m);
 }
 
 class Places {
@@ -72,7 +57,7 @@ void expect_same_answers(const OccupancyView& view, const OccupancyView& expecte
 TEST(FlyballLayers, answer_and_count_as_stock_does_while_the_resolution_changes) {
   constexpr std::array<double, 6> resolutions_m{0.15, 0.60, 0.60, 0.80, 0.15, 0.30};
   for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
-    const auto stock = make("octomap");
+    const auto stock = kit::made_mapper("octomap");
     const auto layers = make_layers();
     stock->declare_clear({0.0, 0.0, 1.0}, {1.0, 1.0});
     layers->declare_clear({0.0, 0.0, 1.0}, {1.0, 1.0});
@@ -114,7 +99,8 @@ TEST(FlyballLayers, come_back_from_a_file) {
 
 TEST(FlyballLayers, refuse_what_only_one_lattice_can_do) {
   for (const std::string name : {"keep_radius_m", "most_traversals"}) {
-    const auto mapper = make("flyball", {{"layers", std::string{"stock"}}, {name, 40.0}});
+    const auto mapper =
+        kit::made_mapper("flyball", {{"layers", std::string{"stock"}}, {name, 40.0}});
     const auto work =
         mapper->prepare(kit::wall_scan(3.0F), kit::looking_along_x(), {0.15, range_m});
     ASSERT_FALSE(work.ok());

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/kernels/kernels.h"
 #include "flyball/kernels/mapper.h"
-#include "flyball/runtime/registry.h"
 
+#include "made_mapper.h"
 #include "synthetic_scans.h"
 #include "wall_scan.h"
 #include <algorithm>
@@ -24,26 +23,12 @@ constexpr Cylinder body{0.35, 0.15};
 constexpr double range_m = 7.0;
 constexpr std::array<double, 4> lattice_m{0.15, 0.30, 0.60, 1.20};
 
-std::unique_ptr<Mapper> make(const std::string& name,
-                             const std::map<std::string, ParameterValue>& given = {}) {
-  Registry registry;
-  register_kernels(registry);
-  auto mapper = registry.make<Mapper>(name);
-  const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
-  mapper->configure(std::get<Parameters>(chosen));
-  return mapper;
-}
-
 Work insert_scan(Mapper& mapper, kit::Place place, int frame, double resolution_m) {
-  const auto scan = kit::synthetic_scan(place, frame, range_m, 96);
-  const auto work = mapper.prepare(scan.cloud_C, scan.X_WC, {resolution_m, range_m});
-  EXPECT_TRUE(work.ok());
-  mapper.commit();
-  return work.ok() ? *work : Work{};
+  return kit::insert_scan(mapper, place, frame, resolution_m, range_m);
 }
 
 TEST(Flyball, shows_a_scan_only_after_commit) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, range_m}).ok());
   EXPECT_EQ(mapper->view().state({3.01, 0.01, 0.01}), CellState::unknown);
   EXPECT_TRUE(mapper->occupied().empty());
@@ -56,7 +41,7 @@ TEST(Flyball, shows_a_scan_only_after_commit) {
 }
 
 TEST(Flyball, replaces_a_change_that_was_not_committed) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, range_m}).ok());
   ASSERT_TRUE(mapper->prepare(wall_scan(5.0F), looking_along_x(), {0.15, range_m}).ok());
   mapper->commit();
@@ -66,7 +51,7 @@ TEST(Flyball, replaces_a_change_that_was_not_committed) {
 }
 
 TEST(Flyball, frees_returns_beyond_the_range_up_to_it_and_marks_nothing) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   insert(*mapper, wall_scan(5.0F), {0.15, 4.0});
   EXPECT_EQ(mapper->view().state({3.7, 0.0, 0.0}), CellState::free);
   EXPECT_EQ(mapper->view().state({4.2, 0.0, 0.0}), CellState::unknown);
@@ -74,7 +59,7 @@ TEST(Flyball, frees_returns_beyond_the_range_up_to_it_and_marks_nothing) {
 }
 
 TEST(Flyball, rejects_bad_input_and_prepares_nothing) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   const float nan = std::numeric_limits<float>::quiet_NaN();
   PointCloud broken = wall_scan(3.0F);
   broken.hits_C[5].y() = nan;
@@ -101,7 +86,7 @@ TEST(Flyball, rejects_bad_input_and_prepares_nothing) {
 }
 
 TEST(Flyball, begins_its_lattice_with_the_first_resolution_and_keeps_to_it) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   insert(*mapper, wall_scan(3.0F), {0.80, range_m});
   EXPECT_EQ(mapper->view().resolution_m(), 0.80);
   insert(*mapper, wall_scan(3.0F), {1.60, range_m});
@@ -112,7 +97,7 @@ TEST(Flyball, begins_its_lattice_with_the_first_resolution_and_keeps_to_it) {
 }
 
 TEST(Flyball, keeps_the_old_level_until_the_change_is_committed) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   insert(*mapper, wall_scan(5.0F), {0.15, range_m});
   ASSERT_TRUE(mapper->prepare(wall_scan(5.0F), looking_along_x(), {0.60, range_m}).ok());
   EXPECT_EQ(mapper->view().resolution_m(), 0.15);
@@ -125,8 +110,8 @@ TEST(Flyball, keeps_the_old_level_until_the_change_is_committed) {
 
 TEST(Flyball, reports_stock_work_exactly_at_every_level) {
   for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
-    const auto stock = make("octomap");
-    const auto fast = make("flyball", {{"cost_of", std::string{"octomap"}}});
+    const auto stock = kit::made_mapper("octomap");
+    const auto fast = kit::made_mapper("flyball", {{"cost_of", std::string{"octomap"}}});
     for (int frame = 0; frame < 6; ++frame) {
       const double resolution_m = lattice_m[static_cast<std::size_t>(frame) % 4];
       const Work expected = insert_scan(*stock, place, frame, resolution_m);
@@ -140,8 +125,8 @@ TEST(Flyball, reports_stock_work_exactly_at_every_level) {
 }
 
 TEST(Flyball, maps_the_same_whoever_pays) {
-  const auto own = make("flyball");
-  const auto stock = make("flyball", {{"cost_of", std::string{"octomap"}}});
+  const auto own = kit::made_mapper("flyball");
+  const auto stock = kit::made_mapper("flyball", {{"cost_of", std::string{"octomap"}}});
   for (int frame = 0; frame < 4; ++frame) {
     const double resolution_m = lattice_m[static_cast<std::size_t>(frame) % 2];
     insert_scan(*own, kit::Place::indoor, frame, resolution_m);
@@ -158,8 +143,8 @@ TEST(Flyball, maps_the_same_whoever_pays) {
 TEST(Flyball, answers_as_stock_does_at_one_resolution) {
   for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
     for (const double resolution_m : {0.15, 0.20}) {
-      const auto stock = make("octomap");
-      const auto fast = make("flyball", {{"front_end", std::string{"exact"}}});
+      const auto stock = kit::made_mapper("octomap");
+      const auto fast = kit::made_mapper("flyball", {{"front_end", std::string{"exact"}}});
       for (int frame = 0; frame < 8; ++frame) {
         insert_scan(*stock, place, frame, resolution_m);
         insert_scan(*fast, place, frame, resolution_m);
@@ -197,8 +182,8 @@ Cells occupied_cells(const Mapper& mapper) {
 TEST(Flyball, loses_and_inflates_nothing_when_the_knob_goes_coarse_and_back) {
   for (const std::string front_end : {"exact", "rays", "pyramid"}) {
     for (const auto place : {kit::Place::indoor, kit::Place::outdoor}) {
-      const auto fine = make("flyball", {{"front_end", front_end}});
-      const auto mixed = make("flyball", {{"front_end", front_end}});
+      const auto fine = kit::made_mapper("flyball", {{"front_end", front_end}});
+      const auto mixed = kit::made_mapper("flyball", {{"front_end", front_end}});
       for (int frame = 0; frame < 24; ++frame) {
         const std::size_t level =
             frame < 8 || frame >= 14 ? 0 : 1 + static_cast<std::size_t>(frame) / 2 % 3;
@@ -218,11 +203,11 @@ TEST(Flyball, loses_and_inflates_nothing_when_the_knob_goes_coarse_and_back) {
 }
 
 TEST(Flyball, looks_less_far_when_work_is_limited_and_no_less_near) {
-  const auto all = make("flyball", {{"front_end", std::string{"exact"}}});
+  const auto all = kit::made_mapper("flyball", {{"front_end", std::string{"exact"}}});
   const Work work = insert_scan(*all, kit::Place::indoor, 0, 0.15);
   const double limit = 0.4 * work.count("traversals");
-  const auto limited =
-      make("flyball", {{"front_end", std::string{"exact"}}, {"most_traversals", limit}});
+  const auto limited = kit::made_mapper(
+      "flyball", {{"front_end", std::string{"exact"}}, {"most_traversals", limit}});
   const Work less = insert_scan(*limited, kit::Place::indoor, 0, 0.15);
   EXPECT_LT(less.count("traversals"), 1.1 * limit);
   EXPECT_GT(less.count("traversals"), 0.9 * limit);
@@ -237,7 +222,7 @@ TEST(Flyball, looks_less_far_when_work_is_limited_and_no_less_near) {
 }
 
 TEST(Flyball, frees_declared_space_at_once_and_only_where_it_is_unknown) {
-  const auto mapper = make("flyball");
+  const auto mapper = kit::made_mapper("flyball");
   mapper->declare_clear({0.0, 0.0, 1.25}, {1.0, 1.25});
   EXPECT_EQ(mapper->view().body_state({0.2, 0.3, 1.0}, body), CellState::free);
   insert(*mapper, wall_scan(0.7F), {0.15, range_m});

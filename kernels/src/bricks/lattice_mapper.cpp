@@ -9,6 +9,7 @@
 #include "pyramid_scan.h"
 #include "ray_scan.h"
 #include "scan.h"
+#include "shown_cells.h"
 #include "work_limit.h"
 #include <algorithm>
 #include <cmath>
@@ -110,13 +111,7 @@ class LatticeMapper final : public Mapper {
 
   [[nodiscard]] const OccupancyView& view() const override { return view_; }
 
-  [[nodiscard]] std::vector<OccupiedCell> occupied() const override {
-    std::vector<OccupiedCell> cells;
-    view_.for_each_occupied([&](const Aabb& cube) {
-      cells.push_back({0.5 * (cube.min + cube.max), cube.max.x() - cube.min.x()});
-    });
-    return cells;
-  }
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return shown_cells(view_); }
 
   [[nodiscard]] MapContents contents() const override { return contents_of(map_, coarsest_level); }
 
