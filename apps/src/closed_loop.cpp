@@ -24,6 +24,11 @@ WindSpec wind_spec(const VehicleSettings& settings) {
   return {{settings.wind_east_m_s, settings.wind_north_m_s, 0.0}, settings.gust_wind_m_s};
 }
 
+/// A colour camera hangs on one.
+std::optional<GimbalSpec> gimbal_of(const MissionContext& context) {
+  return context.colour_camera ? std::optional{GimbalSpec{}} : std::nullopt;
+}
+
 double start_yaw(const World& world) {
   return yaw_of(world.goal_W - world.start_W);
 }
@@ -39,8 +44,12 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       executor_{executor},
       queue_{queue},
       topics_{topics},
-      vehicle_{context.airframe, context.scenario.vehicle.payload_kg,
-               start_position(world, context.airframe), start_yaw(world), world.ground_z_m},
+      vehicle_{context.airframe,
+               context.scenario.vehicle.payload_kg,
+               start_position(world, context.airframe),
+               start_yaw(world),
+               world.ground_z_m,
+               gimbal_of(context)},
       controller_{context.airframe, world.ground_z_m},
       regression_{context.airframe},
       battery_{context.airframe.battery_cells, context.airframe.battery_ah,
@@ -76,7 +85,7 @@ void ClosedLoop::start() {
   queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
   if (context_.colour_camera) {
     executor_.subscribe<GimbalAngles>(topics_.gimbal,
-                                      [this](const GimbalAngles& angles) { gimbal_.aim(angles); });
+                                      [this](const GimbalAngles& angles) { vehicle_.aim(angles); });
     const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
     queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
   }
@@ -112,7 +121,7 @@ void ClosedLoop::energy_step() {
   wind_.advance(dt_s, state.X_WB.translation().z() - context_.brief.ground_z_m, state.v_WB);
   log_.rotor_w = context_.scenario.vehicle.rotor_power == "thrust"
                      ? thrust_power_w(vehicle_, context_.scenario.vehicle.drive_efficiency)
-                     : regression_.update(state, vehicle_.payload_kg(), wind_.velocity_W(), dt_s);
+                     : regression_.update(state, vehicle_.carried_kg(), wind_.velocity_W(), dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
@@ -180,9 +189,8 @@ void ClosedLoop::publish_depth() {
 }
 
 void ClosedLoop::publish_colour() {
-  gimbal_.step(1.0 / context_.scenario.colour_camera.rate_hz);
-  const Pose X_LC = camera_in_level_frame(gimbal_.angles());
-  const Pose X_WC = level_frame(vehicle_.state().X_WB) * X_LC;
+  const Pose X_WC = vehicle_.camera_pose();
+  const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
   const ColourFrame frame =
       context_.colour_camera->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
   executor_.publish(topics_.colour, frame);

@@ -81,7 +81,6 @@ class ClosedLoop {
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};
   std::uint64_t frame_count_{};
-  Gimbal gimbal_{};
   std::uint64_t colour_count_{};
 };
 

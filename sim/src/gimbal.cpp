@@ -7,26 +7,59 @@
 namespace flyball {
 namespace {
 
-double towards(double from, double to, double largest) {
-  return from + std::clamp(to - from, -largest, largest);
+// Own choices: 80 rad/s, as small brushless gimbals reach, critically damped.
+constexpr double per_angle_1_s = 40.0;
+constexpr double rate_lag_s = 0.00625;
+constexpr double fastest_motor_rad_s = 6.0;
+// Straight up or down a pan does not move the axis, and its angle is no longer defined.
+constexpr double least_level_share = 0.05;
+
+Eigen::Matrix3d turned(const GimbalAngles& angles) {
+  return (Eigen::AngleAxisd{angles.pan_rad, Vec3::UnitZ()} *
+          Eigen::AngleAxisd{angles.tilt_rad, Vec3::UnitY()})
+      .toRotationMatrix();
 }
 
 }  // namespace
 
-Gimbal::Gimbal(const GimbalSpec& spec, const GimbalAngles& start)
-    : spec_{spec}, command_{start}, angles_{start} {}
-
-void Gimbal::aim(const GimbalAngles& command) {
+void GimbalServo::aim(const GimbalAngles& command) {
   if (std::isfinite(command.pan_rad) && std::isfinite(command.tilt_rad)) {
     command_.pan_rad = std::clamp(command.pan_rad, -spec_.max_pan_rad, spec_.max_pan_rad);
     command_.tilt_rad = std::clamp(command.tilt_rad, spec_.min_tilt_rad, spec_.max_tilt_rad);
   }
 }
 
-void Gimbal::step(double dt_s) {
+void GimbalServo::slew(double dt_s) {
   const double most_rad = spec_.max_rate_rad_s * dt_s;
-  angles_.pan_rad = towards(angles_.pan_rad, command_.pan_rad, most_rad);
-  angles_.tilt_rad = towards(angles_.tilt_rad, command_.tilt_rad, most_rad);
+  const auto towards = [&](double from_rad, double to_rad) {
+    return from_rad + std::clamp(to_rad - from_rad, -most_rad, most_rad);
+  };
+  aim_ = {towards(aim_.pan_rad, command_.pan_rad), towards(aim_.tilt_rad, command_.tilt_rad)};
+}
+
+GimbalAngles GimbalServo::wanted_joints(const Eigen::Matrix3d& R_WB,
+                                        const GimbalAngles& joints) const {
+  Pose X_WB = Pose::Identity();
+  X_WB.linear() = R_WB;
+  const Vec3 axis_B = R_WB.transpose() * (level_frame(X_WB).linear() * turned(aim_).col(0));
+  const double level = axis_B.head<2>().norm();
+  const double pan_rad = level < least_level_share ? joints.pan_rad : yaw_of(axis_B);
+  const double tilt_rad = std::atan2(-axis_B.z(), level);
+  return {std::clamp(pan_rad, -spec_.max_pan_rad, spec_.max_pan_rad),
+          std::clamp(tilt_rad, spec_.min_tilt_rad, spec_.max_tilt_rad)};
+}
+
+GimbalAngles GimbalServo::acceleration(const Eigen::Matrix3d& R_WB,
+                                       const GimbalAngles& joints,
+                                       const GimbalAngles& rates_rad_s) const {
+  const GimbalAngles wanted = wanted_joints(R_WB, joints);
+  const auto joint = [&](double goal_rad, double angle_rad, double rate_rad_s) {
+    const double rate_goal_rad_s = std::clamp(per_angle_1_s * (goal_rad - angle_rad),
+                                              -fastest_motor_rad_s, fastest_motor_rad_s);
+    return (rate_goal_rad_s - rate_rad_s) / rate_lag_s;
+  };
+  return {joint(wanted.pan_rad, joints.pan_rad, rates_rad_s.pan_rad),
+          joint(wanted.tilt_rad, joints.tilt_rad, rates_rad_s.tilt_rad)};
 }
 
 Pose camera_in_level_frame(const GimbalAngles& angles) {
@@ -35,8 +68,7 @@ Pose camera_in_level_frame(const GimbalAngles& angles) {
          -1, 0, 0,
           0, -1, 0;  // clang-format on
   Pose X_LC = Pose::Identity();
-  X_LC.linear() = Eigen::AngleAxisd{angles.pan_rad, Vec3::UnitZ()}.toRotationMatrix() *
-                  Eigen::AngleAxisd{angles.tilt_rad, Vec3::UnitY()}.toRotationMatrix() * R_LC;
+  X_LC.linear() = turned(angles) * R_LC;
   return X_LC;
 }
 

@@ -4,7 +4,7 @@
 
 #include "flyball/runtime/assert.h"
 
-#include "vehicle_forces.h"
+#include "vehicle_system.h"
 #include <algorithm>
 #include <cmath>
 
@@ -14,59 +14,37 @@ namespace flyball {
 namespace {
 
 constexpr double contact_step_s = 0.001;  // the stiff contact bounds the step, flight does not
-constexpr double payload_gap_m = 0.02;  // payload's centre below the body's lower face: own choice
-
-SimTK::Body::Rigid rigid(const Airframe& a, double payload_kg) {
-  const SimTK::Vec3 at{0.0, 0.0, -0.5 * a.body_size_m.z() - payload_gap_m};
-  const double mass_kg = a.mass_kg + payload_kg;
-  const Vec3 inertia = a.inertia_kg_m2();
-  const SimTK::Inertia about_origin =
-      SimTK::Inertia{inertia.x(), inertia.y(), inertia.z()} + SimTK::Inertia{at, payload_kg};
-  return SimTK::Body::Rigid{
-      SimTK::MassProperties{mass_kg, (payload_kg / mass_kg) * at, about_origin}};
-}
-
-/// One build of the multibody system; a new mass needs a new one.
-struct System {
-  SimTK::MultibodySystem system;
-  SimTK::SimbodyMatterSubsystem matter{system};
-  SimTK::GeneralForceSubsystem forces{system};
-  SimTK::Force::UniformGravity gravity{forces, matter, SimTK::Vec3{0.0, 0.0, -gravity_m_s2}};
-  SimTK::MobilizedBody::Free body;
-  SimTK::Force::Custom lift_drag_contact;
-  SimTK::State state;
-
-  System(const Airframe& airframe, double payload_kg, const Shape& shape, Loads& loads)
-      : body{matter.Ground(), SimTK::Transform{}, rigid(airframe, payload_kg), SimTK::Transform{}},
-        lift_drag_contact{forces, new BodyForce{body, shape, loads}} {  // Simbody owns it.
-    state = system.realizeTopology();
-    system.realizeModel(state);
-  }
-};
-
 }  // namespace
 
 struct Vehicle::Body {
-  Airframe airframe;
-  double payload_kg;
+  Build made_of;
   Shape shape;
   Loads loads;
-  std::unique_ptr<System> physics;
+  std::unique_ptr<VehicleSystem> physics;
+  GimbalServo servo;
   VehicleState seen;
+  double gimbal_work_j{};
   double rotor_work_j{};
   double drag_loss_j{};
   double contact_loss_j{};
   double lag_step_s{};  ///< The step that `lag_kept` is for.
   double lag_kept{};    ///< exp(-dt / tau)
 
-  Body(const Airframe& a, double payload, double ground_z_m)
-      : airframe{a}, payload_kg{payload}, shape{shape_of(a, ground_z_m)}, loads{} {
+  Body(const Build& of, double ground_z_m)
+      : made_of{of},
+        shape{shape_of(of.airframe, ground_z_m)},
+        loads{},
+        servo{of.gimbal.value_or(GimbalSpec{})} {
     build();
   }
 
-  void build() { physics = std::make_unique<System>(airframe, payload_kg, shape, loads); }
+  void build() { physics = std::make_unique<VehicleSystem>(made_of, shape, loads); }
+  [[nodiscard]] GimbalAngles joints(const SimTK::Vector& values, int first) const {
+    return made_of.gimbal ? GimbalAngles{values[first], values[first + 1]} : GimbalAngles{};
+  }
 
   void turn_rotors(double dt_s, const RotorSpeeds& command);
+  void turn_camera(double dt_s);
   void integrate(double dt_s);
   void read_state(const SimTK::Vec3& a_WB);
 };
@@ -74,6 +52,7 @@ struct Vehicle::Body {
 /// First-order lag, exact for a constant command; thrust and torque follow from the mean of n^2
 /// over the step, so the impulse of a spin-up does not depend on the step.
 void Vehicle::Body::turn_rotors(double dt_s, const RotorSpeeds& command) {
+  const Airframe& airframe = made_of.airframe;
   const double tau_s = airframe.rotor_lag_s;
   if (dt_s != lag_step_s) {
     lag_step_s = dt_s;
@@ -98,11 +77,25 @@ void Vehicle::Body::turn_rotors(double dt_s, const RotorSpeeds& command) {
   loads.reaction_nm = airframe.torque_per_n2() * signed_n2;
 }
 
+void Vehicle::Body::turn_camera(double dt_s) {
+  if (made_of.gimbal) {
+    const SimTK::State& state = physics->state;
+    servo.slew(dt_s);
+    physics->joint_acceleration_rad_s2 =
+        servo.acceleration(seen.X_WB.linear(), joints(state.getQ(), first_joint_q),
+                           joints(state.getU(), first_joint_u));
+  }
+}
+
 void Vehicle::Body::integrate(double dt_s) {
   SimTK::State& state = physics->state;
   physics->system.realize(state, SimTK::Stage::Acceleration);
   const SimTK::Vector before = state.getU();
   const SimTK::Vector udot = state.getUDot();
+  SimTK::Vector motors;  // Of the gimbal. Simbody's sign: against the motion.
+  if (made_of.gimbal) {
+    physics->matter.findMotionForces(state, motors);
+  }
   state.updU() += dt_s * udot;
   // Work at the mean speed of the step: with it a force's work is exactly the kinetic energy that
   // this scheme gives a mass.
@@ -112,6 +105,9 @@ void Vehicle::Body::integrate(double dt_s) {
   rotor_work_j += dt_s * (~loads.rotors * V_mean);
   drag_loss_j -= dt_s * (~loads.drag * V_mean);
   contact_loss_j -= dt_s * (~loads.contact * V_mean);
+  if (made_of.gimbal) {
+    gimbal_work_j -= dt_s * (~motors * mean);
+  }
   physics->system.realize(state, SimTK::Stage::Velocity);
   state.updQ() += dt_s * state.getQDot();
   physics->matter.normalizeQuaternions(state);
@@ -119,7 +115,6 @@ void Vehicle::Body::integrate(double dt_s) {
 }
 
 void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
-  // Free joint: q = quaternion (w, x, y, z) and position; u = angular and linear velocity in W.
   const SimTK::Vector& q = physics->state.getQ();
   const SimTK::Vector& u = physics->state.getU();
   const Eigen::Matrix3d R_WB = Eigen::Quaterniond{q[0], q[1], q[2], q[3]}.toRotationMatrix();
@@ -134,10 +129,11 @@ Vehicle::Vehicle(const Airframe& airframe,
                  double payload_kg,
                  const Vec3& p_WB,
                  double yaw_rad,
-                 double ground_z_m) {
+                 double ground_z_m,
+                 const std::optional<GimbalSpec>& gimbal) {
   FLYBALL_ASSERT(airframe.validate().empty(), "%s", airframe.validate().front().message.c_str());
   FLYBALL_ASSERT(payload_kg >= 0.0, "payload_kg=%g", payload_kg);
-  body_ = std::make_unique<Body>(airframe, payload_kg, ground_z_m);
+  body_ = std::make_unique<Body>(Build{airframe, payload_kg, gimbal}, ground_z_m);
   SimTK::Vector& q = body_->physics->state.updQ();
   q[0] = std::cos(0.5 * yaw_rad);
   q[1] = 0.0;
@@ -157,12 +153,14 @@ void Vehicle::step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W) 
   FLYBALL_ASSERT(std::isfinite(sum), "a rotor command or the wind is not finite: sum=%g", sum);
   body_->loads.wind_W = wind_W;
   // Wider than the body is high: no foot of a tilted vehicle reaches the ground from above this.
-  const double reach_m = body_->airframe.body_height_m + body_->airframe.arm_m;
+  const Airframe& airframe = body_->made_of.airframe;
+  const double reach_m = airframe.body_height_m + airframe.arm_m;
   const bool may_touch = body_->seen.X_WB.translation().z() - body_->shape.ground_z_m < reach_m;
   const int parts =
       may_touch ? std::max(1, static_cast<int>(std::ceil(dt_s / contact_step_s - 1e-9))) : 1;
   for (int i = 0; i < parts; ++i) {
     body_->turn_rotors(dt_s / parts, command);
+    body_->turn_camera(dt_s / parts);
     body_->integrate(dt_s / parts);
   }
 }
@@ -175,17 +173,20 @@ void Vehicle::set_payload(double payload_kg) {
   FLYBALL_ASSERT(payload_kg >= 0.0, "payload_kg=%g", payload_kg);
   const SimTK::Vector q = body_->physics->state.getQ();
   const SimTK::Vector u = body_->physics->state.getU();
-  body_->payload_kg = payload_kg;
+  body_->made_of.payload_kg = payload_kg;
   body_->build();
   body_->physics->state.updQ() = q;
   body_->physics->state.updU() = u;
 }
 
 double Vehicle::payload_kg() const {
-  return body_->payload_kg;
+  return body_->made_of.payload_kg;
 }
 double Vehicle::mass_kg() const {
-  return body_->airframe.mass_kg + body_->payload_kg;
+  return body_->made_of.mass_kg();
+}
+double Vehicle::carried_kg() const {
+  return body_->made_of.payload_kg + body_->made_of.gimbal_kg();
 }
 double Vehicle::rotor_work_j() const {
   return body_->rotor_work_j;
@@ -197,14 +198,36 @@ double Vehicle::contact_loss_j() const {
   return body_->contact_loss_j;
 }
 
+double Vehicle::gimbal_work_j() const {
+  return body_->gimbal_work_j;
+}
+
+void Vehicle::aim(const GimbalAngles& command) {
+  body_->servo.aim(command);
+}
+
+GimbalAngles Vehicle::gimbal_joints() const {
+  return body_->joints(body_->physics->state.getQ(), first_joint_q);
+}
+
+Pose Vehicle::camera_pose() const {
+  FLYBALL_ASSERT(body_->made_of.gimbal, "this vehicle has no gimbal");
+  const VehicleSystem& physics = *body_->physics;
+  physics.system.realize(physics.state, SimTK::Stage::Position);
+  const SimTK::Vec3 p_W = physics.camera.getBodyOriginLocation(physics.state);
+  Pose X_WC = body_->seen.X_WB * camera_in_level_frame(gimbal_joints());
+  X_WC.translation() = Vec3{p_W[0], p_W[1], p_W[2]};
+  return X_WC;
+}
+
 double Vehicle::kinetic_j() const {
-  const System& physics = *body_->physics;
+  const VehicleSystem& physics = *body_->physics;
   physics.system.realize(physics.state, SimTK::Stage::Velocity);
   return physics.matter.calcKineticEnergy(physics.state);
 }
 
 double Vehicle::potential_j() const {
-  const System& physics = *body_->physics;
+  const VehicleSystem& physics = *body_->physics;
   physics.system.realize(physics.state, SimTK::Stage::Position);
   const SimTK::Vec3 centre_W = physics.matter.calcSystemMassCenterLocationInGround(physics.state);
   return mass_kg() * gravity_m_s2 * (centre_W[2] - body_->shape.ground_z_m);
@@ -215,7 +238,7 @@ double Vehicle::shaft_power_w() const {
   for (const double n : body_->seen.rotor_rev_s) {
     sum_n3 += n * n * n;
   }
-  return body_->airframe.power_per_n3() * sum_n3;
+  return body_->made_of.airframe.power_per_n3() * sum_n3;
 }
 
 }  // namespace flyball

@@ -36,9 +36,10 @@ class Flight {
   explicit Flight(double payload_kg = 0.0,
                   double dt_s = 0.001,
                   double height_m = 3.0,
-                  const std::string& name = "matrice_100")
+                  const std::string& name = "matrice_100",
+                  const std::optional<GimbalSpec>& gimbal = std::nullopt)
       : airframe{shipped_airframe(name)},
-        vehicle{airframe, payload_kg, {0.0, 0.0, height_m}, 0.0, 0.0},
+        vehicle{airframe, payload_kg, {0.0, 0.0, height_m}, 0.0, 0.0, gimbal},
         controller{airframe, 0.0},
         step_s{dt_s} {
     controller.hold(vehicle.state());

@@ -179,6 +179,76 @@ TEST(Vehicle, balances_its_energy_over_a_flight) {
   }
 }
 
+/// Yaw of the body that hangs free, and of its camera's axis, after the gimbal was told to pan.
+TEST(Vehicle, turns_against_its_panning_camera) {
+  const Airframe airframe = in_vacuum();
+  const GimbalSpec gimbal;
+  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 500.0}, 0.0, 0.0, gimbal};
+  EXPECT_DOUBLE_EQ(vehicle.mass_kg(), airframe.mass_kg + gimbal.mass_kg);
+  vehicle.aim({0.5, 0.0});
+  for (int i = 0; i < 20; ++i) {
+    vehicle.step(dt_s, all(0.0), calm);
+  }
+  // No torque from outside: I_body w + I_ball (w + rate) = 0; both axes pass through the origin.
+  const double ball = 0.4 * gimbal.mass_kg * gimbal.radius_m * gimbal.radius_m;
+  const GimbalAngles before = vehicle.gimbal_joints();
+  vehicle.step(dt_s, all(0.0), calm);
+  const double rate_rad_s = (vehicle.gimbal_joints().pan_rad - before.pan_rad) / dt_s;
+  EXPECT_GT(rate_rad_s, 0.5);
+  const double inertia = airframe.inertia_kg_m2().z() + ball;
+  EXPECT_NEAR(vehicle.state().w_WB_B.z(), -ball * rate_rad_s / inertia,
+              1e-6 * ball * rate_rad_s / inertia);
+}
+
+TEST(Vehicle, pans_no_faster_than_the_gimbals_rate_and_arrives) {
+  const GimbalSpec gimbal;
+  for (const double step_s : {0.001, 0.004}) {
+    Vehicle vehicle{in_vacuum(), 0.0, {0.0, 0.0, 500.0}, 0.0, 0.0, gimbal};
+    vehicle.aim({0.8, 0.5});
+    double fastest_rad_s = 0.0;
+    for (double t_s = 0.0; t_s < 2.0; t_s += step_s) {
+      const double before_rad = vehicle.gimbal_joints().pan_rad;
+      vehicle.step(step_s, all(0.0), calm);
+      fastest_rad_s =
+          std::max(fastest_rad_s, (vehicle.gimbal_joints().pan_rad - before_rad) / step_s);
+    }
+    EXPECT_NEAR(fastest_rad_s, gimbal.max_rate_rad_s, 0.01);
+    const Vec3 axis_W = vehicle.camera_pose().linear().col(2);
+    EXPECT_NEAR(std::asin(-axis_W.z()), 0.5, 1e-3);
+    // From the heading that the body has now.
+    EXPECT_NEAR(yaw_of(axis_W) - yaw_of(vehicle.state().X_WB.linear().col(0)), 0.8, 1e-3);
+  }
+}
+
+TEST(Vehicle, holds_its_cameras_axis_while_it_banks_and_balances_its_energy) {
+  Flight flight{0.5, 0.001, 4.0, "matrice_100", GimbalSpec{}};
+  flight.vehicle.aim({0.3, 0.6});
+  const auto residual_j = [&flight] {
+    const Vehicle& v = flight.vehicle;
+    return v.rotor_work_j() + v.gimbal_work_j() - v.kinetic_j() - v.potential_j() -
+           v.drag_loss_j() - v.contact_loss_j();
+  };
+  flight.run(2.0);
+  const double start_j = residual_j();
+  Turn turn;
+  turn.speed_m_s = 6.0;
+  turn.radius_m = 9.0;
+  turn.height_m = 4.0;
+  double most_rad = 0.0;
+  double leaned_rad = 0.0;
+  flight.follow(6.0, turn, [&](double /*t*/, const Setpoint& /*wanted*/) {
+    const Pose& X_WB = flight.state().X_WB;
+    const Vec3 axis_L =
+        level_frame(X_WB).linear().transpose() * flight.vehicle.camera_pose().linear().col(2);
+    most_rad = std::max(most_rad, std::abs(std::asin(-axis_L.z()) - 0.6));
+    leaned_rad = std::max(leaned_rad, std::acos(X_WB.linear()(2, 2)));
+  });
+  EXPECT_GT(leaned_rad, 0.3);
+  EXPECT_LT(most_rad, 0.1);
+  EXPECT_GT(std::abs(flight.vehicle.gimbal_work_j()), 0.0);
+  EXPECT_LT(std::abs(residual_j() - start_j), 0.01 * std::abs(flight.vehicle.rotor_work_j()));
+}
+
 TEST(Vehicle, goes_on_when_the_payload_leaves) {
   const Airframe airframe = in_vacuum();
   Vehicle vehicle{airframe, 1.0, {0.0, 0.0, 100.0}, 0.4, 0.0};

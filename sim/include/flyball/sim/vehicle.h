@@ -2,13 +2,16 @@
 #pragma once
 
 /// @file
-/// Simbody multibody vehicle: free body, four rotors with first-order lag, drag, ground contact.
+/// Simbody multibody vehicle: free body, four rotors with first-order lag, drag, ground contact,
+/// and a camera on a gimbal if there is one.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/sim/airframe.h"
+#include "flyball/sim/gimbal.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace flyball {
 
@@ -31,7 +34,8 @@ class Vehicle {
           double payload_kg,
           const Vec3& p_WB,
           double yaw_rad,
-          double ground_z_m);
+          double ground_z_m,
+          const std::optional<GimbalSpec>& gimbal = std::nullopt);
   ~Vehicle();
   Vehicle(const Vehicle&) = delete;
   Vehicle& operator=(const Vehicle&) = delete;
@@ -43,12 +47,21 @@ class Vehicle {
   void set_payload(double payload_kg);
   [[nodiscard]] double payload_kg() const;
   [[nodiscard]] double mass_kg() const;
+  /// Beyond the bare airframe: payload and gimbal.
+  [[nodiscard]] double carried_kg() const;
+
+  /// Tells the gimbal where to look. Nothing without one.
+  void aim(const GimbalAngles& command);
+  [[nodiscard]] GimbalAngles gimbal_joints() const;
+  /// X_WC of the gimbal's camera (x right, y down, z forward). @pre It has a gimbal.
+  [[nodiscard]] Pose camera_pose() const;
 
   /// Since construction [J]: work of the rotors' thrust and torque on the body, and work against
   /// drag and ground. For the energy balance.
   [[nodiscard]] double rotor_work_j() const;
   [[nodiscard]] double drag_loss_j() const;
   [[nodiscard]] double contact_loss_j() const;
+  [[nodiscard]] double gimbal_work_j() const;  ///< Of its motors, on camera and body.
   [[nodiscard]] double kinetic_j() const;
   [[nodiscard]] double potential_j() const;
   /// Mechanical power at the shafts, sum of C_P rho n^3 D^5 [W].
