@@ -126,7 +126,11 @@ ExplorationScene scene_c() {
 }
 
 ExplorationScene scene_d() {
-  return {exploration_of("collapsed_building"), 100, 4, 1.0, 1.0};
+  ExplorationScene scene{exploration_of("collapsed_building"), 100, 4, 1.0, 1.0};
+  // Three bays of 9 x 10.2 m, as much debris on a square metre as is shipped.
+  scene.scenario.world.parameters = {
+      {"length_m", 27.0}, {"width_m", 10.2}, {"slabs", 7.0}, {"rubble", 28.0}};
+  return scene;
 }
 
 Result<ExplorationLoads> record(const ExplorationScene& scene) {

@@ -20,7 +20,8 @@ struct ExplorationScene {
 
 /// The shipped mapping_office, seed 1.
 [[nodiscard]] ExplorationScene scene_c();
-/// The shipped search_collapsed_building, seed 1, searched all over.
+/// The ruin of search_collapsed_building, seed 1, with bays as large as the rooms of `scene_b`,
+/// searched all over.
 [[nodiscard]] ExplorationScene scene_d();
 
 struct ExplorationLoads {

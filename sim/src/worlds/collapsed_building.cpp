@@ -17,6 +17,7 @@ namespace {
 
 using flyball::Aabb;
 using flyball::BuildingPlan;
+using flyball::Material;
 using flyball::RandomStream;
 using flyball::Vec3;
 
@@ -213,8 +214,16 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     box.min.z() = std::max(0.0, low_m);
     box.max.z() = std::min(flyball::ceiling_z_m, low_m + rise_m + slab_m);
     if (box.max.z() > box.min.z() + 0.01) {
-      ruin.world.boxes.push_back(box);
+      add_broken(ruin, box, Material::gravel);
     }
+  }
+
+  /// What has come down shows what it is made of: concrete with its gravel, or masonry. What stands
+  /// is plastered.
+  static void add_broken(Ruin& ruin, const Aabb& box, Material material) {
+    ruin.world.box_materials.resize(ruin.world.boxes.size(), Material::plaster);
+    ruin.world.boxes.push_back(box);
+    ruin.world.box_materials.push_back(material);
   }
 
   static void add_rubble(Ruin& ruin, RandomStream& random) {
@@ -228,7 +237,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
       corner.y() = random.uniform(-ruin.half_width_m, ruin.half_width_m);
       const Aabb heap{corner, corner + size};
       if (ruin.fits(heap)) {
-        ruin.world.boxes.push_back(heap);
+        add_broken(ruin, heap, Material::brick);
         return;
       }
     }
@@ -243,7 +252,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     world.bounds_W.max.z() -= below_ceiling_m;
     world.zones = {{extent_W, speed_m_s}};
     world.cruise_height_m = 1.2;
-    world.ground_material = flyball::Material::gravel;
+    world.ground_material = Material::gravel;
   }
 };
 
