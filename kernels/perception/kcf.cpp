@@ -28,6 +28,28 @@ constexpr double learning_widths = 2.0;
 constexpr double looking_widths = 4.0;
 constexpr double rounding_px = 6.0;  // Boxes are cut to whole pixels, of an image halved perhaps.
 
+// Sides without larger prime factors than 5: a Fourier transform over 74 pixels takes several times
+// as long as one over 75.
+int smooth(double length_px) {
+  const auto is_smooth = [](int n) { return cv::getOptimalDFTSize(n) == n; };
+  const int nearest = std::max(cvRound(length_px), least_px);
+  for (int step = 0;; ++step) {
+    for (const int n : {nearest + step, nearest - step}) {
+      if (n >= least_px && is_smooth(n)) {
+        return n;
+      }
+    }
+  }
+}
+
+/// A box of smooth sides about the same middle.
+ImageBox smooth(const ImageBox& box) {
+  const int width_px = smooth(box.width_px);
+  const int height_px = smooth(box.height_px);
+  return {box.centre_x_px() - 0.5 * width_px, box.centre_y_px() - 0.5 * height_px,
+          static_cast<double>(width_px), static_cast<double>(height_px)};
+}
+
 flyball::Error failed(const std::exception& error) {
   return {flyball::ErrorCode::failed, std::string{"tracker kcf: "} + error.what()};
 }
@@ -46,7 +68,7 @@ class Kcf final : public flyball::Tracker {
 
   [[nodiscard]] PixelRegion learns_from(const ImageBox& box,
                                         const flyball::Intrinsics& camera) const override {
-    return around(box, learning_widths, camera);
+    return around(smooth(box), learning_widths, camera);
   }
 
   [[nodiscard]] PixelRegion looks_at(const flyball::Intrinsics& camera) const override {
@@ -61,10 +83,10 @@ class Kcf final : public flyball::Tracker {
       return checked.error();
     }
     const cv::Size size{patch.camera.width_px, patch.camera.height_px};
-    const cv::Rect inside = cv::Rect{cvRound(box.x_px), cvRound(box.y_px), cvRound(box.width_px),
-                                     cvRound(box.height_px)} &
-                            cv::Rect{{0, 0}, size};
-    if (inside.width < least_px || inside.height < least_px) {
+    const cv::Rect image{{0, 0}, size};
+    const cv::Rect seen = rounded(box) & image;
+    const cv::Rect inside = rounded(smooth(box)) & image;
+    if (seen.width < least_px || seen.height < least_px) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             "less than 4 x 4 pixels of the box are inside the image"};
     }
@@ -78,6 +100,7 @@ class Kcf final : public flyball::Tracker {
       cv::Rect learnt = inside;
       filter_->update(bgr_, learnt);
       last_ = box_of(inside);
+      seen_ = seen.size();
       return flyball::Done{};
     } catch (const std::exception& error) {
       filter_ = nullptr;
@@ -105,13 +128,21 @@ class Kcf final : public flyball::Tracker {
         return std::optional<ImageBox>{};
       }
       last_ = box_of(box);
-      return std::optional{last_};
+      return std::optional{as_given(last_)};
     } catch (const std::exception& error) {
       return failed(error);
     }
   }
 
  private:
+  static cv::Rect rounded(const ImageBox& box) {
+    return {cvRound(box.x_px), cvRound(box.y_px), cvRound(box.width_px), cvRound(box.height_px)};
+  }
+  /// In the size that it began with, about the middle of the filter's.
+  [[nodiscard]] ImageBox as_given(const ImageBox& box) const {
+    return {box.centre_x_px() - 0.5 * seen_.width, box.centre_y_px() - 0.5 * seen_.height,
+            static_cast<double>(seen_.width), static_cast<double>(seen_.height)};
+  }
   static ImageBox box_of(const cv::Rect& box) {
     return {static_cast<double>(box.x), static_cast<double>(box.y), static_cast<double>(box.width),
             static_cast<double>(box.height)};
@@ -161,6 +192,7 @@ class Kcf final : public flyball::Tracker {
   cv::Ptr<cv::TrackerKCF> filter_{};
   cv::Mat bgr_{};
   ImageBox last_{};  ///< The filter's windows are about it.
+  cv::Size seen_{};  ///< Of the box as it was given, inside the image.
 };
 
 }  // namespace

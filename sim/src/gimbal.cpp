@@ -11,8 +11,6 @@ namespace {
 constexpr double per_angle_1_s = 40.0;
 constexpr double rate_lag_s = 0.00625;
 constexpr double fastest_motor_rad_s = 6.0;
-// Straight up or down a pan does not move the axis, and its angle is no longer defined.
-constexpr double least_level_share = 0.05;
 
 Eigen::Matrix3d turned(const GimbalAngles& angles) {
   return (Eigen::AngleAxisd{angles.pan_rad, Vec3::UnitZ()} *
@@ -37,29 +35,29 @@ void GimbalServo::slew(double dt_s) {
   aim_ = {towards(aim_.pan_rad, command_.pan_rad), towards(aim_.tilt_rad, command_.tilt_rad)};
 }
 
-GimbalAngles GimbalServo::wanted_joints(const Eigen::Matrix3d& R_WB,
-                                        const GimbalAngles& joints) const {
+GimbalJoints GimbalServo::wanted_joints(const Eigen::Matrix3d& R_WB) const {
   Pose X_WB = Pose::Identity();
   X_WB.linear() = R_WB;
-  const Vec3 axis_B = R_WB.transpose() * (level_frame(X_WB).linear() * turned(aim_).col(0));
-  const double level = axis_B.head<2>().norm();
-  const double pan_rad = level < least_level_share ? joints.pan_rad : yaw_of(axis_B);
-  const double tilt_rad = std::atan2(-axis_B.z(), level);
-  return {std::clamp(pan_rad, -spec_.max_pan_rad, spec_.max_pan_rad),
-          std::clamp(tilt_rad, spec_.min_tilt_rad, spec_.max_tilt_rad)};
+  // R = Rz(pan) Rx(roll) Ry(tilt)
+  const Eigen::Matrix3d R = R_WB.transpose() * level_frame(X_WB).linear() * turned(aim_);
+  return {std::clamp(std::atan2(-R(0, 1), R(1, 1)), -spec_.max_pan_rad, spec_.max_pan_rad),
+          std::clamp(std::asin(std::clamp(R(2, 1), -1.0, 1.0)), -spec_.max_roll_rad,
+                     spec_.max_roll_rad),
+          std::clamp(std::atan2(-R(2, 0), R(2, 2)), spec_.min_tilt_rad, spec_.max_tilt_rad)};
 }
 
-GimbalAngles GimbalServo::acceleration(const Eigen::Matrix3d& R_WB,
-                                       const GimbalAngles& joints,
-                                       const GimbalAngles& rates_rad_s) const {
-  const GimbalAngles wanted = wanted_joints(R_WB, joints);
-  const auto joint = [&](double goal_rad, double angle_rad, double rate_rad_s) {
+GimbalJoints GimbalServo::acceleration(const Eigen::Matrix3d& R_WB,
+                                       const GimbalJoints& joints_rad,
+                                       const GimbalJoints& rates_rad_s) const {
+  const GimbalJoints wanted = wanted_joints(R_WB);
+  const auto joint = [](double goal_rad, double angle_rad, double rate_rad_s) {
     const double rate_goal_rad_s = std::clamp(per_angle_1_s * (goal_rad - angle_rad),
                                               -fastest_motor_rad_s, fastest_motor_rad_s);
     return (rate_goal_rad_s - rate_rad_s) / rate_lag_s;
   };
-  return {joint(wanted.pan_rad, joints.pan_rad, rates_rad_s.pan_rad),
-          joint(wanted.tilt_rad, joints.tilt_rad, rates_rad_s.tilt_rad)};
+  return {joint(wanted.pan, joints_rad.pan, rates_rad_s.pan),
+          joint(wanted.roll, joints_rad.roll, rates_rad_s.roll),
+          joint(wanted.tilt, joints_rad.tilt, rates_rad_s.tilt)};
 }
 
 Pose camera_in_level_frame(const GimbalAngles& angles) {

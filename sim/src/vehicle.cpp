@@ -39,8 +39,9 @@ struct Vehicle::Body {
   }
 
   void build() { physics = std::make_unique<VehicleSystem>(made_of, shape, loads); }
-  [[nodiscard]] GimbalAngles joints(const SimTK::Vector& values, int first) const {
-    return made_of.gimbal ? GimbalAngles{values[first], values[first + 1]} : GimbalAngles{};
+  [[nodiscard]] GimbalJoints joints(const SimTK::Vector& values, int first) const {
+    return made_of.gimbal ? GimbalJoints{values[first], values[first + 1], values[first + 2]}
+                          : GimbalJoints{};
   }
 
   void turn_rotors(double dt_s, const RotorSpeeds& command);
@@ -206,7 +207,7 @@ void Vehicle::aim(const GimbalAngles& command) {
   body_->servo.aim(command);
 }
 
-GimbalAngles Vehicle::gimbal_joints() const {
+GimbalJoints Vehicle::gimbal_joints() const {
   return body_->joints(body_->physics->state.getQ(), first_joint_q);
 }
 
@@ -214,10 +215,15 @@ Pose Vehicle::camera_pose() const {
   FLYBALL_ASSERT(body_->made_of.gimbal, "this vehicle has no gimbal");
   const VehicleSystem& physics = *body_->physics;
   physics.system.realize(physics.state, SimTK::Stage::Position);
-  const SimTK::Vec3 p_W = physics.camera.getBodyOriginLocation(physics.state);
-  Pose X_WC = body_->seen.X_WB * camera_in_level_frame(gimbal_joints());
-  X_WC.translation() = Vec3{p_W[0], p_W[1], p_W[2]};
-  return X_WC;
+  const SimTK::Transform& X = physics.camera.getBodyTransform(physics.state);
+  Pose X_WG = Pose::Identity();
+  for (int i = 0; i < 3; ++i) {
+    X_WG.translation()[i] = X.p()[i];
+    for (int k = 0; k < 3; ++k) {
+      X_WG.linear()(i, k) = X.R().asMat33()(i, k);
+    }
+  }
+  return X_WG * camera_in_level_frame({});
 }
 
 double Vehicle::kinetic_j() const {

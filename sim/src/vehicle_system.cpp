@@ -27,7 +27,7 @@ SimTK::Body::Rigid ball(const GimbalSpec& gimbal) {
 /// them.
 class JointMotors final : public SimTK::Motion::Custom::Implementation {
  public:
-  explicit JointMotors(const GimbalAngles& acceleration_rad_s2) : told_{acceleration_rad_s2} {}
+  explicit JointMotors(const GimbalJoints& acceleration_rad_s2) : told_{acceleration_rad_s2} {}
 
   [[nodiscard]] SimTK::Motion::Level getLevel(const SimTK::State& /*state*/) const override {
     return SimTK::Motion::Acceleration;
@@ -35,12 +35,13 @@ class JointMotors final : public SimTK::Motion::Custom::Implementation {
   void calcPrescribedAcceleration(const SimTK::State& /*state*/,
                                   int /*count*/,
                                   SimTK::Real* udot) const override {
-    udot[0] = told_.pan_rad;
-    udot[1] = told_.tilt_rad;
+    udot[0] = told_.pan;
+    udot[1] = told_.roll;
+    udot[2] = told_.tilt;
   }
 
  private:
-  const GimbalAngles& told_;
+  const GimbalJoints& told_;
 };
 
 }  // namespace
@@ -50,9 +51,9 @@ VehicleSystem::VehicleSystem(const Build& build, const Shape& shape, Loads& load
            SimTK::Transform{}},
       lift_drag_contact{forces, new BodyForce{body, shape, loads}} {  // Simbody owns it.
   if (build.gimbal) {
-    // A universal joint turns about its x axis, then about y: here about z, then about y.
+    // Simbody's gimbal turns about its x axis, then y, then z: here about the body's z, x and y.
     const SimTK::Rotation joint{SimTK::UnitVec3{SimTK::ZAxis}, SimTK::XAxis,
-                                SimTK::UnitVec3{SimTK::YAxis}, SimTK::YAxis};
+                                SimTK::UnitVec3{SimTK::XAxis}, SimTK::YAxis};
     const SimTK::Vec3 below{0.0, 0.0,
                             -0.5 * build.airframe.body_size_m.z() - build.gimbal->radius_m};
     camera = {body, SimTK::Transform{joint, below}, ball(*build.gimbal), SimTK::Transform{joint}};

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// The vehicle as a multibody system of Simbody's: a free body, and a camera on two pins if it has
-/// a gimbal. Only for .cpp files.
+/// The vehicle as a multibody system of Simbody's: a free body, and a camera on three pins if it
+/// has a gimbal. Only for .cpp files.
 
 #include "flyball/sim/gimbal.h"
 
@@ -24,7 +24,7 @@ struct Build {
 };
 
 /// Places in q and u. Free joint: q = quaternion (w, x, y, z) and position, u = angular and linear
-/// velocity in W; then the gimbal's two.
+/// velocity in W; then the gimbal's three.
 constexpr int first_joint_q = 7;
 constexpr int first_joint_u = 6;
 
@@ -39,8 +39,8 @@ struct VehicleSystem {
   SimTK::Force::UniformGravity gravity{forces, matter, SimTK::Vec3{0.0, 0.0, -gravity_m_s2}};
   SimTK::MobilizedBody::Free body;
   SimTK::Force::Custom lift_drag_contact;
-  SimTK::MobilizedBody::Universal camera{};  ///< Empty without a gimbal.
-  GimbalAngles joint_acceleration_rad_s2{};  ///< What the gimbal's motors are to do.
+  SimTK::MobilizedBody::Gimbal camera{};     ///< Empty without a gimbal.
+  GimbalJoints joint_acceleration_rad_s2{};  ///< What the gimbal's motors are to do.
   SimTK::State state;
 };
 

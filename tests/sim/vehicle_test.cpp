@@ -191,9 +191,9 @@ TEST(Vehicle, turns_against_its_panning_camera) {
   }
   // No torque from outside: I_body w + I_ball (w + rate) = 0; both axes pass through the origin.
   const double ball = 0.4 * gimbal.mass_kg * gimbal.radius_m * gimbal.radius_m;
-  const GimbalAngles before = vehicle.gimbal_joints();
+  const GimbalJoints before = vehicle.gimbal_joints();
   vehicle.step(dt_s, all(0.0), calm);
-  const double rate_rad_s = (vehicle.gimbal_joints().pan_rad - before.pan_rad) / dt_s;
+  const double rate_rad_s = (vehicle.gimbal_joints().pan - before.pan) / dt_s;
   EXPECT_GT(rate_rad_s, 0.5);
   const double inertia = airframe.inertia_kg_m2().z() + ball;
   EXPECT_NEAR(vehicle.state().w_WB_B.z(), -ball * rate_rad_s / inertia,
@@ -207,10 +207,9 @@ TEST(Vehicle, pans_no_faster_than_the_gimbals_rate_and_arrives) {
     vehicle.aim({0.8, 0.5});
     double fastest_rad_s = 0.0;
     for (double t_s = 0.0; t_s < 2.0; t_s += step_s) {
-      const double before_rad = vehicle.gimbal_joints().pan_rad;
+      const double before_rad = vehicle.gimbal_joints().pan;
       vehicle.step(step_s, all(0.0), calm);
-      fastest_rad_s =
-          std::max(fastest_rad_s, (vehicle.gimbal_joints().pan_rad - before_rad) / step_s);
+      fastest_rad_s = std::max(fastest_rad_s, (vehicle.gimbal_joints().pan - before_rad) / step_s);
     }
     EXPECT_NEAR(fastest_rad_s, gimbal.max_rate_rad_s, 0.01);
     const Vec3 axis_W = vehicle.camera_pose().linear().col(2);
@@ -240,11 +239,13 @@ TEST(Vehicle, holds_its_cameras_axis_while_it_banks_and_balances_its_energy) {
     const Pose& X_WB = flight.state().X_WB;
     const Vec3 axis_L =
         level_frame(X_WB).linear().transpose() * flight.vehicle.camera_pose().linear().col(2);
-    most_rad = std::max(most_rad, std::abs(std::asin(-axis_L.z()) - 0.6));
+    const Vec3 right_W = flight.vehicle.camera_pose().linear().col(0);
+    most_rad = std::max(
+        {most_rad, std::abs(std::asin(-axis_L.z()) - 0.6), std::abs(std::asin(right_W.z()))});
     leaned_rad = std::max(leaned_rad, std::acos(X_WB.linear()(2, 2)));
   });
   EXPECT_GT(leaned_rad, 0.3);
-  EXPECT_LT(most_rad, 0.1);
+  EXPECT_LT(most_rad, 0.15);  // 25 ms behind a body that begins to lean at some rad/s.
   EXPECT_GT(std::abs(flight.vehicle.gimbal_work_j()), 0.0);
   EXPECT_LT(std::abs(residual_j() - start_j), 0.01 * std::abs(flight.vehicle.rotor_work_j()));
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 /// @file
-/// Two-axis camera gimbal: pan about the body's z axis, then tilt. Its joints belong to the
-/// vehicle's multibody system (`Vehicle`); what drives them is here.
+/// Camera gimbal: pan and tilt are commanded, and a third motor between them keeps the horizon
+/// level. Its joints belong to the vehicle's multibody system (`Vehicle`); what drives them is
+/// here.
 
 #include "flyball/runtime/geometry.h"
 
@@ -17,15 +18,22 @@ struct GimbalSpec {
   double max_pan_rad{1.0};                    ///< To either side.
   double min_tilt_rad{-0.5};
   double max_tilt_rad{1.5707963267948966};  ///< Straight down.
+  double max_roll_rad{0.8};
 };
 
 struct GimbalAngles {
-  double pan_rad{};   ///< To the left: from the body's heading, or of the joint.
-  double tilt_rad{};  ///< Down: from the horizon, or of the joint.
+  double pan_rad{};   ///< From the body's heading to the left.
+  double tilt_rad{};  ///< From the horizon down.
 };
 
-/// Holds the camera's axis where it was told, against the body's roll and pitch. With two joints
-/// it cannot hold the image's horizon as well: that leans as the body does.
+/// Angles of the joints, or their rates or accelerations: about the body's z axis, then x, then y.
+struct GimbalJoints {
+  double pan{};
+  double roll{};
+  double tilt{};
+};
+
+/// Holds the camera where it was told and upright, against the body's roll and pitch.
 class GimbalServo {
  public:
   explicit GimbalServo(const GimbalSpec& spec) : spec_{spec} {}
@@ -36,15 +44,14 @@ class GimbalServo {
   /// Lets the axis move towards what was told, each angle at no more than its rate.
   void slew(double dt_s);
 
-  /// Angles of the joints at which the axis is where it ought to be by now, within the stops.
-  [[nodiscard]] GimbalAngles wanted_joints(const Eigen::Matrix3d& R_WB,
-                                           const GimbalAngles& joints) const;
+  /// Angles of the joints [rad] at which the axis is where it ought to be by now, within the stops.
+  [[nodiscard]] GimbalJoints wanted_joints(const Eigen::Matrix3d& R_WB) const;
 
   /// Accelerations of the joints [rad/s^2]: a cascade of angle and rate, both proportional; the
   /// rate that is asked for stays within that of the motors.
-  [[nodiscard]] GimbalAngles acceleration(const Eigen::Matrix3d& R_WB,
-                                          const GimbalAngles& joints,
-                                          const GimbalAngles& rates_rad_s) const;
+  [[nodiscard]] GimbalJoints acceleration(const Eigen::Matrix3d& R_WB,
+                                          const GimbalJoints& joints_rad,
+                                          const GimbalJoints& rates_rad_s) const;
 
  private:
   GimbalSpec spec_;

@@ -52,7 +52,7 @@ class Vehicle {
 
   /// Tells the gimbal where to look. Nothing without one.
   void aim(const GimbalAngles& command);
-  [[nodiscard]] GimbalAngles gimbal_joints() const;
+  [[nodiscard]] GimbalJoints gimbal_joints() const;  ///< [rad]
   /// X_WC of the gimbal's camera (x right, y down, z forward). @pre It has a gimbal.
   [[nodiscard]] Pose camera_pose() const;
 
