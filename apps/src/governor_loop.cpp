@@ -36,7 +36,14 @@ GovernorLoop::GovernorLoop(MissionContext& context,
       executor_{executor},
       loop_{loop},
       navigator_{navigator},
-      asked_{executor.operating_point()} {}
+      asked_{executor.operating_point()} {
+  std::vector<MapSetting> settings = governor.policy().foresees();
+  const bool has_frames = navigator != nullptr && context.maps_obstacles &&
+                          context.truth != nullptr && context.true_computer != nullptr;
+  if (!settings.empty() && has_frames) {
+    future_ = std::make_unique<FutureFrames>(context, std::move(settings));
+  }
+}
 
 void GovernorLoop::tick(MissionTime now) {
   seen_.now = now;
@@ -45,6 +52,9 @@ void GovernorLoop::tick(MissionTime now) {
   if (looks) {
     next_look_ = now + from_seconds(context_.scenario.governor.period_s);
     observe_surroundings();
+  }
+  if (looks && future_) {
+    governor_.foretell(future_->look(navigator_->follower()));
   }
   record(looks);
   const HostTime asked = HostTime::clock::now();

@@ -8,6 +8,7 @@
 
 #include "choice_text.h"
 #include "closed_loop.h"
+#include "future_frames.h"
 #include "navigator.h"
 #include <set>
 #include <string>
@@ -56,6 +57,7 @@ class GovernorLoop {
   const ClosedLoop& loop_;
   const Navigator* navigator_;
   OperatingPoint asked_;
+  std::unique_ptr<FutureFrames> future_{};  ///< Null for a policy that does not ask.
   Observation seen_{};
   std::vector<double> told_{};  ///< Its members as the record has them.
   ChoiceMemory choices_{};

@@ -40,6 +40,7 @@ struct Flight {
         computer{setup.platform->model()},
         topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
     context.truth = &setup.world;
+    context.true_computer = &computer;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, computer, queue,

@@ -166,7 +166,8 @@ class MissionContext {
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
   const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
-  Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
+  const Platform* true_computer{};  ///< With its drift; for whoever may know it.
+  Vec3 goal_now_W{Vec3::Zero()};    ///< At cruise height.
   FlightRestraint restraint{};
 
  private:

@@ -63,6 +63,10 @@ Result<std::unique_ptr<PolicyGovernor>> governor_for(Scenario scenario, const st
   if (!setup) {
     return setup.error();
   }
+  if (!setup->governor->policy().foresees().empty()) {
+    return Error{ErrorCode::unavailable, "policy \"" + scenario.governor.policy +
+                                             "\" is told what no record holds; fly it instead"};
+  }
   return std::move(setup->governor);
 }
 

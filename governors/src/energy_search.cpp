@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/energy_search.h"
 
+#include "flyball/governors/search_space.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
@@ -108,6 +109,10 @@ double EnergySearch::busy_cores(const MapSetting& setting, double latency_s) con
   return map_cores + other_core_ghz_ / (setting.clock_hz * 1e-9);
 }
 
+Watts EnergySearch::computer_power(const MapSetting& setting, double map_s) const {
+  return computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, map_s));
+}
+
 void EnergySearch::learn(const Observation& seen) {
   learn_latency(seen);
   if (seen.phase == MissionPhase::cruise) {
@@ -187,27 +192,18 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const double safe_m_s = limit.speed_m_s(best.response_s, distance_m);
   best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
   const Watts rotor_w = rotors_.power(best.speed_m_s);
-  const Watts computer_w = computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, latency_s));
+  const Watts computer_w = computer_power(setting, latency_s);
   const bool switches = setting.resolution_m != in_force_.resolution_m;
   const double shows_m = distance_m - best.speed_m_s * best.response_s;
-  best.joules_per_m =
-      way(setting, shows_m) * joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-      (switches ? settings_.switching_j / settings_.horizon_m : 0.0) +
-      (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
+  best.joules_per_m = way_over_line(settings_, setting.resolution_m, shows_m) *
+                          joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
+                      (switches ? settings_.switching_j / settings_.horizon_m : 0.0) +
+                      (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));
   }
   return best;
-}
-
-double EnergySearch::way(const MapSetting& setting, double shows_m) const {
-  if (settings_.spacing_m <= 0.0) {
-    return 1.0;
-  }
-  const double w_m = settings_.half_width_m;
-  const double s_m = std::max(shows_m, 0.0);
-  return 1.0 + (setting.resolution_m + std::hypot(s_m, w_m) - s_m) / settings_.spacing_m;
 }
 
 bool EnergySearch::is_allowed(const MapSetting& candidate,

@@ -41,6 +41,15 @@ std::vector<double> ranges_between(double least_m, double most_m) {
   return ranges_m;
 }
 
+double way_over_line(const EnergySearchSettings& price, double resolution_m, double shows_m) {
+  if (price.spacing_m <= 0.0) {
+    return 1.0;
+  }
+  const double w_m = price.half_width_m;
+  const double s_m = std::max(shows_m, 0.0);
+  return 1.0 + (resolution_m + std::hypot(s_m, w_m) - s_m) / price.spacing_m;
+}
+
 Surroundings limits_of(const Observation& seen) {
   constexpr double usual_m_s = 10.0;
   constexpr double usual_m_s2 = 6.0;

@@ -4,6 +4,7 @@
 /// @file
 /// Which setting of map and clock takes the least energy for the next metre.
 
+#include "flyball/governors/foresight.h"
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
 #include "flyball/governors/operating_points.h"
@@ -15,17 +16,6 @@
 #include <vector>
 
 namespace flyball {
-
-/// One setting of the three knobs that the search turns.
-struct MapSetting {
-  double resolution_m{};
-  double range_m{};
-  double clock_hz{};
-  friend bool operator==(const MapSetting& a, const MapSetting& b) {
-    return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock_hz == b.clock_hz;
-  }
-  friend bool operator!=(const MapSetting& a, const MapSetting& b) { return !(a == b); }
-};
 
 struct EnergySearchSettings {
   double deceleration_m_s2{6.0};
@@ -113,6 +103,13 @@ class EnergySearch {
   [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
                                         const Surroundings& around) const;
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
+  /// For whoever chose a setting by himself.
+  void put_in_force(const MapSetting& setting, MissionTime now);
+  [[nodiscard]] const EnergySearchSettings& settings() const { return settings_; }
+  /// In level flight, as learned.
+  [[nodiscard]] Watts rotor_power(double speed_m_s) const { return rotors_.power(speed_m_s); }
+  /// While maps are made with this setting, each of which takes so long.
+  [[nodiscard]] Watts computer_power(const MapSetting& setting, double map_s) const;
   /// What the last `choose` expected of each setting; infinite joules where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
@@ -131,12 +128,10 @@ class EnergySearch {
   void note_clock(const Observation& seen);
   [[nodiscard]] Hertz mean_clock() const;
   void learn_latency(const Observation& seen);
-  [[nodiscard]] double way(const MapSetting& setting, double shows_m) const;
   [[nodiscard]] bool is_allowed(const MapSetting& candidate,
                                 const Surroundings& around,
                                 double least_range_m) const;
   [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m);
-  void put_in_force(const MapSetting& setting, MissionTime now);
 
   EnergySearchSettings settings_;
   OperatingPoints points_;

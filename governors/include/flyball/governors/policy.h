@@ -4,6 +4,7 @@
 /// @file
 /// The bare decision rule. It may be wrong; PolicyGovernor makes it safe.
 
+#include "flyball/governors/foresight.h"
 #include "flyball/runtime/governor.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
@@ -46,6 +47,12 @@ class Policy {
   /// How often it wants to be asked; empty: as often as the scenario says. Asked once, when
   /// started.
   [[nodiscard]] virtual std::optional<Duration> period() const { return std::nullopt; }
+  /// Settings of which it wants to be told how long a frame will take, here and farther on. Only a
+  /// simulator can answer, and its records cannot; whoever flies must do without. Asked once, when
+  /// started; empty: it does not ask.
+  [[nodiscard]] virtual std::vector<MapSetting> foresees() const { return {}; }
+  /// The answer, before a decision; stays as it is until that is made.
+  virtual void foretell([[maybe_unused]] const Foresight& truth) noexcept {}
   /// The wish for the time until the next decision. Must not block or allocate.
   [[nodiscard]] virtual Decision decide(const Observation& seen) noexcept = 0;
   /// Why the last `decide` came to nothing, in one sentence; empty: it did not. For policies that

@@ -56,6 +56,8 @@ class PolicyGovernor final : public Governor {
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
   /// soon after a change is answered with the value in force. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
+  /// For a policy that asks for it (`Policy::foresees`), before `decide`.
+  void foretell(const Foresight& truth) noexcept { policy_->foretell(truth); }
   /// What the policy asked for at the last decision, before it was made legal; empty after a fault.
   [[nodiscard]] const Decision& wished() const { return wished_; }
   /// How often the policy wants to be asked; empty: as often as the scenario says.

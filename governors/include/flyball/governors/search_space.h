@@ -22,6 +22,12 @@ namespace flyball {
 /// Five ranges, equal steps in proportion, as latency has it. @pre 0 < `least_m` < `most_m`.
 [[nodiscard]] std::vector<double> ranges_between(double least_m, double most_m);
 
+/// The way over its straight line, as `EnergySearch` counts it: for cells of this size and what is
+/// shown so far ahead of where the vehicle can stop.
+[[nodiscard]] double way_over_line(const EnergySearchSettings& price,
+                                   double resolution_m,
+                                   double shows_m);
+
 /// Limits of speed and braking; usual ones where an observation says nothing of sense. All else is
 /// as `Surroundings` has it, with a world that lets see to any distance.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is to be approached: mission_energy's way and prices, but true durations of the jobs to
+// come in place of learned ones, and all of the next 60 m weighed at once. A simulator alone can
+// tell it (Policy::foresees); told nothing, it decides by what it has learned, for the next metre.
+// In the field there is nobody to ask.
+
+#include "flyball/governors/energy_search.h"
+#include "flyball/governors/horizon_search.h"
+#include "flyball/governors/mission_way.h"
+#include "flyball/governors/policy.h"
+#include "flyball/governors/search_space.h"
+#include "flyball/runtime/registry.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace {
+
+using flyball::MapSetting;
+using flyball::Observation;
+using flyball::Surroundings;
+
+constexpr double behind_m = 3.0;       // A gap that is past, by so much, is past.
+constexpr double beside_m = 6.0;       // Large cells end what is free before obstacles so near do,
+constexpr double look_ahead_m = 12.0;  // here and so far on: as observations count density.
+constexpr double zone_ahead_m = 20.0;
+
+class Reference final : public flyball::Policy {
+ public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    auto all = flyball::MissionWay::parameters();
+    all.push_back({"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; untold."});
+    all.push_back({"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."});
+    return all;
+  }
+
+  flyball::Status start(const flyball::Parameters& given,
+                        const flyball::KnobSettings& knobs) override {
+    const std::string self = "policy \"reference\"";
+    auto way = flyball::MissionWay::make(self, given, knobs);
+    if (!way) {
+      return way.error();
+    }
+    flyball::EnergySearchSettings settings;
+    settings.spacing_m = way->spacing_m();
+    const auto levels =
+        way->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
+    auto search = flyball::EnergySearch::make(settings, levels, way->ranges_m(), knobs);
+    if (!search) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            self + ": " + search.error().message};
+    }
+    levels_m_ = search->points().axes().front().values;
+    way_.emplace(std::move(*way));
+    search_.emplace(std::move(*search));
+    horizon_.emplace(flyball::HorizonSettings{}, *search_);
+    around_.resize(flyball::HorizonSettings{}.places);
+    return flyball::Done{};
+  }
+
+  [[nodiscard]] std::vector<MapSetting> foresees() const override { return horizon_->points(); }
+  void foretell(const flyball::Foresight& truth) noexcept override { truth_ = &truth; }
+
+  [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
+    search_->learn(seen);
+    const MapSetting best = chosen(seen);
+    truth_ = nullptr;
+    flyball::Decision wish;
+    wish.reason = flyball::Reason::energy;
+    wish.set("map.resolution_m", best.resolution_m);
+    wish.set("map.range_m", best.range_m);
+    wish.set("cpu.frequency_hz", best.clock_hz);
+    wish.set("planner.budget", way_->plan_budget(seen, best.resolution_m));
+    return wish;
+  }
+
+  [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
+    return flyball::options_of(was_told_ ? horizon_->weighed() : search_->weighed());
+  }
+
+ private:
+  [[nodiscard]] MapSetting chosen(const Observation& seen) noexcept {
+    was_told_ = false;
+    if (const auto within_s = way_->rests_s(seen)) {
+      const MapSetting& home = way_->home();
+      return search_->rest(home.resolution_m, home.range_m, *within_s, way_->rest_raised_by(),
+                           seen.now);
+    }
+    const Surroundings here = way_->look(seen, search_->in_force());
+    if (truth_ != nullptr && truth_->places.size() >= 2 &&
+        truth_->places.size() <= around_.size() && truth_->is_whole(horizon_->points().size())) {
+      look_ahead(seen, here);
+      if (const auto best = horizon_->choose(*search_, *truth_, around_, seen.speed_m_s)) {
+        was_told_ = true;
+        search_->put_in_force(best->setting, seen.now);
+        return best->setting;
+      }
+    }
+    return search_->choose(here, seen.now).setting;
+  }
+
+  /// Here as the way is judged in flight, with its memory; farther on as the map shows it now.
+  void look_ahead(const Observation& seen, const Surroundings& here) noexcept {
+    const auto& places = truth_->places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      around_[i] = here;
+      if (i == 0) {
+        continue;
+      }
+      Surroundings& there = around_[i];
+      const bool is_near = places[i].ahead_m <= way_->near_m();
+      there.least_range_m = is_near ? here.least_range_m : 0.0;
+      there.speed_limit_m_s =
+          std::min(places[i].speed_limit_m_s, flyball::HorizonSettings{}.most_speed_m_s);
+      there.coarsest_m = std::min(is_near ? here.coarsest_m : 1e9, coarsest_m(seen, i));
+      there.needs_top_clock = there.coarsest_m <= levels_m_.front();
+    }
+  }
+
+  /// Cells that leave every gap open of which maps must show the inside, from here.
+  [[nodiscard]] double coarsest_m(const Observation& seen, std::size_t place) const noexcept {
+    const auto& places = truth_->places;
+    double coarsest_m = levels_m_.back();
+    for (const flyball::PlaceAhead& other : places) {
+      const double on_m = other.ahead_m - places[place].ahead_m;
+      if (on_m >= -behind_m && on_m <= way_->near_m()) {
+        coarsest_m = std::min(coarsest_m, open_m(other.opening_m, seen.map_resolution_m));
+      }
+      const bool is_beside = on_m >= 0.0 && on_m <= look_ahead_m && other.obstacle_m < beside_m;
+      const bool is_slow =
+          on_m >= 0.0 && on_m <= zone_ahead_m && other.speed_limit_m_s <= way_->narrow_m_s();
+      if (is_beside || is_slow) {
+        coarsest_m = std::min(coarsest_m, way_->large_m());
+      }
+    }
+    return coarsest_m;
+  }
+
+  /// As Passability has it: a map of q that shows a gap of w promises that r >= q shows at least
+  /// w - 2 (r - q) of it.
+  [[nodiscard]] double open_m(double opening_m, double map_resolution_m) const noexcept {
+    for (std::size_t i = levels_m_.size(); i-- > 1;) {
+      const double r_m = levels_m_[i];
+      const double least_m = way_->body_m() + (way_->is_lattice() ? 2.0 * r_m : 0.0);
+      if (opening_m - 2.0 * std::max(0.0, r_m - map_resolution_m) >= least_m) {
+        return r_m;
+      }
+    }
+    return levels_m_.front();
+  }
+
+  std::vector<double> levels_m_{};
+  std::optional<flyball::MissionWay> way_{};
+  std::optional<flyball::EnergySearch> search_{};
+  std::optional<flyball::HorizonSearch> horizon_{};
+  std::vector<Surroundings> around_{};
+  const flyball::Foresight* truth_{};
+  bool was_told_{};
+};
+
+}  // namespace
+
+FLYBALL_PLUGIN(reference) {
+  registry.add<flyball::Policy>("reference", [] { return std::make_unique<Reference>(); });
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/horizon_search.h"
+
+#include "flyball/governors/speed_limit.h"
+
+#include "search_knobs.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double top_hz = 2e9;
+constexpr double slow_hz = 0.5e9;
+constexpr double step_m = 4.0;
+constexpr std::size_t places = 16;
+constexpr double deceleration_m_s2 = 3.0;
+
+/// Fine and coarse cells, one range, three clocks.
+struct Made {
+  Made()
+      : search{*EnergySearch::make(
+            {},
+            {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}, {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}},
+            {12.0},
+            kit::search_knobs({slow_hz, 1e9, top_hz}))},
+        horizon{{}, search} {
+    Surroundings open;
+    open.speed_limit_m_s = 6.0;
+    open.sight_m = 1e9;
+    open.coarsest_m = 0.80;
+    open.deceleration_m_s2 = deceleration_m_s2;
+    around.assign(places, open);
+    for (std::size_t i = 0; i < places; ++i) {
+      truth.places.push_back({step_m * static_cast<double>(i), 6.0, 24.0, 20.0});
+    }
+    set_frames(0.5, 0.1);
+  }
+
+  /// At the top clock; in proportion to 1 / f at others.
+  void set_frames(double fine_s, double coarse_s) {
+    truth.frame_s.clear();
+    for (std::size_t i = 0; i < places; ++i) {
+      for (const MapSetting& one : horizon.points()) {
+        truth.frame_s.push_back((one.resolution_m < 0.5 ? fine_s : coarse_s) * top_hz /
+                                one.clock_hz);
+      }
+    }
+  }
+
+  EnergyEstimate choose(double speed_m_s) {
+    const auto best = horizon.choose(search, truth, around, speed_m_s);
+    EXPECT_TRUE(best.has_value());
+    return best.value_or(EnergyEstimate{});
+  }
+
+  EnergySearch search;
+  HorizonSearch horizon;
+  Foresight truth;
+  std::vector<Surroundings> around;
+};
+
+/// Eq. 2 with the bound that the vehicle's own speed limit has.
+double fastest_m_s(double frame_s) {
+  const double bound_s = 1.1 * frame_s;
+  const EnergySearchSettings usual;
+  return SpeedLimit{deceleration_m_s2}.speed_m_s(
+      bound_s + std::max(bound_s, usual.frame_s) + usual.reaction_s, 12.0 - usual.margin_m);
+}
+
+TEST(HorizonSearch, in_the_open_holds_the_limit_of_speed_at_the_cheapest_clock_that_does) {
+  Made one;
+  one.set_frames(0.5, 0.05);
+  // Of 12 m ahead: at .5 GHz a frame takes .2 s, and is soon enough for 6 m/s.
+  ASSERT_GE(fastest_m_s(0.05 * top_hz / slow_hz), 6.0);
+  const EnergyEstimate quick = one.choose(6.0);
+  EXPECT_EQ(quick.setting, (MapSetting{0.80, 12.0, slow_hz}));
+  EXPECT_EQ(quick.speed_m_s, 6.0);
+  one.set_frames(0.5, 0.10);
+  ASSERT_LT(fastest_m_s(0.10 * top_hz / slow_hz), 6.0);
+  ASSERT_GE(fastest_m_s(0.10 * top_hz / 1e9), 6.0);
+  EXPECT_EQ(one.choose(6.0).setting, (MapSetting{0.80, 12.0, 1e9}));
+}
+
+// At a speed that does not change, the sum over the way is that of one metre times its length.
+TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
+  Made one;
+  one.around.assign(places, [&] {
+    Surroundings only_top = one.around.front();
+    only_top.needs_top_clock = true;
+    return only_top;
+  }());
+  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  const EnergyEstimate best = one.choose(6.0);
+  ASSERT_EQ(best.setting, (MapSetting{0.80, 12.0, top_hz}));
+  const double watts =
+      (one.search.rotor_power(6.0) + one.search.computer_power(best.setting, 0.1)).value();
+  EXPECT_NEAR(best.joules_per_m, watts / 6.0, 1e-9 * watts);
+}
+
+// From rest at 3 m/s^2 the limit of 6 m/s is reached within 6 m: two steps.
+TEST(HorizonSearch, from_rest_takes_what_the_slower_beginning_costs_more) {
+  Made one;
+  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  const double moving = one.choose(6.0).joules_per_m;
+  const double standing = one.choose(0.0).joules_per_m;
+  const auto j_m = [&](double v_m_s) { return one.search.rotor_power(v_m_s).value() / v_m_s; };
+  // Mean speeds of the first two steps at most (0 + 4.5) / 2 and (4.5 + 6) / 2; computer beside.
+  const double least = step_m * (j_m(2.25) + j_m(5.25) - 2.0 * j_m(6.0)) / (step_m * 15.0);
+  EXPECT_GE(standing - moving, least);
+  EXPECT_LE(standing - moving, 1.1 * least);
+}
+
+/// Where the vehicle has come to when finer cells are first chosen before a gap at 48 m.
+double refines_at_m(double fine_s) {
+  Made one;
+  one.set_frames(fine_s, 0.1);
+  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  constexpr double gap_m = 48.0;
+  constexpr double look_m = 8.0;
+  for (double at_m = 0.0; at_m < gap_m; at_m += 1.0) {
+    for (std::size_t i = 0; i < places; ++i) {
+      const double on_m = gap_m - at_m - one.truth.places[i].ahead_m;
+      one.around[i].coarsest_m = on_m >= -3.0 && on_m <= look_m ? 0.15 : 0.80;
+    }
+    const EnergyEstimate best = one.choose(6.0);
+    if (best.setting.resolution_m < 0.5) {
+      return gap_m - at_m;
+    }
+  }
+  return 0.0;
+}
+
+TEST(HorizonSearch, refines_before_a_known_gap_and_no_sooner_than_it_must) {
+  const double before_m = refines_at_m(0.5);
+  EXPECT_GE(before_m, 8.0);
+  EXPECT_LE(before_m, 8.0 + step_m);
+}
+
+// Fine cells end at 4.4 m/s here. For one step a switch to coarse ones and back does not pay.
+TEST(HorizonSearch, weighs_what_lies_farther_on) {
+  Made one;
+  one.set_frames(0.8, 0.1);
+  one.search.put_in_force({0.15, 12.0, top_hz}, {});
+  EXPECT_EQ(one.choose(4.0).setting.resolution_m, 0.80);
+  for (std::size_t i = 1; i < places; ++i) {
+    one.around[i].coarsest_m = 0.15;
+  }
+  EXPECT_EQ(one.choose(4.0).setting.resolution_m, 0.15);
+}
+
+TEST(HorizonSearch, never_takes_cells_that_are_too_coarse_or_maps_that_come_too_late) {
+  Made one;
+  one.around.front().coarsest_m = 0.15;
+  EXPECT_EQ(one.choose(6.0).setting.resolution_m, 0.15);
+  one.around.front().most_response_s = 3.0;  // At .5 GHz a fine map takes 2 s, the next 2 more.
+  EXPECT_GT(one.choose(0.0).setting.clock_hz, slow_hz);
+  const auto& all = one.horizon.weighed();
+  for (const EnergyEstimate& other : all) {
+    const bool is_out = other.setting.resolution_m > 0.5 || other.setting.clock_hz == slow_hz;
+    EXPECT_EQ(is_out, std::isinf(other.joules_per_m)) << other.setting.clock_hz;
+  }
+}
+
+TEST(HorizonSearch, says_so_where_no_setting_leads_on) {
+  Made one;
+  for (Surroundings& there : one.around) {
+    there.most_response_s = 0.0;
+  }
+  EXPECT_FALSE(one.horizon.choose(one.search, one.truth, one.around, 1.0).has_value());
+}
+
+}  // namespace
+}  // namespace flyball

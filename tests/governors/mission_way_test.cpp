@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/mission_way.h"
+
+#include "flyball/governors/policy_conformance.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+Result<MissionWay> made(const std::map<std::string, ParameterValue>& given = {},
+                        const KnobSettings& knobs = conformance_knobs()) {
+  const auto resolved = Parameters::resolve("policy", MissionWay::parameters(), given);
+  return MissionWay::make("policy \"mine\"", std::get<Parameters>(resolved), knobs);
+}
+
+std::string refusal(const std::map<std::string, ParameterValue>& given,
+                    const KnobSettings& knobs = conformance_knobs()) {
+  const auto way = made(given, knobs);
+  return way ? "" : way.error().message;
+}
+
+Observation cruising() {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  seen.speed_m_s = seen.speed_limit_m_s = 6.0;
+  seen.max_deceleration_m_s2 = 3.0;
+  seen.known_free_m = 25.0;
+  seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = 24.0;
+  seen.nearest_obstacle_m = 20.0;
+  seen.map_resolution_m = 0.30;
+  return seen;
+}
+
+TEST(MissionWay, has_all_cells_of_a_lattice_between_its_ends) {
+  const auto way = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
+  ASSERT_TRUE(way.ok());
+  EXPECT_TRUE(way->is_lattice());
+  std::vector<double> cells_m;
+  for (const SearchLevel& level : way->levels(0.5, 0.1)) {
+    cells_m.push_back(level.resolution_m);
+  }
+  EXPECT_EQ(cells_m, (std::vector<double>{0.30, 0.60, 0.80}));
+}
+
+TEST(MissionWay, says_what_contradicts_what) {
+  EXPECT_NE(refusal({{"fine_m", 0.80}, {"coarse_m", 0.15}}).find("below coarse_m"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"least_range_m", 20.0}, {"most_range_m", 10.0}}).find("below most_range_m"),
+            std::string::npos);
+  EXPECT_EQ(refusal({}, KnobSettings{}),
+            "policy \"mine\": there is no knob planner.budget; try: flyball list knobs");
+}
+
+TEST(MissionWay, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  const MapSetting coarse{0.80, 7.0, 2e9};
+  Observation seen = cruising();
+  EXPECT_FALSE(way->look(seen, coarse).needs_top_clock);
+  seen.now += 250ms;
+  seen.speed_m_s = 4.0;
+  EXPECT_TRUE(way->look(seen, coarse).needs_top_clock);
+}
+
+TEST(MissionWay, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  Observation seen = cruising();
+  EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 1.20);
+  seen.speed_m_s = 0.0;
+  EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
+}
+
+TEST(MissionWay, gives_plans_in_large_cells_little_and_those_in_fine_ones_more_each_time) {
+  const auto way = made({{"coarse_budget", 200.0}});
+  ASSERT_TRUE(way.ok());
+  Observation seen = cruising();
+  EXPECT_EQ(way->plan_budget(seen, 0.80), 200.0);
+  EXPECT_EQ(way->plan_budget(seen, 0.15), 10000.0);
+  seen.planner_failures = 1;
+  EXPECT_EQ(way->plan_budget(seen, 0.15), 20000.0);
+  seen.planner_failures = 5;
+  EXPECT_EQ(way->plan_budget(seen, 0.15), 40000.0);
+}
+
+}  // namespace
+}  // namespace flyball
