@@ -18,6 +18,7 @@ constexpr int steps = 15;                              // 60 m.
 constexpr double direction_rad = 0.39269908169872414;  // An eighth of a half turn.
 constexpr double half_band_m = 0.3;                    // As the governor loop looks at the map.
 constexpr double nearest_m = 20.0;
+constexpr double path_width_reach_m = 8.0;  // Farther on the path will often be another one.
 
 std::unique_ptr<Mapper> made(const KernelSettings& kernels) {
   auto mapper = make_mapper(kernels);
@@ -74,7 +75,7 @@ PlaceAhead FutureFrames::place(const PathFollower& follower,
   place.opening_m = gaps_ahead(context_.map(), spot.p_W, onward_W, line).narrowest_m;
   place.obstacle_m = context_.map().nearest_obstacle_m(spot.p_W, nearest_m, half_band_m);
   const double s_m = follower.s_m() + ahead_m;
-  if (follower.has_path() && s_m < follower.path().length_m()) {
+  if (follower.has_path() && s_m < follower.path().length_m() && ahead_m <= path_width_reach_m) {
     const PathSpan here{&follower.path(), s_m, step_m};
     place.opening_m =
         std::min(place.opening_m, narrowest_on(context_.map(), here, half_band_m).width_m);

@@ -31,8 +31,9 @@ void MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
   }
 }
 
-// A range that is new begins with what the nearest one of the same cells has shown: the platform's
-// price of a frame is an upper bound, and several times too high where a wall ends most rays.
+// A range that is new begins with what the nearest one of the same cells has shown, and cells that
+// are new with what the nearest cells have: the platform's price of a frame is an upper bound, and
+// several times too high where a wall ends most rays.
 MapLatency::Windows& MapLatency::windows() {
   const auto key = std::make_pair(terms_.resolution_m, terms_.range_m);
   const auto found = windows_.find(key);
@@ -41,10 +42,12 @@ MapLatency::Windows& MapLatency::windows() {
   }
   const Duration one = from_seconds(1.0);
   Windows seeds{LatencyWindow{one}, LatencyWindow{one}};
-  double nearest = 1e9;
+  using Apart = std::pair<double, double>;  // Cells first, then range.
+  std::optional<Apart> nearest;
   for (const auto& [known, samples] : windows_) {
-    const double apart = std::abs(std::log(known.second / terms_.range_m));
-    if (known.first == terms_.resolution_m && apart < nearest) {
+    const Apart apart{std::abs(std::log(known.first / terms_.resolution_m)),
+                      std::abs(std::log(known.second / terms_.range_m))};
+    if (!nearest || apart < *nearest) {
       nearest = apart;
       seeds = {LatencyWindow{samples.latency.bound()}, LatencyWindow{samples.interval.bound()}};
     }

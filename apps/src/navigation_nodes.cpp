@@ -79,10 +79,16 @@ void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& cont
       return Work{};
     }
     PlanAnswer answer;
-    Plan plan = plan_with_tubes(context, *query, answer.body);
     answer.id = query->id;
     answer.start_direction_W = query->start_direction_W;
     answer.lead_in_W = query->lead_in_W;
+    if (query->known) {
+      answer.body = query->known->body;
+      answer.waypoints_W = joined_to(query->start_W, *query->known, context.map());
+      job.publish(topics.plan.response, std::move(answer));
+      return Work{};
+    }
+    Plan plan = plan_with_tubes(context, *query, answer.body);
     answer.failure = plan.failure;
     answer.iterations = plan.work.count("iterations");
     answer.waypoints_W = std::move(plan.waypoints_W);
@@ -96,6 +102,7 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
   PlannedPath planned;
   planned.id = answer.id;
   planned.failure = answer.failure;
+  planned.way = {answer.waypoints_W, answer.body};
   if (!planned.failure.empty()) {
     return planned;
   }

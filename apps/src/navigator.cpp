@@ -2,28 +2,22 @@
 #include "navigator.h"
 
 #include "flight_recorder.h"
+#include "step_aside.h"
 #include "sub_goal.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace flyball {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto retry_after = 500ms;  // The same map would fail again: wait for frames.
-constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
-// A plan is spliced in ahead of the vehicle by what four of five plans take and half as much again.
-constexpr double lead_over_usual = 1.5;
-constexpr double usual_share = 0.8;
-constexpr std::size_t plans_remembered = 5;
-constexpr double least_lead_s = 0.1;
-constexpr double most_lead_s = 3.0;
+constexpr auto retry_after = 500ms;     // The same map would fail again: wait for frames.
+constexpr auto stall_patience = 6s;     // Looking left and right has not helped: plan anew.
+constexpr int most_refusals = 3;        // Of one way: then another one is looked for.
 constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
 constexpr double arrival_m = 0.3;
-// Out of what reaches into the tube; farther than the tube is wide it would need a path.
-constexpr std::array<double, 4> aside_m{0.005, 0.015, 0.03, 0.06};
 constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
 constexpr double least_lead_in_m = 0.3;
@@ -44,6 +38,7 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   context_.goal_now_W = goal_W;
   without_path_since_ = now;
   pending_id_ = 0;
+  known_.reset();
   want_plan(now, "new goal");
 }
 
@@ -84,11 +79,6 @@ void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint6
   }
 }
 
-double Navigator::lead_s() const {
-  const double usual_s = quantile({planning_s_.begin(), planning_s_.end()}, usual_share);
-  return std::clamp(lead_over_usual * usual_s, least_lead_s, most_lead_s);
-}
-
 void Navigator::want_plan(MissionTime now, const std::string& why) {
   if (!wants_plan_) {
     wants_plan_ = true;
@@ -112,20 +102,26 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!wants_plan_ || now < not_before_) {
     return std::nullopt;
   }
+  asked_at_ = now;
+  wants_plan_ = false;
+  ++context_.counters.replans;
+  return query();
+}
+
+PlanQuery Navigator::query() {
   PlanQuery query;
   query.id = pending_id_ = next_id_++;
   query.start_W = follower_.position_W();
   if (follower_.has_path()) {
     start_from_path(query);
   }
+  joins_ = known_.has_value();
+  query.known = std::exchange(known_, std::nullopt);
   query.goal_W =
       sub_goal_W(context_, query.start_W, *goal_W_, context_.counters.planner_failures_in_row);
-  asked_at_ = now;
   // Where the narrow tube has found no way twice, a wide one will not.
   query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0 ||
                        context_.counters.planner_failures_in_row > 1;
-  wants_plan_ = false;
-  ++context_.counters.replans;
   return query;
 }
 
@@ -154,8 +150,9 @@ double Navigator::last_stop_m() const {
 // soon come to rest, so that the bend can begin before that; at last it starts from rest.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
+  const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
   const double stop_m = refusals_ == 0 ? last_stop_m() : follower_.planned_stop_m();
-  const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s(), stop_m);
+  const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
   const Vec3 moving_W = path.at(moving_m).p_W;
   const Vec3 stop_W = path.at(stop_m).p_W;
   const double chord_m = (stop_W - moving_W).norm();
@@ -175,31 +172,39 @@ void Navigator::trust_own_place() {
   context_.kernels.mapper->declare_clear(follower_.position_W(), context_.narrow_body());
 }
 
-// What is occupied stays so: a millimetre of it in the tube, and no plan would ever begin here.
-void Navigator::step_aside() {
-  const auto is_blocked = [&](const Vec3& p_W) {
-    return context_.map().body_state(p_W, context_.narrow_body()) == CellState::occupied;
-  };
-  const Vec3 here_W = follower_.position_W();
-  constexpr std::size_t turns = 8;
-  constexpr double eighth_rad = 0.7853981633974483;
-  for (std::size_t i = 0; i < turns * aside_m.size() && is_blocked(follower_.position_W()); ++i) {
-    const double yaw_rad = static_cast<double>(i % turns) * eighth_rad;
-    const Vec3 p_W = here_W + aside_m[i / turns] * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
-    if (!is_blocked(p_W)) {
-      hover_at(p_W, follower_.yaw_rad());
-    }
-  }
-}
-
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
+  if (joins_) {  // No plan has failed: one is made from here now.
+    want_plan(now, "the way does not join: " + planned.failure);
+    return;
+  }
   ++context_.counters.planner_failures_in_row;
   if (planned.failure == "start blocked" && at_rest_since_) {
-    step_aside();
+    if (const auto aside_W = place_aside_W(context_, follower_.position_W())) {
+      hover_at(*aside_W, follower_.yaw_rad());
+    }
     trust_own_place();
   }
   not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});
   want_plan(now, planned.failure);
+}
+
+// What was found late is mostly a way around. It is worth its search where the metres more cost no
+// more time than another search might; in rooms they do.
+bool Navigator::is_worth_joining(const std::vector<Vec3>& way_W) const {
+  const double limit_m_s = context_.speed_limit_m_s(follower_.position_W());
+  return way_W.size() >= 2 && detour_m(way_W) <= lead_.lead_s() * limit_m_s;
+}
+
+// A way that was found after seconds of search is not lost because the vehicle has flown on, or is
+// too fast for its first bend: it is flown into from elsewhere. At first from a point ahead again,
+// since that takes no search.
+void Navigator::plan_refused(MissionTime now, const PlannedPath& planned) {
+  const bool is_late = follower_.s_m() > splice_m_;
+  refusals_ += is_late && !joins_ && refusals_ == 0 ? 0 : 1;
+  if (refusals_ < most_refusals && is_worth_joining(planned.way.waypoints_W)) {
+    known_ = planned.way;
+  }
+  want_plan(now, is_late ? "too late for the plan" : "too fast for the plan");
 }
 
 void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
@@ -207,9 +212,8 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     return;
   }
   pending_id_ = 0;
-  planning_s_.push_back(to_seconds(now - asked_at_));
-  while (planning_s_.size() > plans_remembered) {
-    planning_s_.pop_front();
+  if (!joins_) {
+    lead_.took(to_seconds(now - asked_at_));
   }
   if (!planned.failure.empty()) {
     plan_failed(now, planned);
@@ -218,8 +222,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   context_.counters.planner_failures_in_row = stalls_;
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, splice_m_)) {
-    ++refusals_;
-    want_plan(now, "too late or too fast for the plan");
+    plan_refused(now, planned);
     return;
   }
   refusals_ = 0;

@@ -5,9 +5,10 @@
 /// Gets the vehicle to a goal through what the map knows: asks for plans, splices them into the
 /// committed path, and keeps the latency that the speed limit follows from.
 
+#include "known_way.h"
 #include "map_latency.h"
 #include "path_follower.h"
-#include <deque>
+#include "plan_lead.h"
 #include <string>
 
 namespace flyball {
@@ -19,7 +20,8 @@ struct PlanQuery {
   /// The path comes straight from here, and bends at the start as fast as room allows.
   std::optional<Vec3> lead_in_W{};
   Vec3 goal_W{Vec3::Zero()};
-  bool may_be_tight{};  ///< Only the slow tube is asked for.
+  bool may_be_tight{};              ///< Only the slow tube is asked for.
+  std::optional<KnownWay> known{};  ///< Was found before: nothing is sought, it begins elsewhere.
 };
 
 struct PlanAnswer {
@@ -37,6 +39,7 @@ struct PlannedPath {
   Trajectory trajectory{};
   std::string failure{};
   bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
+  KnownWay way{};       ///< That the trajectory follows.
 };
 
 /// Where the vehicle is, seen from its reference.
@@ -76,9 +79,10 @@ class Navigator {
   [[nodiscard]] bool is_leg_ending() const;
   [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
-  void step_aside();
   void plan_failed(MissionTime now, const PlannedPath& planned);
-  [[nodiscard]] double lead_s() const;
+  [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& way_W) const;
+  void plan_refused(MissionTime now, const PlannedPath& planned);
+  [[nodiscard]] PlanQuery query();
   [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);
   [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
@@ -92,9 +96,11 @@ class Navigator {
   double splice_m_{};
   std::optional<double> blocked_at_m_{};  ///< On the path; none: it is not known to be.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be flown into.
-  int stalls_{};    ///< Plans in a row that have led nowhere: they count as failed ones.
+  std::optional<KnownWay> known_{};  ///< The way of the last one of these.
+  bool joins_{};                     ///< The pending plan is that way, from elsewhere.
+  int stalls_{};  ///< Plans in a row that have led nowhere: they count as failed ones.
   MissionTime asked_at_{};
-  std::deque<double> planning_s_{};  ///< What the last few plans took.
+  PlanLead lead_{};
   bool wants_plan_{};
   bool is_searching_{};  ///< For the place where it is.
   MissionTime not_before_{};

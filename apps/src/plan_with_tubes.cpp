@@ -3,6 +3,9 @@
 
 #include "flyball/runtime/random.h"
 
+#include "gap_scan.h"
+#include <algorithm>
+
 namespace flyball {
 namespace {
 
@@ -11,6 +14,10 @@ namespace {
 // distance by themselves.) A path with so much room keeps a map of such cells passable; a corner
 // that is cut closer costs fine cells, and half the speed.
 constexpr double room_m = 0.6;
+
+constexpr double aside_m = 20.0;     // A way farther off the line is a detour for any tube.
+constexpr double exact_to_m = 0.25;  // Widths of openings.
+constexpr double half_band_m = 0.3;
 
 constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
 constexpr double worthwhile = 0.5;       // A narrow way, for it is slower, saves this share of it.
@@ -37,18 +44,35 @@ class Search {
 
  private:
   // First with room around the wide tube that cruise speed needs, then without, each for a part of
-  // the budget: what is there is mostly found soon. The narrow one gets what is left.
+  // the budget: what is there is mostly found soon. The narrow one gets what is left. A tube that
+  // no opening on the way lets through is not tried: before doors that would be a quarter of the
+  // time.
   bool find_any() {
     const int budget = static_cast<int>(context_.knobs.value("planner.budget"));
     if (query_.may_be_tight) {
       return try_with(context_.narrow_body(), budget);
     }
+    const double opening_m = narrowest_opening_m();
+    const auto fits = [&](const Cylinder& body) {
+      return 2.0 * body.radius_m <= opening_m + exact_to_m;
+    };
     const int part = budget / 8;
     const Cylinder wide = context_.body_at(context_.knobs.value("mission.max_speed_m_s"));
     const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
-    const bool has_small_cells = 2.0 * context_.map().resolution_m() <= room_m;
-    return (has_small_cells && try_with(roomy, part)) || try_with(wide, part) ||
-           try_with(context_.narrow_body(), budget - 2 * part);
+    const bool tries_roomy = 2.0 * context_.map().resolution_m() <= room_m && fits(roomy);
+    const bool tries_wide = fits(wide);
+    const int tried = (tries_roomy ? part : 0) + (tries_wide ? part : 0);
+    return (tries_roomy && try_with(roomy, part)) || (tries_wide && try_with(wide, part)) ||
+           try_with(context_.narrow_body(), budget - tried);
+  }
+
+  [[nodiscard]] double narrowest_opening_m() const {
+    GapScan scan;
+    scan.reach_m = (request_.goal_W - request_.start_W).norm();
+    scan.aside_m = aside_m;
+    scan.half_band_m = half_band_m;
+    scan.bounds_W = context_.brief.bounds_W;
+    return gaps_ahead(context_.map(), request_.start_W, request_.goal_W, scan).narrowest_m;
   }
 
   void look_for_shorter() {

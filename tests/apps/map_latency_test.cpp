@@ -101,6 +101,15 @@ TEST(MapLatency, expects_of_a_new_range_what_the_nearest_one_showed) {
   EXPECT_NEAR(to_seconds(fresh.maps.latency_bound()), 1.5 * 0.44, 1e-6);
 }
 
+TEST(MapLatency, expects_of_new_cells_what_the_nearest_ones_showed) {
+  Stream stream;
+  stream.make(coarse, 5, 300ms, 1s);
+  stream.make({0.30, 13.0, Hertz{2e9}}, 5, 400ms, 2s);
+  stream.maps.note_terms(stream.now, fine);
+  stream.publish(stream.now - 2s, 0.15, 4s);  // Begun before: only the seed is known.
+  EXPECT_NEAR(to_seconds(stream.maps.latency_bound()), 4.0 * 0.22, 1e-6);
+}
+
 TEST(MapLatency, survives_a_computer_that_is_free) {
   Stream stream;
   stream.make(fine, 3, 10ms, 0ms);

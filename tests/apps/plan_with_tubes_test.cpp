@@ -16,6 +16,17 @@ kit::GridMap room_with_gap(double gap_m) {
   return map;
 }
 
+/// Finds nothing, and counts how often it was asked.
+class CountingPlanner final : public PathPlanner {
+ public:
+  Plan plan(const PlanRequest&, const OccupancyView&) override {
+    Plan none;
+    none.failure = "none";
+    none.work.add("tubes", 1.0);
+    return none;
+  }
+};
+
 struct Planning {
   explicit Planning(const kit::GridMap& map) : rig{map} {
     rig.context->kernels.planner = all_plugins().make<PathPlanner>("rrt_connect");
@@ -69,6 +80,19 @@ TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
   EXPECT_TRUE(plan.failure.empty()) << plan.failure;
   EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
   EXPECT_GT(plan.work.count("iterations"), 0.0);
+}
+
+// Two eighths of the budget would go to tubes that no opening lets through.
+TEST(PlanWithTubes, spends_nothing_on_tubes_that_cannot_pass) {
+  const auto iterations = [](double gap_m) {
+    const kit::GridMap map = room_with_gap(gap_m);
+    Planning planning{map};
+    planning.rig.context->kernels.planner = std::make_unique<CountingPlanner>();
+    Cylinder body;
+    return plan_with_tubes(*planning.rig.context, planning.query, body).work.count("tubes");
+  };
+  EXPECT_EQ(iterations(4.5), 3.0);
+  EXPECT_EQ(iterations(0.45), 1.0);
 }
 
 // A wall of 9 m with a door of .75 m in its middle: around it is twice as far as through it.
