@@ -88,6 +88,7 @@ TEST(PlanWithTubes, spends_nothing_on_tubes_that_cannot_pass) {
     const kit::GridMap map = room_with_gap(gap_m);
     Planning planning{map};
     planning.rig.context->kernels.planner = std::make_unique<CountingPlanner>();
+    planning.query.goal_W.y() = 0.0;  // Square to the wall, as lines are that look for openings.
     Cylinder body;
     return plan_with_tubes(*planning.rig.context, planning.query, body).work.count("tubes");
   };
