@@ -22,7 +22,7 @@ void probe_libm(TraceHash& hash) {
   }
 }
 
-void probe_embree(TraceHash& hash) {
+void probe_camera(TraceHash& hash) {
   World world;
   world.boxes.push_back({Vec3{3.0, -0.4, 0.0}, Vec3{3.7, 0.9, 2.1}});
   DepthCameraSpec spec;
@@ -57,7 +57,7 @@ void probe_eigen(TraceHash& hash) {
 std::string numeric_fingerprint() {
   TraceHash hash;
   probe_libm(hash);
-  probe_embree(hash);
+  probe_camera(hash);
   probe_eigen(hash);
   return hash.hex();
 }

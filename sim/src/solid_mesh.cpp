@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: depth_camera
+// tested-in: colour_camera
 #include "solid_mesh.h"
 
 #include <cmath>
@@ -97,14 +97,6 @@ SolidMesh solid_mesh(const World& world, double margin_m) {
     made_of(world.ground_material);
   }
   return mesh;
-}
-
-void add_people_at_rest(SolidMesh& mesh, const World& world) {
-  for (const Person& person : world.people) {
-    if (person.walk.size() == 1) {
-      add_pillar(mesh, {person.walk.front().foot_W, person.radius_m, person.height_m});
-    }
-  }
 }
 
 }  // namespace flyball

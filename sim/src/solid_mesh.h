@@ -22,7 +22,4 @@ struct SolidMesh {
 /// the ground, which reaches `margin_m` beyond everything else.
 [[nodiscard]] SolidMesh solid_mesh(const World& world, double margin_m);
 
-/// Upright cylinders in place of people who stay where they are: what a depth camera needs.
-void add_people_at_rest(SolidMesh& mesh, const World& world);
-
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Depth camera: Embree rays into the true world.
+/// Depth camera: rays into the true world.
 
 #include "flyball/runtime/messages.h"
 #include "flyball/sim/world.h"
@@ -28,7 +28,7 @@ struct DepthCameraSpec {
   [[nodiscard]] Intrinsics intrinsics() const;
 };
 
-/// One thread, fixed instruction set: the same image on every host of a CPU class.
+/// One thread, arithmetic as IEEE 754 rounds it: the same image on every processor.
 class DepthCamera {
  public:
   DepthCamera(const World& world, const DepthCameraSpec& spec, std::uint64_t seed);
@@ -41,7 +41,7 @@ class DepthCamera {
   /// only, not on how many frames were read before; a depth that it carries beyond the range is no
   /// return, one below 5 cm becomes 5 cm.
   ///
-  /// @cost 1-2 ms for 256 x 144 pixels on one x86 core.
+  /// @cost .2 ms for 256 x 144 pixels on one x86 core; see sim/README.md.
   [[nodiscard]] DepthImage capture(const Pose& X_WC, MissionTime now, std::uint64_t sequence) const;
   /// The same image, and those of the other cameras of the spec, captured when somebody looks at
   /// them. @pre The camera lives until then.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How deep a camera sees among a world's solids: boxes, pillars and the ground as they are, not as
+/// triangles. Tiles of pixels go down a tree of boxes together, near solids first; the rays
+/// of a tile are held against a solid only if some of them may meet it before what is met already.
+
+#include "flyball/runtime/messages.h"
+#include "flyball/sim/world.h"
+
+#include "ray_loops.h"
+#include <vector>
+
+namespace flyball {
+
+class SolidRays {
+ public:
+  /// People who stay where they are stand there as upright cylinders.
+  explicit SolidRays(const World& world, const RayLoops& loops = *supported_ray_loops().back());
+
+  /// Depth along the optical axis of what each pixel's ray meets first, infinite where that is
+  /// beyond the range. Row by row; `depth_m` has a number for each pixel.
+  ///
+  /// @cost See sim/README.md.
+  void look(const Intrinsics& camera, const Pose& X_WC, double range_m, float* depth_m) const;
+
+ private:
+  /// Of the tree, depth first: the left child is the next node.
+  struct Node {
+    Aabb box;
+    int right{};  ///< Of an inner node.
+    int first{};  ///< Of a leaf: in `solids_`.
+    int count{};  ///< 0: an inner node.
+  };
+  struct Solid {
+    Aabb box;
+    bool is_pillar{};
+  };
+  struct Bounds;
+  struct Tile;
+
+  void grow(int first, int count);
+  void look_at_tile(Tile& tile) const;
+  void meet(const Solid& solid, Tile& tile) const;
+
+  const RayLoops& loops_;
+  double ground_z_m_;
+  bool has_ground_;
+  std::vector<Solid> solids_{};
+  std::vector<Node> nodes_{};
+};
+
+}  // namespace flyball
