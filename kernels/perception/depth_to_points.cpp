@@ -13,20 +13,23 @@ namespace {
 
 constexpr double beyond_range = 1.001;  // so that a mapper with the same range cuts the ray there
 
-/// `ray_C` has depth 1 in its own camera. A depth that is not a number, or not in front of the
-/// camera, is a broken measurement: it must neither mark nor clear anything.
-void add(flyball::PointCloud& cloud, const flyball::Vec3& ray_C, double depth_m, double reach_m) {
-  if (std::isnan(depth_m) || depth_m <= 0.0) {
-    return;
+/// Writes points where there is room for all of them.
+class PointWriter {
+ public:
+  PointWriter(std::vector<Eigen::Vector3f>& points, std::size_t most)
+      : points_{points}, count_{points.size()} {
+    points_.resize(count_ + most);
   }
-  const double length = ray_C.norm();
-  if (depth_m * length > reach_m) {
-    cloud.clear_C.emplace_back((ray_C * (beyond_range * reach_m / length)).cast<float>());
-  } else {
-    cloud.hits_C.emplace_back((ray_C * depth_m).cast<float>());
-  }
-}
+  void add(const flyball::Vec3& p) { points_[count_++] = p.cast<float>(); }
+  void end() { points_.resize(count_); }
 
+ private:
+  std::vector<Eigen::Vector3f>& points_;
+  std::size_t count_;
+};
+
+/// A depth that is not a number, or not in front of the camera, is a broken measurement: it must
+/// neither mark nor clear anything.
 void append(flyball::PointCloud& cloud,
             const flyball::DepthImage& image,
             const Eigen::Matrix3d& R_CS,
@@ -37,14 +40,28 @@ void append(flyball::PointCloud& cloud,
   FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
                  image.depth_m.size(), camera.width_px, camera.height_px);
   const double reach_m = std::min(range_m, image.max_range_m);
+  PointWriter hits{cloud.hits_C, pixels};
+  PointWriter clear{cloud.clear_C, pixels};
   std::size_t pixel = 0;
   for (int row = 0; row < camera.height_px; ++row) {
     const double y = (row - camera.centre_y_px) / camera.focal_px;
     for (int column = 0; column < camera.width_px; ++column) {
       const double x = (column - camera.centre_x_px) / camera.focal_px;
-      add(cloud, R_CS * flyball::Vec3{x, y, 1.0}, image.depth_m[pixel++], reach_m);
+      const auto depth_m = static_cast<double>(image.depth_m[pixel++]);
+      if (std::isnan(depth_m) || depth_m <= 0.0) {
+        continue;
+      }
+      const flyball::Vec3 ray_C = R_CS * flyball::Vec3{x, y, 1.0};  // of depth 1 in its camera
+      const double length = ray_C.norm();
+      if (depth_m * length > reach_m) {
+        clear.add(ray_C * (beyond_range * reach_m / length));
+      } else {
+        hits.add(ray_C * depth_m);
+      }
     }
   }
+  hits.end();
+  clear.end();
 }
 
 /// Of several cameras the points are no longer the pixels of one image.

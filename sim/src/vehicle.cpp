@@ -109,8 +109,10 @@ void Vehicle::Body::integrate(double dt_s) {
   if (made_of.gimbal) {
     gimbal_work_j -= dt_s * (~motors * mean);
   }
-  physics->system.realize(state, SimTK::Stage::Velocity);
-  state.updQ() += dt_s * state.getQDot();
+  // Not by realizing velocities: the next step does that once more.
+  SimTK::Vector qdot;
+  physics->matter.multiplyByN(state, false, state.getU(), qdot);
+  state.updQ() += dt_s * qdot;
   physics->matter.normalizeQuaternions(state);
   read_state(SimTK::Vec3{udot[3], udot[4], udot[5]});
 }

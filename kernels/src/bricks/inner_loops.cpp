@@ -29,6 +29,10 @@ constexpr double least_direction = 1e-12;        // so slow that no border is ev
 // functions of other headers, of which the linker keeps one copy for the whole program.
 namespace portable {
 constexpr std::size_t vector_bytes = 16;
+using Doubles [[gnu::vector_size(vector_bytes)]] = double;
+inline Doubles roots(const Doubles& numbers) {
+  return Doubles{std::sqrt(numbers[0]), std::sqrt(numbers[1])};
+}
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 /// All bits of a byte, or none, for each of the lowest bits of a mask.
 inline Bytes bytes_of(std::uint64_t mask) {
@@ -50,6 +54,13 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
   return gathered(rows[0]) | gathered(rows[1]) << 8U;
 #endif
 }
+/// Whether it did: not here, where the plain loop is faster.
+inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
+                          const std::uint32_t* /*places*/,
+                          std::uint8_t /*mark*/,
+                          std::uint8_t* /*marks*/) {
+  return false;
+}
 #include "inner_loops.inc"
 #include "view_loops.inc"
 #include "view_octants.inc"
@@ -60,6 +71,10 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 #pragma GCC target("avx2")
 namespace avx2 {
 constexpr std::size_t vector_bytes = 32;
+using Doubles [[gnu::vector_size(vector_bytes)]] = double;
+inline Doubles roots(const Doubles& numbers) {
+  return Doubles(_mm256_sqrt_pd(__m256d(numbers)));
+}
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 inline Bytes bytes_of(std::uint64_t mask) {
   // Each byte of the mask goes to eight bytes, of which each keeps one bit.
@@ -72,6 +87,12 @@ inline Bytes bytes_of(std::uint64_t mask) {
 inline std::uint64_t sign_bits(const Bytes& bytes) {
   return static_cast<std::uint32_t>(_mm256_movemask_epi8(reinterpret_cast<__m256i>(bytes)));
 }
+inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
+                          const std::uint32_t* /*places*/,
+                          std::uint8_t /*mark*/,
+                          std::uint8_t* /*marks*/) {
+  return false;
+}
 #include "inner_loops.inc"
 #include "view_loops.inc"
 #include "view_octants.inc"
@@ -79,12 +100,41 @@ inline std::uint64_t sign_bits(const Bytes& bytes) {
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
 namespace avx512 {
 constexpr std::size_t vector_bytes = 64;
+using Doubles [[gnu::vector_size(vector_bytes)]] = double;
+inline Doubles roots(const Doubles& numbers) {
+  // Zero-masked, for GCC 12 warns of what the plain one leaves unset.
+  return Doubles(_mm512_maskz_sqrt_pd(0xff, __m512d(numbers)));
+}
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 inline Bytes bytes_of(std::uint64_t mask) {
   return reinterpret_cast<Bytes>(_mm512_movm_epi8(mask));
 }
 inline std::uint64_t sign_bits(const Bytes& bytes) {
   return _mm512_movepi8_mask(reinterpret_cast<__m512i>(bytes));
+}
+/// Neighbouring rays cross the same cells at about the same steps: of equal places side by side
+/// only the first is marked.
+inline bool mark_distinct(const Lanes<std::int32_t>& steps,
+                          const std::uint32_t* places,
+                          std::uint8_t mark,
+                          std::uint8_t* marks) {
+  alignas(64) std::uint32_t distinct[lanes];
+  const __m512i last = _mm512_loadu_si512(steps.data());
+  const int most_steps = *std::max_element(steps.begin(), steps.end());
+  for (int k = 0; k < most_steps; ++k) {
+    const __m512i here = _mm512_loadu_si512(places + lanes * static_cast<std::size_t>(k));
+    const __mmask16 walks = _mm512_cmpgt_epi32_mask(last, _mm512_set1_epi32(k));
+    const __m512i before = _mm512_maskz_alignr_epi32(0xffff, here, here, 15);
+    const auto same = static_cast<unsigned>(_mm512_cmpeq_epi32_mask(here, before));
+    const unsigned marked_before = same & static_cast<unsigned>(walks) << 1U;
+    const unsigned left = static_cast<unsigned>(walks) & ~marked_before;
+    _mm512_store_si512(distinct, _mm512_maskz_compress_epi32(static_cast<__mmask16>(left), here));
+    const int count = __builtin_popcount(left);
+    for (int i = 0; i < count; ++i) {
+      marks[distinct[i]] = mark;
+    }
+  }
+  return true;
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"

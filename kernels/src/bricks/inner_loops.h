@@ -7,6 +7,8 @@
 /// widest is taken at run time. All of them give the same bits: integers, or floats in one fixed
 /// order without fused multiply-add.
 
+#include "flyball/runtime/geometry.h"
+
 #include "brick.h"
 #include <array>
 #include <cstdint>
@@ -79,6 +81,16 @@ struct WindowAxes {
 
 /// From C to W, row by row.
 using PoseRows = std::array<std::array<double, 4>, 3>;
+
+[[nodiscard]] inline PoseRows rows_of(const Pose& X_WC) {
+  PoseRows rows{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      rows[row][column] = X_WC.matrix()(static_cast<int>(row), static_cast<int>(column));
+    }
+  }
+  return rows;
+}
 
 /// Where a point of C is seen.
 struct PixelGrid {
@@ -169,6 +181,11 @@ struct InnerLoops {
                    RayBlock& rays);
   /// Writes the first `steps` places of each lane: lane l of step k to `places[16 k + l]`.
   void (*walk_rays)(RayBlock& rays, const WindowAxes& axes, int steps, std::uint32_t* places);
+  /// Marks the first `steps` places of each lane, as `walk_rays` wrote them.
+  void (*mark_places)(const Lanes<std::int32_t>& steps,
+                      const std::uint32_t* places,
+                      std::uint8_t mark,
+                      std::uint8_t* marks);
   /// Sets the depths of the pixels in which points of C are seen, infinite where they are farther
   /// than the range. Outside the image and behind it: the pixel after the last.
   void (*put_depths)(const PointBlock& points,
@@ -193,6 +210,9 @@ struct InnerLoops {
   std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
   /// Takes sixteen points, three numbers each.
   void (*split_points)(const float* points, PointBlock& block);
+  /// Takes sixteen points of C to W, through doubles and back to floats, and puts them one after
+  /// the other.
+  void (*move_to_world)(const PointBlock& points, const PoseRows& X_WC, float* points_W);
 };
 
 /// @param count  1 to 16. The lanes beyond the last point repeat it.

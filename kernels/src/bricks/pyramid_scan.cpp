@@ -85,11 +85,7 @@ void PyramidScan::span_window(const Pose& X_WC, double range_m) {
 // into the same cells.
 void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
   HitFrame frame{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      frame.X_WC[row][column] = X_WC.matrix()(static_cast<int>(row), static_cast<int>(column));
-    }
-  }
+  frame.X_WC = rows_of(X_WC);
   const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
   frame.origin_W = {origin_W.x(), origin_W.y(), origin_W.z()};
   frame.squared_range_m2 = greatest_square(range_m);

@@ -97,7 +97,9 @@ void RayScan::walk_block(std::size_t block) {
     places_.resize(places);
   }
   loops_.walk_rays(rays, axes_, most_steps, places_.data());
-  for (std::size_t lane = 0; lane < rays_in(block); ++lane) {
+  Lanes<std::int32_t> steps{};
+  const std::size_t count = rays_in(block);
+  for (std::size_t lane = 0; lane < count; ++lane) {
     const bool is_close = match_ == Match::stock && rays.closest[lane] < doubt_units(most_steps);
     if (rays.steps[lane] == 0) {
       continue;  // Stock walks nothing inside one cell.
@@ -105,20 +107,11 @@ void RayScan::walk_block(std::size_t block) {
     if (rays.is_sure[lane] == 0 || is_close) {
       walk_as_stock(ends, lane);
     } else {
-      mark_free(rays, lane);
+      steps[lane] = rays.steps[lane];
+      traversals_ += static_cast<std::size_t>(rays.steps[lane]);
     }
   }
-}
-
-void RayScan::mark_free(const RayBlock& rays, std::size_t lane) {
-  // Copies: a store into the window may change the members, as far as the compiler knows.
-  std::uint8_t* const marks = window_.marks();
-  const std::uint32_t* place = places_.data() + lane;
-  const auto steps = static_cast<std::size_t>(rays.steps[lane]);
-  for (std::size_t k = 0; k < steps; ++k, place += lanes) {
-    marks[*place] = MarkWindow::free_mark;
-  }
-  traversals_ += steps;
+  loops_.mark_places(steps, places_.data(), MarkWindow::free_mark, window_.marks());
 }
 
 void RayScan::walk_as_stock(const PointBlock& ends, std::size_t lane) {

@@ -40,7 +40,6 @@ class RayScan {
   void cut_rays(const Scan& scan);
   void span_window();
   void walk_block(std::size_t block);
-  void mark_free(const RayBlock& rays, std::size_t lane);
   void walk_as_stock(const PointBlock& ends, std::size_t lane);
   void mark_hits(std::size_t measured_hits);
   [[nodiscard]] std::size_t rays_in(std::size_t block) const;

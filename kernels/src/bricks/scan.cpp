@@ -26,14 +26,24 @@ octomap::point3d to_octomap(const Vec3& p) {
 }  // namespace
 
 void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan) {
-  const auto add = [&](const auto& points_C, auto& points_W) {
-    points_W.clear();
-    for (const Eigen::Vector3f& p_C : points_C) {
-      points_W.push_back(to_octomap(X_WC * p_C.template cast<double>()));
+  const InnerLoops& loops = inner_loops(widest_simd());
+  const PoseRows rows = rows_of(X_WC);
+  const auto move = [&](const auto& points_C, auto& points_W) {
+    points_W.resize(points_C.size());
+    for (std::size_t first = 0; first < points_C.size(); first += lanes) {
+      const std::size_t count = std::min(lanes, points_C.size() - first);
+      PointBlock points;
+      take_points(loops, &points_C[first], count, points);
+      std::array<octomap::point3d, lanes> last;
+      const bool is_last = count < lanes;
+      loops.move_to_world(points, rows, is_last ? &last[0].x() : &points_W[first].x());
+      if (is_last) {
+        std::copy_n(last.begin(), count, &points_W[first]);
+      }
     }
   };
-  add(cloud_C.hits_C, scan.hits_W);
-  add(cloud_C.clear_C, scan.clear_W);
+  move(cloud_C.hits_C, scan.hits_W);
+  move(cloud_C.clear_C, scan.clear_W);
   scan.origin_W = to_octomap(X_WC.translation());
 }
 
