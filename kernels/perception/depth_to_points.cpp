@@ -40,18 +40,23 @@ void append(flyball::PointCloud& cloud,
   FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
                  image.depth_m.size(), camera.width_px, camera.height_px);
   const double reach_m = std::min(range_m, image.max_range_m);
+  std::vector<double> columns;
+  for (int column = 0; column < camera.width_px; ++column) {
+    columns.push_back((column - camera.centre_x_px) / camera.focal_px);
+  }
+  const bool is_turned = R_CS != Eigen::Matrix3d::Identity();
   PointWriter hits{cloud.hits_C, pixels};
   PointWriter clear{cloud.clear_C, pixels};
   std::size_t pixel = 0;
   for (int row = 0; row < camera.height_px; ++row) {
     const double y = (row - camera.centre_y_px) / camera.focal_px;
-    for (int column = 0; column < camera.width_px; ++column) {
-      const double x = (column - camera.centre_x_px) / camera.focal_px;
+    for (const double x : columns) {
       const auto depth_m = static_cast<double>(image.depth_m[pixel++]);
       if (std::isnan(depth_m) || depth_m <= 0.0) {
         continue;
       }
-      const flyball::Vec3 ray_C = R_CS * flyball::Vec3{x, y, 1.0};  // of depth 1 in its camera
+      const flyball::Vec3 ray_S{x, y, 1.0};  // of depth 1 in its camera
+      const flyball::Vec3 ray_C = is_turned ? flyball::Vec3{R_CS * ray_S} : ray_S;
       const double length = ray_C.norm();
       if (depth_m * length > reach_m) {
         clear.add(ray_C * (beyond_range * reach_m / length));

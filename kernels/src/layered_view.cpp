@@ -40,7 +40,7 @@ BrickWalk walk_in(const BrickMap& map) {
   return BrickWalk{map, 0};
 }
 
-/// What a box of cells in a map has, as far as a look at whole bricks tells.
+/// What a box of cells in a map has, as far as a look at bricks tells.
 struct Glance {
   bool may_have_occupied{true};
   bool may_have_unknown{true};
@@ -59,7 +59,16 @@ Glance glance_at(const BrickMap& map, const Aabb& box) {
     return {};
   }
   const BoxWords words{map, 0, bricks};
-  return {words.may_have_occupied(), words.may_have_unknown()};
+  Glance seen{words.may_have_occupied(), words.may_have_unknown()};
+  if (seen.may_have_occupied || seen.may_have_unknown) {
+    seen = {false, false};
+    (void)words.any_brick([&](const CellKey&, std::uint64_t occupied, std::uint64_t unknown) {
+      seen.may_have_occupied = seen.may_have_occupied || occupied != 0;
+      seen.may_have_unknown = seen.may_have_unknown || unknown != 0;
+      return seen.may_have_occupied && seen.may_have_unknown;
+    });
+  }
+  return seen;
 }
 
 template <class Visit>
@@ -228,8 +237,9 @@ bool LayeredView<Cells>::any_obstacle(const Shape& shape, Use use, Show&& show) 
     const auto show_visible = [&](const Aabb& part) {
       return any_gap({layer, use}, part, shape, show);
     };
-    if (!is_vague(layer, use) &&
-        walk_in(*layers_[layer].cells).any_occupied(shape.bounds(), shape, show_visible)) {
+    const Cells& cells = *layers_[layer].cells;
+    if (!is_vague(layer, use) && glance_at(cells, shape.bounds()).may_have_occupied &&
+        walk_in(cells).any_occupied(shape.bounds(), shape, show_visible)) {
       return true;
     }
   }

@@ -55,7 +55,7 @@ class LayeredView final : public OccupancyView {
   [[nodiscard]] double resolution_m() const override;
   [[nodiscard]] CellState state(const Vec3& p_W) const override;
   /// An unknown part of the body counts as free when declared cylinders cover it. It is taken
-  /// apart, down to 2 cm, and each piece must lie in one cylinder: its own box, or the body's disc
+  /// apart, down to 19 mm, and each piece must lie in one cylinder: its own box, or the body's disc
   /// and the piece's height.
   [[nodiscard]] CellState body_state(const Vec3& p_WB, const Cylinder& body) const override;
   [[nodiscard]] bool has_occupied(const Aabb& box) const override;

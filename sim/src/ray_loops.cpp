@@ -2,28 +2,34 @@
 // tested-in: solid_rays
 #include "ray_loops.h"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 namespace flyball {
 namespace {
 
 constexpr float least_way = 1e-12F;  // its inverse, and that times a world, are finite
 
+// Outward normals of one face each of the twelve pairs of a prism whose corners stand at multiples
+// of 15 degrees: cosines and sines of 7.5 degrees and 15 more for each pair. Numbers, because libm
+// rounds differently from processor to processor.
+constexpr std::array<std::array<float, 2>, 12> face_pairs{{{0.991444861F, 0.130526192F},
+                                                           {0.923879533F, 0.382683432F},
+                                                           {0.793353340F, 0.608761429F},
+                                                           {0.608761429F, 0.793353340F},
+                                                           {0.382683432F, 0.923879533F},
+                                                           {0.130526192F, 0.991444861F},
+                                                           {-0.130526192F, 0.991444861F},
+                                                           {-0.382683432F, 0.923879533F},
+                                                           {-0.608761429F, 0.793353340F},
+                                                           {-0.793353340F, 0.608761429F},
+                                                           {-0.923879533F, 0.382683432F},
+                                                           {-0.991444861F, 0.130526192F}}};
+
 // The pragmas, and not flags for a file, set the instruction set: they do not reach the inline
 // functions of other headers, of which the linker keeps one copy for the whole program.
 namespace portable {
 constexpr std::size_t vector_bytes = 16;
-using Floats [[gnu::vector_size(vector_bytes)]] = float;
-inline Floats root(const Floats& squares) {
-  return Floats{std::sqrt(squares[0]), std::sqrt(squares[1]), std::sqrt(squares[2]),
-                std::sqrt(squares[3])};
-}
 #include "ray_loops.inc"
 }  // namespace portable
 
@@ -32,20 +38,11 @@ inline Floats root(const Floats& squares) {
 #pragma GCC target("avx2")
 namespace avx2 {
 constexpr std::size_t vector_bytes = 32;
-using Floats [[gnu::vector_size(vector_bytes)]] = float;
-inline Floats root(const Floats& squares) {
-  return Floats(_mm256_sqrt_ps(__m256(squares)));
-}
 #include "ray_loops.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
 namespace avx512 {
 constexpr std::size_t vector_bytes = 64;
-using Floats [[gnu::vector_size(vector_bytes)]] = float;
-inline Floats root(const Floats& squares) {
-  // Zero-masked, for GCC 12 warns of what the plain one leaves unset.
-  return Floats(_mm512_maskz_sqrt_ps(0xffff, __m512(squares)));
-}
 #include "ray_loops.inc"
 }  // namespace avx512
 #pragma GCC pop_options

@@ -5,7 +5,7 @@
 /// The innermost loops of the depth camera: a tile of rays against one solid. Written once, in the
 /// compiler's portable vector types (`ray_loops.inc`), and compiled for several instruction sets,
 /// of which the processor's widest is taken at run time. All give the same bits on every processor:
-/// sums, products, quotients and roots as IEEE 754 rounds them, no approximate reciprocals, no
+/// sums, products and quotients as IEEE 754 rounds them, no approximate reciprocals, no
 /// fused multiply-add.
 
 #include <array>
@@ -43,11 +43,12 @@ struct BoxOffset {
   std::array<float, 3> high;
 };
 
-/// Upright, between two heights, all from the camera [m].
+/// Upright, between two heights, all from the camera [m]: the prism of 24 faces around it, as
+/// `solid_mesh` has it.
 struct PillarOffset {
   float x;
   float y;
-  float squared_radius_m2;
+  float radius_m;
   float low_z;
   float high_z;
 };

@@ -2,9 +2,10 @@
 #pragma once
 
 /// @file
-/// How deep a camera sees among a world's solids: boxes, pillars and the ground as they are, not as
-/// triangles. Tiles of pixels go down a tree of boxes together, near solids first; the rays
-/// of a tile are held against a solid only if some of them may meet it before what is met already.
+/// How deep a camera sees among a world's solids: boxes, pillars (as prisms of 24 faces) and the
+/// ground, not triangles. Tiles of pixels go down a tree of boxes together, near solids first; the
+/// rays of a tile are held against a solid only if some of them may meet it before what is met
+/// already.
 
 #include "flyball/runtime/messages.h"
 #include "flyball/sim/world.h"
@@ -16,7 +17,7 @@ namespace flyball {
 
 class SolidRays {
  public:
-  /// People who stay where they are stand there as upright cylinders.
+  /// People who stay where they are stand there as pillars.
   explicit SolidRays(const World& world, const RayLoops& loops = *supported_ray_loops().back());
 
   /// Depth along the optical axis of what each pixel's ray meets first, infinite where that is

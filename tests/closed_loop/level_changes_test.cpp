@@ -3,6 +3,7 @@
 // A mission whose map changes its resolution every 5 s.
 
 #include "flyball/kernels/mapper.h"
+#include "flyball/runtime/registry.h"
 
 #include "../apps/short_delivery.h"
 #include "scratch_folder.h"
@@ -35,6 +36,16 @@ Scenario in_rooms() {
   return scenario;
 }
 
+/// The keys of occupied cells.
+Cells finest_cells(const Mapper& mapper) {
+  Cells cells;
+  for (const OccupiedCell& cell : mapper.occupied()) {
+    const Eigen::Array3d key = (cell.centre_W.array() / cell.size_m).floor();
+    cells.emplace(std::lround(key.x()), std::lround(key.y()), std::lround(key.z()));
+  }
+  return cells;
+}
+
 /// The finest cells that are occupied when the mission has lasted so long.
 Cells occupied_after(const Scenario& scenario, double time_s) {
   const ScratchFolder scratch;
@@ -47,12 +58,7 @@ Cells occupied_after(const Scenario& scenario, double time_s) {
   EXPECT_TRUE(record.ok());
   const auto mapper = all_plugins().make<Mapper>("flyball");
   EXPECT_TRUE(mapper->read(hooks.final_map).ok());
-  Cells cells;
-  for (const OccupiedCell& cell : mapper->occupied()) {
-    const Eigen::Array3d key = (cell.centre_W.array() / cell.size_m).floor();
-    cells.emplace(std::lround(key.x()), std::lround(key.y()), std::lround(key.z()));
-  }
-  return cells;
+  return finest_cells(*mapper);
 }
 
 TEST(LevelChanges, every_5_s_cost_no_collision) {
@@ -73,6 +79,94 @@ TEST(LevelChanges, keep_what_was_seen_at_the_finest_level) {
     ASSERT_GT(before.size(), 200U);
     EXPECT_GE(static_cast<double>(kept), 0.98 * static_cast<double>(before.size()))
         << scenario.world.generator;
+  }
+}
+
+/// At the end of a fine period: cells that are occupied in a map of the same scans that always was
+/// fine, how many of them the mission's map has, and how many others it has.
+struct FinePeriod {
+  std::size_t expected{};
+  std::size_t kept{};
+  std::size_t added{};
+};
+std::vector<FinePeriod>& fine_periods() {
+  static std::vector<FinePeriod> all;
+  return all;
+}
+
+/// Mapper flyball, and beside it one that takes the same scans at .15 m.
+class Accompanied final : public Mapper {
+ public:
+  Accompanied() : flown_{all_plugins().make<Mapper>("flyball")} {
+    fine_ = all_plugins().make<Mapper>("flyball");
+  }
+  [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
+    return flown_->parameters();
+  }
+  void configure(const Parameters& chosen) override {
+    flown_->configure(chosen);
+    fine_->configure(chosen);
+  }
+  [[nodiscard]] std::vector<double> resolutions_m() const override {
+    return flown_->resolutions_m();
+  }
+  Result<Work> prepare(const PointCloud& cloud_C,
+                       const Pose& X_WC,
+                       const MapperSettings& settings) override {
+    const bool is_fine = settings.resolution_m < 0.2;
+    if (was_fine_ && !is_fine) {
+      compare();
+    }
+    was_fine_ = is_fine;
+    EXPECT_TRUE(fine_->prepare(cloud_C, X_WC, {0.15, settings.range_m}).ok());
+    return flown_->prepare(cloud_C, X_WC, settings);
+  }
+  void commit() override {
+    flown_->commit();
+    fine_->commit();
+  }
+  void declare_clear(const Vec3& centre_W, const Cylinder& space) override {
+    flown_->declare_clear(centre_W, space);
+  }
+  [[nodiscard]] const OccupancyView& view() const override { return flown_->view(); }
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return flown_->occupied(); }
+
+ private:
+  void compare() const {
+    const Cells expected = finest_cells(*fine_);
+    const Cells found = finest_cells(*flown_);
+    std::size_t kept = 0;
+    for (const auto& cell : expected) {
+      kept += found.count(cell);
+    }
+    fine_periods().push_back({expected.size(), kept, found.size() - kept});
+  }
+
+  std::unique_ptr<Mapper> flown_;
+  std::unique_ptr<Mapper> fine_;
+  bool was_fine_{};
+};
+
+// Before main, because plug-ins cannot be added after the first flight.
+[[maybe_unused]] const bool is_added = [] {
+  add_plugins([](Registry& registry) {
+    registry.add<Mapper>("accompanied", [] { return std::make_unique<Accompanied>(); });
+  });
+  return true;
+}();
+
+TEST(LevelChanges, every_5_s_keep_and_inflate_nothing_beside_a_map_that_is_always_fine) {
+  for (Scenario scenario : {among_trees(), in_rooms()}) {
+    scenario.kernels.mapper = "accompanied";
+    scenario.mission.time_limit_s = 60.0;
+    fine_periods().clear();
+    (void)kit::flown(scenario);
+    ASSERT_GE(fine_periods().size(), 3U) << scenario.world.generator;
+    for (const FinePeriod& period : fine_periods()) {
+      const auto expected = static_cast<double>(period.expected);
+      EXPECT_GE(static_cast<double>(period.kept), 0.98 * expected) << scenario.world.generator;
+      EXPECT_LT(static_cast<double>(period.added), 0.02 * expected) << scenario.world.generator;
+    }
   }
 }
 

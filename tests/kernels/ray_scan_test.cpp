@@ -123,6 +123,20 @@ TEST(RayScan, frees_a_short_clear_ray_to_its_end_and_marks_nothing) {
   }
 }
 
+TEST(RayScan, takes_points_to_the_world_as_the_pose_does_one_by_one) {
+  for (const int width_px : {64, 37}) {
+    for (int frame = 0; frame < 4; ++frame) {
+      const auto from = kit::synthetic_scan(kit::Place::outdoor, frame, range_m, width_px);
+      const Scan expected = kit::world_scan(kit::Place::outdoor, frame, range_m, width_px);
+      Scan scan;
+      to_world(from.cloud_C, from.X_WC, scan);
+      EXPECT_TRUE(scan.hits_W == expected.hits_W);
+      EXPECT_TRUE(scan.clear_W == expected.clear_W);
+      EXPECT_TRUE(scan.origin_W == expected.origin_W);
+    }
+  }
+}
+
 TEST(RayScan, has_nothing_to_say_without_rays) {
   RayScan exact{0.15, RayScan::Match::stock};
   Scan scan;

@@ -68,15 +68,14 @@ double depth_of(const Aabb& box, const Vec3& p, const Vec3& way) {
 
 double depth_of(const Pillar& pillar, const Vec3& p, const Vec3& way) {
   const Vec3 foot = pillar.foot_W - p;
-  const double square = way.head<2>().squaredNorm();
-  const double middle = way.head<2>().dot(foot.head<2>()) / square;
-  const double miss2 = (middle * way - foot).head<2>().squaredNorm();
-  const double half2 = (pillar.radius_m * pillar.radius_m - miss2) / square;
-  if (half2 < 0.0) {
-    return infinite;
-  }
-  Span span{middle - std::sqrt(half2), middle + std::sqrt(half2)};
+  Span span;
   span.cut(foot.z() / way.z(), (foot.z() + pillar.height_m) / way.z());
+  for (int pair = 0; pair < 12; ++pair) {
+    const double angle = 3.141592653589793 / 12.0 * (pair + 0.5);
+    const Vec3 out{std::cos(angle), std::sin(angle), 0.0};
+    span.cut((out.dot(foot) - pillar.radius_m) / out.dot(way),
+             (out.dot(foot) + pillar.radius_m) / out.dot(way));
+  }
   return span.depth_m();
 }
 

@@ -2,11 +2,35 @@
 #include "clear_spaces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace flyball {
 namespace {
 
-constexpr double smallest_piece_m = 0.02;
+// Pieces end at whole multiples of this: an eighth of the usual finest cell, on whose borders the
+// parts of such a map end, too. So the answer does not depend on how a map cuts unknown space.
+constexpr double smallest_piece_m = 0.15 / 8.0;
+
+/// Of the planes in a part, across an axis, the one on the coarsest power of two of pieces.
+std::optional<double> plane_in(double low_m, double high_m) {
+  constexpr double touch = touch_m / smallest_piece_m;
+  constexpr double farthest_m = 1e6;  // no lattice reaches there, and planes are rounded away
+  if (!(low_m > -farthest_m && high_m < farthest_m)) {
+    return std::nullopt;
+  }
+  const auto before = static_cast<std::int64_t>(std::floor(low_m / smallest_piece_m + touch));
+  const auto last = static_cast<std::int64_t>(std::ceil(high_m / smallest_piece_m - touch)) - 1;
+  if (last <= before) {
+    return std::nullopt;
+  }
+  std::int64_t plane = last;
+  while (plane != 0 && (plane & (plane - 1)) > before) {
+    plane &= plane - 1;  // without its lowest bit
+  }
+  return static_cast<double>(plane) * smallest_piece_m;
+}
 
 }  // namespace
 
@@ -60,12 +84,22 @@ bool ClearSpaces::cover(const Aabb& part, const BodyShape& body) const {
     return true;
   }
   Eigen::Index axis = 0;
-  if ((part.max - part.min).maxCoeff(&axis) <= smallest_piece_m) {
+  std::optional<double> plane;
+  for (const Eigen::Index other : {0, 1, 2}) {
+    const bool is_longest =
+        !plane || part.max[other] - part.min[other] > part.max[axis] - part.min[axis];
+    const auto in_other = is_longest ? plane_in(part.min[other], part.max[other]) : std::nullopt;
+    if (in_other) {
+      axis = other;
+      plane = in_other;
+    }
+  }
+  if (!plane) {
     return false;
   }
   Aabb lower = part;
   Aabb upper = part;
-  lower.max[axis] = upper.min[axis] = 0.5 * (part.min[axis] + part.max[axis]);
+  lower.max[axis] = upper.min[axis] = *plane;
   return cover(lower, body) && cover(upper, body);
 }
 

@@ -29,9 +29,10 @@ class ClearSpaces {
   [[nodiscard]] bool contains(const Vec3& p_W) const;
   /// The cells of a brick that lie in one of the cylinders as a whole.
   [[nodiscard]] std::uint64_t cells_inside(const Lattice& lattice, const CellKey& brick) const;
-  /// Whether the cylinders cover the body's share of a box. The box is taken apart, down to 2 cm,
-  /// and each piece must lie in one cylinder: its own box, or the body's disc and the piece's
-  /// height.
+  /// Whether the cylinders cover the body's share of a box. The box is taken apart, down to pieces
+  /// of 19 mm on a lattice of their own, and each piece must lie in one cylinder: its own box, or
+  /// the body's disc and the piece's height. A box that is cut on the borders of cells of .15 m
+  /// (or of that times a power of two) is covered exactly when its parts are.
   [[nodiscard]] bool cover(const Aabb& part, const BodyShape& body) const;
 
  private:
