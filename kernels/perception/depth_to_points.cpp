@@ -28,45 +28,69 @@ class PointWriter {
   std::size_t count_;
 };
 
-/// A depth that is not a number, or not in front of the camera, is a broken measurement: it must
-/// neither mark nor clear anything.
+class CloudWriter {
+ public:
+  CloudWriter(flyball::PointCloud& cloud, std::size_t most, double reach_m)
+      : hits_{cloud.hits_C, most}, clear_{cloud.clear_C, most}, reach_m_{reach_m} {}
+  /// `ray_C` has depth 1 in its own camera. A depth that is not a number, or not in front of the
+  /// camera, is a broken measurement: it must neither mark nor clear anything.
+  void add(const flyball::Vec3& ray_C, double depth_m) {
+    if (std::isnan(depth_m) || depth_m <= 0.0) {
+      return;
+    }
+    const double length = ray_C.norm();
+    if (depth_m * length > reach_m_) {
+      clear_.add(ray_C * (beyond_range * reach_m_ / length));
+    } else {
+      hits_.add(ray_C * depth_m);
+    }
+  }
+  void end() {
+    hits_.end();
+    clear_.end();
+  }
+
+ private:
+  PointWriter hits_;
+  PointWriter clear_;
+  double reach_m_;
+};
+
+/// Where its columns and rows look, as coordinates of rays of depth 1.
+struct PixelRays {
+  std::vector<double> x;
+  std::vector<double> y;
+
+  explicit PixelRays(const flyball::Intrinsics& camera)
+      : x{slopes(camera.width_px, camera.centre_x_px, camera.focal_px)},
+        y{slopes(camera.height_px, camera.centre_y_px, camera.focal_px)} {}
+  static std::vector<double> slopes(int count, double centre_px, double focal_px) {
+    std::vector<double> slopes(static_cast<std::size_t>(count));
+    for (int pixel = 0; pixel < count; ++pixel) {
+      slopes[static_cast<std::size_t>(pixel)] = (pixel - centre_px) / focal_px;
+    }
+    return slopes;
+  }
+};
+
 void append(flyball::PointCloud& cloud,
             const flyball::DepthImage& image,
             const Eigen::Matrix3d& R_CS,
             double range_m) {
-  const flyball::Intrinsics& camera = image.camera;
-  const auto pixels =
-      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  const PixelRays rays{image.camera};
+  const std::size_t pixels = rays.x.size() * rays.y.size();
   FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
-                 image.depth_m.size(), camera.width_px, camera.height_px);
-  const double reach_m = std::min(range_m, image.max_range_m);
-  std::vector<double> columns;
-  for (int column = 0; column < camera.width_px; ++column) {
-    columns.push_back((column - camera.centre_x_px) / camera.focal_px);
-  }
+                 image.depth_m.size(), image.camera.width_px, image.camera.height_px);
   const bool is_turned = R_CS != Eigen::Matrix3d::Identity();
-  PointWriter hits{cloud.hits_C, pixels};
-  PointWriter clear{cloud.clear_C, pixels};
-  std::size_t pixel = 0;
-  for (int row = 0; row < camera.height_px; ++row) {
-    const double y = (row - camera.centre_y_px) / camera.focal_px;
-    for (const double x : columns) {
-      const auto depth_m = static_cast<double>(image.depth_m[pixel++]);
-      if (std::isnan(depth_m) || depth_m <= 0.0) {
-        continue;
-      }
-      const flyball::Vec3 ray_S{x, y, 1.0};  // of depth 1 in its camera
-      const flyball::Vec3 ray_C = is_turned ? flyball::Vec3{R_CS * ray_S} : ray_S;
-      const double length = ray_C.norm();
-      if (depth_m * length > reach_m) {
-        clear.add(ray_C * (beyond_range * reach_m / length));
-      } else {
-        hits.add(ray_C * depth_m);
-      }
+  CloudWriter writer{cloud, pixels, std::min(range_m, image.max_range_m)};
+  const float* depth_m = image.depth_m.data();
+  for (const double y : rays.y) {
+    for (const double x : rays.x) {
+      const flyball::Vec3 ray_S{x, y, 1.0};
+      writer.add(is_turned ? flyball::Vec3{R_CS * ray_S} : ray_S, static_cast<double>(*depth_m++));
     }
   }
-  hits.end();
-  clear.end();
+  writer.end();
 }
 
 /// Of several cameras the points are no longer the pixels of one image.

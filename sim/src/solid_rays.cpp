@@ -2,14 +2,14 @@
 #include "solid_rays.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace flyball {
 namespace {
 
-constexpr int leaf_solids = 2;
-constexpr int most_depth = 64;
+constexpr std::size_t leaf_solids = 2;
+constexpr std::size_t most_depth = 64;  // halves of halves: enough for any number of solids
 constexpr float infinite = std::numeric_limits<float>::infinity();
 // Far more than floats round a way or a depth, far less than a pixel.
 constexpr double way_margin = 1e-5;
@@ -22,6 +22,12 @@ Aabb box_of(const Pillar& pillar) {
   const Vec3 out{corner_m, corner_m, 0.0};
   return {pillar.foot_W - out, pillar.foot_W + out + Vec3{0.0, 0.0, pillar.height_m}};
 }
+
+/// A node that is still to be looked at, and the least depth at which a ray enters its box.
+struct Visit {
+  std::size_t node;
+  double enters_m;
+};
 
 }  // namespace
 
@@ -62,15 +68,37 @@ struct SolidRays::Bounds {
 };
 
 struct SolidRays::Tile {
-  Vec3 p_WC;
-  float range_m;
   TileRays rays;
   TileDepths seen;
+  Vec3 p_WC;
   Bounds bounds{};
   double farthest_m{};  ///< Nothing beyond it is seen any more.
+  float range_m;
 
+  void aim(const Intrinsics& camera, const Pose& X_WC, int x, int y, const RayLoops& loops);
   void take(float greatest_m) { farthest_m = std::min(greatest_m, range_m); }
 };
+
+/// The tile whose first pixel this is.
+void SolidRays::Tile::aim(
+    const Intrinsics& camera, const Pose& X_WC, int x, int y, const RayLoops& loops) {
+  const Vec3 right_W = X_WC.linear().col(0) / camera.focal_px;
+  const Vec3 down_W = X_WC.linear().col(1) / camera.focal_px;
+  const Vec3 first_W =
+      X_WC.linear().col(2) + (x - camera.centre_x_px) * right_W + (y - camera.centre_y_px) * down_W;
+  TileAim ways{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    ways.first_W[axis] = static_cast<float>(first_W[i]);
+    ways.right_W[axis] = static_cast<float>(right_W[i]);
+    ways.down_W[axis] = static_cast<float>(down_W[i]);
+    const double across = (tile_width - 1) * right_W[i];
+    const double along = (tile_height - 1) * down_W[i];
+    bounds.add(axis, first_W[i] + std::min(across, 0.0) + std::min(along, 0.0),
+               first_W[i] + std::max(across, 0.0) + std::max(along, 0.0));
+  }
+  loops.aim(ways, rays);
+}
 
 SolidRays::SolidRays(const World& world, const RayLoops& loops)
     : loops_{loops}, ground_z_m_{world.ground_z_m}, has_ground_{world.has_ground} {
@@ -87,16 +115,17 @@ SolidRays::SolidRays(const World& world, const RayLoops& loops)
     }
   }
   if (!solids_.empty()) {
-    grow(0, static_cast<int>(solids_.size()));
+    grow(0, solids_.size());
   }
 }
 
 /// Halves of equal number along the axis in which the solids' middles spread most.
-void SolidRays::grow(int first, int count) {
-  const auto begin = solids_.begin() + first;
+void SolidRays::grow(std::size_t first, std::size_t count) {
+  const auto begin = solids_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = begin + static_cast<std::ptrdiff_t>(count);
   Aabb box = begin->box;
   Eigen::AlignedBox3d middles;
-  std::for_each(begin, begin + count, [&](const Solid& solid) {
+  std::for_each(begin, end, [&](const Solid& solid) {
     box = {box.min.cwiseMin(solid.box.min), box.max.cwiseMax(solid.box.max)};
     middles.extend(Vec3{solid.box.min + solid.box.max});
   });
@@ -109,12 +138,13 @@ void SolidRays::grow(int first, int count) {
   }
   Eigen::Index axis = 0;
   middles.sizes().maxCoeff(&axis);
-  const int half = count / 2;
-  std::nth_element(begin, begin + half, begin + count, [axis](const Solid& a, const Solid& b) {
-    return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
-  });
+  const std::size_t half = count / 2;
+  std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(half), end,
+                   [axis](const Solid& a, const Solid& b) {
+                     return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
+                   });
   grow(first, half);
-  nodes_[node].right = static_cast<int>(nodes_.size());
+  nodes_[node].right = nodes_.size();
   grow(first + half, count - half);
 }
 
@@ -124,27 +154,12 @@ void SolidRays::look(const Intrinsics& camera,
                      float* depth_m) const {
   constexpr auto width = static_cast<int>(tile_width);
   constexpr auto height = static_cast<int>(tile_height);
-  const Vec3 right_W = X_WC.linear().col(0) / camera.focal_px;
-  const Vec3 down_W = X_WC.linear().col(1) / camera.focal_px;
   Tile tile{};
   tile.p_WC = X_WC.translation();
   tile.range_m = static_cast<float>(range_m);
   for (int y = 0; y < camera.height_px; y += height) {
     for (int x = 0; x < camera.width_px; x += width) {
-      const Vec3 first_W = X_WC.linear().col(2) + (x - camera.centre_x_px) * right_W +
-                           (y - camera.centre_y_px) * down_W;
-      TileAim aim{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<Eigen::Index>(axis);
-        aim.first_W[axis] = static_cast<float>(first_W[i]);
-        aim.right_W[axis] = static_cast<float>(right_W[i]);
-        aim.down_W[axis] = static_cast<float>(down_W[i]);
-        const double across = (width - 1) * right_W[i];
-        const double along = (height - 1) * down_W[i];
-        tile.bounds.add(axis, first_W[i] + std::min(across, 0.0) + std::min(along, 0.0),
-                        first_W[i] + std::max(across, 0.0) + std::max(along, 0.0));
-      }
-      loops_.aim(aim, tile.rays);
+      tile.aim(camera, X_WC, x, y, loops_);
       look_at_tile(tile);
       const int columns = std::min(width, camera.width_px - x);
       for (int row = 0; row < std::min(height, camera.height_px - y); ++row) {
@@ -157,48 +172,43 @@ void SolidRays::look(const Intrinsics& camera,
 
 void SolidRays::look_at_tile(Tile& tile) const {
   tile.seen.depth_m.fill(infinite);
-  tile.farthest_m = tile.range_m;
+  tile.farthest_m = static_cast<double>(tile.range_m);
   if (has_ground_) {
     tile.take(loops_.meet_ground(tile.rays, static_cast<float>(ground_z_m_ - tile.p_WC.z()),
                                  tile.range_m, tile.seen));
   }
-  struct Visit {
-    int node;
-    double enters;
+  const auto visit_of = [&](std::size_t node) {
+    return Visit{node, tile.bounds.enters(nodes_[node].box, tile.p_WC)};
   };
-  std::array<Visit, most_depth> open;
+  std::array<Visit, most_depth> open{};
   std::size_t count = 0;
-  const auto push = [&](int node, double enters) {
-    if (enters <= tile.farthest_m) {
-      open[count++] = {node, enters};
-    }
-  };
-  const auto enters = [&](int node) {
-    return tile.bounds.enters(nodes_[static_cast<std::size_t>(node)].box, tile.p_WC);
-  };
   if (!nodes_.empty()) {
-    push(0, enters(0));
+    open[count++] = visit_of(0);
   }
   while (count > 0) {
     const Visit visit = open[--count];
-    if (visit.enters > tile.farthest_m) {
+    if (visit.enters_m > tile.farthest_m) {
       continue;
     }
-    const Node& node = nodes_[static_cast<std::size_t>(visit.node)];
-    for (int i = 0; i < node.count; ++i) {
-      const Solid& solid = solids_[static_cast<std::size_t>(node.first + i)];
-      if (tile.bounds.enters(solid.box, tile.p_WC) <= tile.farthest_m) {
-        meet(solid, tile);
-      }
+    const Node& node = nodes_[visit.node];
+    if (node.count > 0) {
+      meet(node, tile);
+      continue;
     }
-    if (node.count == 0) {
-      const Visit left{visit.node + 1, enters(visit.node + 1)};
-      const Visit right{node.right, enters(node.right)};
-      const bool is_left_nearer = left.enters <= right.enters;
-      const Visit& far = is_left_nearer ? right : left;
-      const Visit& near = is_left_nearer ? left : right;
-      push(far.node, far.enters);
-      push(near.node, near.enters);
+    Visit near = visit_of(visit.node + 1);
+    Visit far = visit_of(node.right);
+    if (far.enters_m < near.enters_m) {
+      std::swap(near, far);
+    }
+    open[count++] = far;
+    open[count++] = near;
+  }
+}
+
+void SolidRays::meet(const Node& leaf, Tile& tile) const {
+  for (std::size_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    if (tile.bounds.enters(solids_[i].box, tile.p_WC) <= tile.farthest_m) {
+      meet(solids_[i], tile);
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "flyball/sim/world.h"
 
 #include "ray_loops.h"
+#include <cstddef>
 #include <vector>
 
 namespace flyball {
@@ -30,9 +31,9 @@ class SolidRays {
   /// Of the tree, depth first: the left child is the next node.
   struct Node {
     Aabb box;
-    int right{};  ///< Of an inner node.
-    int first{};  ///< Of a leaf: in `solids_`.
-    int count{};  ///< 0: an inner node.
+    std::size_t right{};  ///< Of an inner node.
+    std::size_t first{};  ///< Of a leaf: in `solids_`.
+    std::size_t count{};  ///< 0: an inner node.
   };
   struct Solid {
     Aabb box;
@@ -41,8 +42,9 @@ class SolidRays {
   struct Bounds;
   struct Tile;
 
-  void grow(int first, int count);
+  void grow(std::size_t first, std::size_t count);
   void look_at_tile(Tile& tile) const;
+  void meet(const Node& leaf, Tile& tile) const;
   void meet(const Solid& solid, Tile& tile) const;
 
   const RayLoops& loops_;
