@@ -8,8 +8,8 @@
 
 namespace flyball {
 
-/// Hash of probes of libm, the depth camera and Eigen. Equal fingerprints promise equal trace hashes;
-/// different ones mean "different numerics" (another CPU class or library), not an error.
+/// Hash of probes of libm, the depth camera and Eigen. Equal fingerprints promise equal trace
+/// hashes; different ones mean "different numerics" (another CPU class or library), not an error.
 [[nodiscard]] std::string numeric_fingerprint();
 
 }  // namespace flyball
