@@ -35,6 +35,7 @@ HorizonSearch::HorizonSearch(const HorizonSettings& settings, const EnergySearch
     level_of_.push_back(static_cast<std::size_t>(cell - cells_m.begin()));
   }
   rotor_w_.resize(2 * speeds_);
+  edge_j_.resize(2 * speeds_);
   computer_w_.resize(points_.size());
   rest_j_.resize(levels_ * speeds_);
   here_j_.resize(levels_ * speeds_);
@@ -70,6 +71,15 @@ std::size_t HorizonSearch::fastest(std::size_t point, const Stretch& here) const
   return std::clamp<std::size_t>(index, 1, speeds_ - 1);
 }
 
+void HorizonSearch::price_edges(std::size_t point, const Stretch& here, std::size_t most) {
+  const double faster_m_s =
+      std::sqrt(speed(most) * speed(most) + 2.0 * settings_.accelerates_m_s2 * here.length_m);
+  const auto end = most + static_cast<std::size_t>(faster_m_s / settings_.speed_step_m_s) + 2;
+  for (std::size_t speeds = 1; speeds < std::min(end, edge_j_.size()); ++speeds) {
+    edge_j_[speeds] = edge_j(point, here, speeds);
+  }
+}
+
 /// @param speeds  The sum of both ends' indices.
 double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t speeds) const {
   const Surroundings& around = *here.around;
@@ -92,7 +102,7 @@ double HorizonSearch::onward_j(std::size_t point, const Stretch& here, std::size
   for (std::size_t to = 0; to < speeds_ && speed(to) * speed(to) <= most2 + rounding; ++to) {
     const bool stands = from + to == 0;
     if (speed(to) * speed(to) >= least2 - rounding && !stands && rest_j[to] < never) {
-      least_j = std::min(least_j, edge_j(point, here, from + to) + rest_j[to]);
+      least_j = std::min(least_j, edge_j_[from + to] + rest_j[to]);
     }
   }
   return least_j;
@@ -135,8 +145,10 @@ void HorizonSearch::go_back_over(const EnergySearch& search, const Stretch& here
     if (!is_allowed(point, here)) {
       continue;
     }
+    const std::size_t most = fastest(point, here);
+    price_edges(point, here, most);
     double* here_j = &here_j_[level_of_[point] * speeds_];
-    for (std::size_t v = 0; v <= fastest(point, here); ++v) {
+    for (std::size_t v = 0; v <= most; ++v) {
       here_j[v] = std::min(here_j[v], onward_j(point, here, v));
     }
   }
@@ -159,6 +171,7 @@ void HorizonSearch::weigh_first(const EnergySearch& search, const Stretch& here,
       continue;
     }
     const std::size_t most = fastest(point, here);
+    price_edges(point, here, most);
     estimate.response_s = response_s(here.frame_s[point]);
     estimate.speed_m_s = std::min(speed(most), here.around->speed_limit_m_s);
     for (std::size_t v = std::min(now, most) + 1; v-- > 0 && !(estimate.joules_per_m < never);) {

@@ -61,6 +61,8 @@ class HorizonSearch {
   [[nodiscard]] std::size_t fastest(std::size_t point, const Stretch& here) const;
   [[nodiscard]] bool is_allowed(std::size_t point, const Stretch& here) const;
   [[nodiscard]] double speed(std::size_t index) const;
+  /// @param most  The fastest that it begins with.
+  void price_edges(std::size_t point, const Stretch& here, std::size_t most);
   [[nodiscard]] double edge_j(std::size_t point, const Stretch& here, std::size_t speeds) const;
   [[nodiscard]] double onward_j(std::size_t point, const Stretch& here, std::size_t from) const;
   void end_at(const Stretch& last);
@@ -81,6 +83,7 @@ class HorizonSearch {
   std::size_t speeds_{};
   std::vector<double> rotor_w_{};     ///< At half steps of speed, in the decision being made.
   std::vector<double> computer_w_{};  ///< Of each point on the stretch that is looked at.
+  std::vector<double> edge_j_{};      ///< Of that stretch with the point that is looked at.
   std::vector<double> rest_j_{};      ///< From the next place to the end, by level and speed.
   std::vector<double> here_j_{};      ///< The same from the place that is looked at.
   std::vector<EnergyEstimate> estimates_{};
