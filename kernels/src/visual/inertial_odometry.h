@@ -61,7 +61,7 @@ class InertialOdometry {
   bool has_begun_{};
   bool has_moved_{};
   bool has_been_full_{};  ///< The window.
-  bool has_failed_{};  ///< For good: it knows no place that it could find again.
+  bool has_failed_{};     ///< For good: it knows no place that it could find again.
 };
 
 }  // namespace flyball
