@@ -62,13 +62,7 @@ class MissionEnergy final : public flyball::Policy {
     const MapSetting best = within_s ? search_->rest(home.resolution_m, home.range_m, *within_s,
                                                      way_->rest_raised_by(), seen.now)
                                      : search_->choose(surroundings(seen), seen.now).setting;
-    flyball::Decision wish;
-    wish.reason = flyball::Reason::energy;
-    wish.set("map.resolution_m", best.resolution_m);
-    wish.set("map.range_m", best.range_m);
-    wish.set("cpu.frequency_hz", best.clock_hz);
-    wish.set("planner.budget", way_->plan_budget(seen, best.resolution_m));
-    return wish;
+    return way_->wish(seen, best);
   }
 
   [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {

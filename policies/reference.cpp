@@ -66,13 +66,7 @@ class Reference final : public flyball::Policy {
     search_->learn(seen);
     const MapSetting best = chosen(seen);
     truth_ = nullptr;
-    flyball::Decision wish;
-    wish.reason = flyball::Reason::energy;
-    wish.set("map.resolution_m", best.resolution_m);
-    wish.set("map.range_m", best.range_m);
-    wish.set("cpu.frequency_hz", best.clock_hz);
-    wish.set("planner.budget", way_->plan_budget(seen, best.resolution_m));
-    return wish;
+    return way_->wish(seen, best);
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {

@@ -194,6 +194,16 @@ double MissionWay::plan_budget(const Observation& seen, double resolution_m) con
   return resolution_m > large_m_ ? coarse_budget_ : fine_budget(seen);
 }
 
+Decision MissionWay::wish(const Observation& seen, const MapSetting& setting) const {
+  Decision wish;
+  wish.reason = Reason::energy;
+  wish.set("map.resolution_m", setting.resolution_m);
+  wish.set("map.range_m", setting.range_m);
+  wish.set("cpu.frequency_hz", setting.clock_hz);
+  wish.set("planner.budget", plan_budget(seen, setting.resolution_m));
+  return wish;
+}
+
 /// A plan that is there is mostly found soon, one that is not costs the whole budget, and the
 /// vehicle stands: begun anew with another seed and a newer map, and twice as long each time
 /// (Luby, Sinclair and Zuckerman 1993, doi:10.1016/0020-0190(93)90029-9).

@@ -14,12 +14,7 @@ using kit::Trip;
 // Seconds of search are not lost because the vehicle has flown on meanwhile.
 TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks_for_none) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
-  const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
-  trip.tick(100);
-  trip.navigator.path_checked(trip.now, {30.0, 25.0}, trip.navigator.path_number());
-  const auto late = trip.navigator.next_query(trip.now);
+  const auto late = trip.fly_until_blocked();
   ASSERT_FALSE(late->known.has_value());
   trip.tick(40);
   PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
@@ -42,12 +37,7 @@ TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks
 
 TEST(NavigatorJoins, plans_anew_where_a_known_way_does_not_join_and_counts_no_failure) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
-  const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
-  trip.tick(100);
-  trip.navigator.path_checked(trip.now, {30.0, 25.0}, trip.navigator.path_number());
-  const auto late = trip.navigator.next_query(trip.now);
+  const auto late = trip.fly_until_blocked();
   trip.tick(40);
   PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
   planned.way = {{late->start_W, late->goal_W}, {0.4, 0.2}};

@@ -86,12 +86,7 @@ TEST(Navigator,
 
 TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
-  const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
-  trip.tick(100);
-  trip.navigator.path_checked(trip.now, {30.0, 25.0}, trip.navigator.path_number());
-  const auto late = trip.navigator.next_query(trip.now);
+  const auto late = trip.fly_until_blocked();
   trip.tick(200);
   trip.navigator.path_planned(trip.now, {late->id, straight(late->start_W, late->goal_W), ""});
   const auto again = trip.navigator.next_query(trip.now);

@@ -7,6 +7,7 @@
 #include "mission_rig.h"
 #include "navigator.h"
 #include <chrono>
+#include <optional>
 #include <vector>
 
 namespace flyball::kit {
@@ -48,6 +49,16 @@ struct Trip {
       }
       (void)navigator.tick(now, std::chrono::milliseconds{20}, where);
     }
+  }
+  /// Flies along a straight path for 2 s, until it is blocked 25 m ahead. @return What is asked for
+  /// then.
+  std::optional<PlanQuery> fly_until_blocked() {
+    navigator.set_goal(now, Vec3{40, 0, 1.5});
+    const auto first = navigator.next_query(now);
+    navigator.path_planned(now, {first->id, straight(first->start_W, first->goal_W), ""});
+    tick(100);
+    navigator.path_checked(now, {30.0, 25.0}, navigator.path_number());
+    return navigator.next_query(now);
   }
   GridMap map;
   MissionRig rig;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the rule does on a mapper with a lattice of cells; the instruments have tests of their own.
+#include "cruising.h"
 #include "started_policy.h"
 
 #include <gtest/gtest.h>
@@ -8,27 +9,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double top_hz = 2035.2e6;
-
-/// In the open, at full speed.
-flyball::Observation cruising() {
-  flyball::Observation seen;
-  seen.now = flyball::MissionTime{10s};
-  seen.phase = flyball::MissionPhase::cruise;
-  seen.speed_m_s = seen.speed_limit_m_s = 6.0;
-  seen.max_deceleration_m_s2 = 3.0;
-  seen.known_free_m = 25.0;
-  seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = 24.0;
-  seen.nearest_obstacle_m = 20.0;
-  seen.distance_to_goal_m = 200.0;
-  seen.map_resolution_m = 0.30;
-  seen.map_revision = 1;  // Without a map it would rest.
-  seen.latency = 200ms;
-  seen.cores = 4;
-  seen.frequency = flyball::Hertz{top_hz};
-  seen.busy_cores = 2.0;
-  return seen;
-}
+using flyball::kit::cruising;
+using flyball::kit::top_hz;
 
 flyball::Observation before_a_door() {
   flyball::Observation seen = cruising();

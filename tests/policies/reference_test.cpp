@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "counting_new.h"
+#include "cruising.h"
 #include "policy_start.h"
 #include "started_policy.h"
 
@@ -8,28 +9,9 @@
 namespace {
 
 using namespace std::chrono_literals;
+using flyball::kit::cruising;
+using flyball::kit::top_hz;
 using flyball::kit::wish_for;
-
-constexpr double top_hz = 2035.2e6;
-
-flyball::Observation cruising() {
-  flyball::Observation seen;
-  seen.now = flyball::MissionTime{10s};
-  seen.phase = flyball::MissionPhase::cruise;
-  seen.speed_m_s = seen.speed_limit_m_s = 6.0;
-  seen.max_deceleration_m_s2 = 3.0;
-  seen.known_free_m = 25.0;
-  seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = 24.0;
-  seen.nearest_obstacle_m = 20.0;
-  seen.distance_to_goal_m = 200.0;
-  seen.map_resolution_m = 0.30;
-  seen.map_revision = 1;  // Without a map it would rest.
-  seen.latency = 200ms;
-  seen.cores = 4;
-  seen.frequency = flyball::Hertz{top_hz};
-  seen.busy_cores = 2.0;
-  return seen;
-}
 
 /// Frames take what the cells ask for, as 1 / f, wherever they are taken.
 flyball::Foresight told(const flyball::Policy& policy, double finest_s, double gap_at_m) {

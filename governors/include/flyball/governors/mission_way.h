@@ -55,6 +55,8 @@ class MissionWay {
   [[nodiscard]] Surroundings look(const Observation& seen, const MapSetting& in_force);
   /// Of the next plan, with a map of this resolution [iterations].
   [[nodiscard]] double plan_budget(const Observation& seen, double resolution_m) const;
+  /// This setting, with its plan's budget.
+  [[nodiscard]] Decision wish(const Observation& seen, const MapSetting& setting) const;
 
   /// Whether the mapper has several levels in one map.
   [[nodiscard]] bool is_lattice() const { return is_lattice_; }
