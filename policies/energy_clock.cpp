@@ -70,6 +70,9 @@ class EnergyClock final : public flyball::Policy {
   [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
     return search_->promises();
   }
+  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
+    return search_->promise_levels();
+  }
 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {

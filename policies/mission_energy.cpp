@@ -68,6 +68,9 @@ class MissionEnergy final : public flyball::Policy {
   [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
     return search_->promises();
   }
+  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
+    return search_->promise_levels();
+  }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
     return flyball::options_of(search_->weighed());

@@ -25,6 +25,8 @@ struct TournamentOptions {
   std::vector<std::string> worlds{};
   std::vector<std::string> policies{};
   std::string seeds{"1..3"};
+  std::vector<std::string> pair_texts{};  ///< `MINE:OTHER`
+  std::vector<PolicyPair> pairs{};        ///< The same, read.
   std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
   bool keeps_records{};
   bool shows_bound{};
@@ -143,13 +145,32 @@ KnownBounds bounds_of(const Entries& entries) {
   return bounds;
 }
 
+/// Each is two policies that fly, with a colon between them.
+Result<std::vector<PolicyPair>> read_pairs(const TournamentOptions& options) {
+  const auto& policies = options.policies;
+  const auto flies = [&policies](const std::string& name) {
+    return std::find(policies.begin(), policies.end(), name) != policies.end();
+  };
+  std::vector<PolicyPair> pairs;
+  for (const std::string& text : options.pair_texts) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const PolicyPair pair{text.substr(0, colon), text.substr(std::min(colon + 1, text.size()))};
+    if (!flies(pair.policy) || !flies(pair.to) || pair.policy == pair.to) {
+      return Error{ErrorCode::invalid_input,
+                   "--pairs has \"" + text + "\"; give two of --policies with a colon between"};
+    }
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
 int show(const TournamentOptions& options, const Entries& entries) {
   std::vector<Summary> flights;
   for (const Entry& entry : entries) {
     flights.push_back(*entry.summary);
   }
-  const std::vector<WorldResult> worlds =
-      tournament_of(flights, options.shows_bound ? bounds_of(entries) : KnownBounds{});
+  const std::vector<WorldResult> worlds = tournament_of(
+      flights, options.shows_bound ? bounds_of(entries) : KnownBounds{}, options.pairs);
   const std::string report = out_folder(options) + "/tournament.html";
   if (const Status written = write_file(report, tournament_page("Tournament", worlds)); !written) {
     return refuse({written.error()});
@@ -180,7 +201,7 @@ int fly_and_show(const TournamentOptions& options, TournamentStore& store, Entri
   return show(options, entries);
 }
 
-int hold_tournament(const TournamentOptions& options) {
+int hold_tournament(TournamentOptions options) {
   const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
   if (!seeds) {
     return refuse({seeds.error()});
@@ -188,6 +209,11 @@ int hold_tournament(const TournamentOptions& options) {
   if (const Status distinct = check_distinct(options.policies); !distinct) {
     return refuse({distinct.error()});
   }
+  Result<std::vector<PolicyPair>> pairs = read_pairs(options);
+  if (!pairs) {
+    return refuse({pairs.error()});
+  }
+  options.pairs = std::move(*pairs);
   auto planned = plan(options, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
@@ -216,6 +242,11 @@ void add_tournament(CLI::App& program, int& exit_code) {
                     ->type_name("A,B,C"));
   add_contest(*command, options->policies, options->seeds);
   add_jobs(*command, options->jobs);
+  refuse_empty(*command
+                    ->add_option("--pairs", options->pair_texts,
+                                 "policies that are also measured by another one than the first")
+                    ->delimiter(',')
+                    ->type_name("A:B,C:D"));
   command->add_option("--set", options->flight.settings, "changes one setting in every world")
       ->type_name("KEY=VALUE")
       ->expected(1)

@@ -38,6 +38,9 @@ class GovernorLoop {
   [[nodiscard]] std::uint64_t knob_changes() const { return knob_changes_; }
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
   [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
+  [[nodiscard]] std::vector<LevelPromises> promise_levels() const {
+    return governor_.policy().promise_levels();
+  }
 
  private:
   void observe_surroundings();

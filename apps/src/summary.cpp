@@ -60,6 +60,27 @@ void read_kernels(const Json& json, Summary& summary) {
   }
 }
 
+Json promises_json(const Summary& summary) {
+  Json levels = Json::array();
+  for (const LevelPromises& level : summary.promises) {
+    levels.push_back({{"resolution_m", level.resolution_m},
+                      {"issued", level.issued},
+                      {"late", level.late},
+                      {"most_late", level.most_late ? Json(*level.most_late) : Json()}});
+  }
+  return levels;
+}
+
+void read_promises(const Json& json, Summary& summary) {
+  for (const Json& level : json) {
+    const Json& most = level.at("most_late");
+    summary.promises.push_back({level.at("resolution_m").get<double>(),
+                                level.at("issued").get<std::uint64_t>(),
+                                level.at("late").get<std::uint64_t>(),
+                                most.is_null() ? std::nullopt : std::optional{most.get<double>()}});
+  }
+}
+
 void read_head(const Json& json, Summary& summary) {
   summary.scenario = json.at("scenario").get<std::string>();
   summary.policy = json.at("policy").get<std::string>();
@@ -104,6 +125,7 @@ void read_computing(const Json& json, Summary& summary) {
   if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
     summary.hottest_c = hottest.get<double>();
   }
+  read_promises(json.at("promises"), summary);
   read_kernels(json.at("kernels"), summary);
   for (const auto& [name, value] : json.at("quality").items()) {
     summary.quality[name] = number(value);
@@ -180,6 +202,7 @@ std::string to_json(const Summary& summary, int indent) {
       {"maps", summary.maps},
       {"bound_overruns", summary.bound_overruns},
       {"budget_use_p50", summary.budget_use_p50},
+      {"promises", promises_json(summary)},
       {"decision_host_us",
        {{"p50", summary.decision_host_us_p50}, {"p99", summary.decision_host_us_p99}}},
       {"throttle_events", summary.throttle_events},

@@ -4,8 +4,8 @@
 
 #include "flyball/apps/text_table.h"
 
+#include "tournament_figures.h"
 #include <algorithm>
-#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -13,108 +13,30 @@ namespace flyball {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Flights = std::vector<const Summary*>;
 
-bool has_succeeded(const Summary& flight) {
-  return flight.status == MissionStatus::succeeded;
+bool has_flown(const Comparison& comparison, const std::string& policy) {
+  return std::any_of(comparison.rows.begin(), comparison.rows.end(),
+                     [&](const ComparisonRow& row) { return row.policy == policy; });
 }
 
-/// The succeeded flights of a policy, in the order of their seeds.
-Flights flights_of(const std::vector<Summary>& all, const std::string& policy) {
-  Flights found;
-  for (const Summary& flight : all) {
-    if (flight.policy == policy && has_succeeded(flight)) {
-      found.push_back(&flight);
-    }
-  }
-  return found;
-}
-
-template <class Quantity>
-std::optional<MedianInterval> median_over(const Flights& flights, Quantity quantity) {
-  std::vector<double> values;
-  values.reserve(flights.size());
-  for (const Summary* flight : flights) {
-    values.push_back(quantity(*flight));
-  }
-  return bootstrap_median(values);
-}
-
-std::optional<MedianInterval> over_bound(const Flights& flights, const KnownBounds& bounds) {
-  std::vector<double> ratios;
-  for (const Summary* flight : flights) {
-    const auto least_j = bounds.find({flight->scenario, flight->seed});
-    if (least_j != bounds.end() && least_j->second > 0.0) {
-      ratios.push_back(flight->energy_total_j() / least_j->second);
-    }
-  }
-  return bootstrap_median(ratios);
-}
-
-DecisionFigures decisions_of(const std::vector<Summary>& all,
-                             const std::string& policy,
-                             const KnownBounds& bounds) {
-  const Flights flights = flights_of(all, policy);
-  DecisionFigures figures;
-  figures.policy = policy;
-  figures.overrun_percent = median_over(flights, [](const Summary& s) {
-    return s.maps == 0
-               ? 0.0
-               : 100.0 * static_cast<double>(s.bound_overruns) / static_cast<double>(s.maps);
-  });
-  figures.budget_use = median_over(flights, [](const Summary& s) { return s.budget_use_p50; });
-  figures.decision_us =
-      median_over(flights, [](const Summary& s) { return s.decision_host_us_p99; });
-  figures.over_bound = over_bound(flights, bounds);
-  return figures;
-}
-
-PairedDifference difference_of(const std::vector<Summary>& all,
-                               const std::string& policy,
-                               const std::string& first) {
-  std::map<std::uint64_t, const Summary*> others;
-  for (const Summary* flight : flights_of(all, first)) {
-    others[flight->seed] = flight;
-  }
-  PairedDifference difference;
-  difference.policy = policy;
-  std::vector<double> time_s;
-  std::vector<double> energy_j;
-  std::vector<double> battery;
-  std::vector<double> percent;
-  std::vector<double> computer;
-  for (const Summary* flight : flights_of(all, policy)) {
-    const auto found = others.find(flight->seed);
-    if (found == others.end()) {
-      continue;
-    }
-    const Summary& other = *found->second;
-    time_s.push_back(flight->mission_time_s - other.mission_time_s);
-    energy_j.push_back(flight->energy_total_j() - other.energy_total_j());
-    battery.push_back(flight->battery_used_percent() - other.battery_used_percent());
-    percent.push_back(100.0 * energy_j.back() / other.energy_total_j());
-    if (other.energy_computer_j > 0.0) {
-      computer.push_back(100.0 * (flight->energy_computer_j / other.energy_computer_j - 1.0));
-    }
-    difference.wins += energy_j.back() < 0.0 ? 1 : 0;
-  }
-  difference.pairs = static_cast<int>(energy_j.size());
-  difference.time_s = bootstrap_median(time_s);
-  difference.energy_j = bootstrap_median(energy_j);
-  difference.battery_percent = bootstrap_median(battery);
-  difference.energy_percent = bootstrap_median(percent);
-  difference.computer_percent = bootstrap_median(computer);
-  return difference;
-}
-
-WorldResult result_of(const std::vector<Summary>& flights, const KnownBounds& bounds) {
+WorldResult result_of(const std::vector<Summary>& flights,
+                      const KnownBounds& bounds,
+                      const std::vector<PolicyPair>& pairs) {
   WorldResult world;
   world.comparison = compare_flights(flights);
+  const std::string& first = world.comparison.rows.front().policy;
   for (const ComparisonRow& row : world.comparison.rows) {
     world.decisions.push_back(decisions_of(flights, row.policy, bounds));
-    if (row.policy != world.comparison.rows.front().policy) {
-      world.differences.push_back(
-          difference_of(flights, row.policy, world.comparison.rows.front().policy));
+    for (PromiseFigures& level : promises_of(flights, row.policy)) {
+      world.promises.push_back(std::move(level));
+    }
+    if (row.policy != first) {
+      world.differences.push_back(difference_of(flights, {row.policy, first}));
+    }
+  }
+  for (const PolicyPair& pair : pairs) {
+    if (has_flown(world.comparison, pair.policy) && has_flown(world.comparison, pair.to)) {
+      world.pairs.push_back(difference_of(flights, pair));
     }
   }
   return world;
@@ -123,6 +45,18 @@ WorldResult result_of(const std::vector<Summary>& flights, const KnownBounds& bo
 Json json_of(const std::optional<MedianInterval>& interval) {
   return interval ? Json{{"median", interval->median}, {"lo", interval->lo}, {"hi", interval->hi}}
                   : Json{{"median", nullptr}, {"lo", nullptr}, {"hi", nullptr}};
+}
+
+Json json_of(const PairedDifference& difference) {
+  return {{"policy", difference.policy},
+          {"to", difference.to},
+          {"pairs", difference.pairs},
+          {"wins", difference.wins},
+          {"mission_time_s", json_of(difference.time_s)},
+          {"energy_total_j", json_of(difference.energy_j)},
+          {"energy_percent", json_of(difference.energy_percent)},
+          {"computer_percent", json_of(difference.computer_percent)},
+          {"battery_used_percent", json_of(difference.battery_percent)}};
 }
 
 Json json_of(const WorldResult& world) {
@@ -135,18 +69,23 @@ Json json_of(const WorldResult& world) {
     if (world.decisions[i].over_bound) {
       row["energy_over_bound"] = json_of(world.decisions[i].over_bound);
     }
+    if (world.decisions[i].throttle_events) {
+      row["throttle_events"] = *world.decisions[i].throttle_events;
+    }
   }
   json["differences"] = Json::array();
-  for (const PairedDifference& difference : world.differences) {
-    json["differences"].push_back({{"policy", difference.policy},
-                                   {"to", world.comparison.rows.front().policy},
-                                   {"pairs", difference.pairs},
-                                   {"wins", difference.wins},
-                                   {"mission_time_s", json_of(difference.time_s)},
-                                   {"energy_total_j", json_of(difference.energy_j)},
-                                   {"energy_percent", json_of(difference.energy_percent)},
-                                   {"computer_percent", json_of(difference.computer_percent)},
-                                   {"battery_used_percent", json_of(difference.battery_percent)}});
+  for (const auto* differences : {&world.differences, &world.pairs}) {
+    for (const PairedDifference& difference : *differences) {
+      json["differences"].push_back(json_of(difference));
+    }
+  }
+  json["promises"] = Json::array();
+  for (const PromiseFigures& level : world.promises) {
+    json["promises"].push_back({{"policy", level.policy},
+                                {"resolution_m", level.resolution_m},
+                                {"issued", level.issued},
+                                {"late", level.late},
+                                {"most_late", level.most_late ? Json(*level.most_late) : Json()}});
   }
   return json;
 }
@@ -159,16 +98,17 @@ std::string figure(const std::optional<MedianInterval>& value, double scale, int
   return show(value->median) + " [" + show(value->lo) + ", " + show(value->hi) + "]";
 }
 
-std::string differences_text(const WorldResult& world) {
-  if (world.differences.empty()) {
+std::string differences_text(const std::string& head,
+                             const std::vector<PairedDifference>& differences,
+                             bool names_both) {
+  if (differences.empty()) {
     return {};
   }
-  std::vector<std::vector<std::string>> lines{{"less " + world.comparison.rows.front().policy,
-                                               "pairs", "wins", "time s", "energy kJ", "energy %",
-                                               "computer %", "battery %"}};
-  for (const PairedDifference& d : world.differences) {
-    lines.push_back({d.policy, std::to_string(d.pairs), std::to_string(d.wins),
-                     figure(d.time_s, 1.0, 1), figure(d.energy_j, 1e-3, 1),
+  std::vector<std::vector<std::string>> lines{
+      {head, "pairs", "wins", "time s", "energy kJ", "energy %", "computer %", "battery %"}};
+  for (const PairedDifference& d : differences) {
+    lines.push_back({names_both ? d.name() : d.policy, std::to_string(d.pairs),
+                     std::to_string(d.wins), figure(d.time_s, 1.0, 1), figure(d.energy_j, 1e-3, 1),
                      figure(d.energy_percent, 1.0, 1), figure(d.computer_percent, 1.0, 1),
                      figure(d.battery_percent, 1.0, 1)});
   }
@@ -177,10 +117,14 @@ std::string differences_text(const WorldResult& world) {
 
 std::string decisions_text(const WorldResult& world) {
   const bool has_bound = world.has_bound();
+  const bool has_heat = world.has_heat();
   std::vector<std::vector<std::string>> lines{
       {"decisions", "late maps %", "budget use", "99 % within us"}};
   if (has_bound) {
     lines.front().emplace_back("energy / bound");
+  }
+  if (has_heat) {
+    lines.front().emplace_back("throttled");
   }
   for (const DecisionFigures& d : world.decisions) {
     lines.push_back({d.policy, figure(d.overrun_percent, 1.0, 2), figure(d.budget_use, 1.0, 2),
@@ -188,6 +132,24 @@ std::string decisions_text(const WorldResult& world) {
     if (has_bound) {
       lines.back().push_back(figure(d.over_bound, 1.0, 2));
     }
+    if (has_heat) {
+      lines.back().push_back(d.throttle_events ? std::to_string(*d.throttle_events) : "-");
+    }
+  }
+  return aligned(lines);
+}
+
+std::string promises_text(const WorldResult& world) {
+  if (world.promises.empty()) {
+    return {};
+  }
+  std::vector<std::vector<std::string>> lines{
+      {"promises of latency", "cells m", "issued", "late", "late %", "at most %"}};
+  for (const PromiseFigures& level : world.promises) {
+    const auto most = level.most_percent();
+    lines.push_back({level.policy, rounded(level.resolution_m, 2), std::to_string(level.issued),
+                     std::to_string(level.late), rounded(level.late_percent(), 1),
+                     most ? rounded(*most, 1) : "-"});
   }
   return aligned(lines);
 }
@@ -199,8 +161,14 @@ bool WorldResult::has_bound() const {
                      [](const DecisionFigures& d) { return d.over_bound.has_value(); });
 }
 
+bool WorldResult::has_heat() const {
+  return std::any_of(decisions.begin(), decisions.end(),
+                     [](const DecisionFigures& d) { return d.throttle_events.has_value(); });
+}
+
 std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights,
-                                       const KnownBounds& bounds) {
+                                       const KnownBounds& bounds,
+                                       const std::vector<PolicyPair>& pairs) {
   std::vector<std::vector<Summary>> by_world;
   for (const Summary& flight : flights) {
     const auto same = [&](const std::vector<Summary>& world) {
@@ -215,7 +183,7 @@ std::vector<WorldResult> tournament_of(const std::vector<Summary>& flights,
   std::vector<WorldResult> worlds;
   worlds.reserve(by_world.size());
   for (const std::vector<Summary>& world : by_world) {
-    worlds.push_back(result_of(world, bounds));
+    worlds.push_back(result_of(world, bounds, pairs));
   }
   return worlds;
 }
@@ -231,8 +199,10 @@ std::string to_json(const std::vector<WorldResult>& worlds) {
 std::string to_text(const std::vector<WorldResult>& worlds) {
   std::string text;
   for (const WorldResult& world : worlds) {
-    text += (text.empty() ? "" : "\n") + to_text(world.comparison) + differences_text(world) +
-            decisions_text(world);
+    text +=
+        (text.empty() ? "" : "\n") + to_text(world.comparison) +
+        differences_text("less " + world.comparison.rows.front().policy, world.differences, false) +
+        differences_text("pairs", world.pairs, true) + decisions_text(world) + promises_text(world);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include "flyball/apps/tournament.h"
 
 #include "dot_plot.h"
+#include <algorithm>
 
 namespace flyball {
 namespace {
@@ -49,21 +50,42 @@ std::string cell(const std::optional<MedianInterval>& value, double scale, int d
          "]</small></td>";
 }
 
-std::string differences_html(const WorldResult& world) {
-  if (world.differences.empty()) {
+std::string differences_html(const std::string& head,
+                             const std::vector<PairedDifference>& differences,
+                             bool names_both) {
+  if (differences.empty()) {
     return {};
   }
   std::string table =
-      "<h3>Less " + html_text(world.comparison.rows.front().policy) +
+      "<h3>" + html_text(head) +
       ", seed by seed</h3><table><tr><th>policy</th><th>pairs</th><th>less energy in</th><th>time "
       "s</th><th>energy kJ</th><th>energy %</th><th>computer %</th><th>battery %</th></tr>\n";
-  for (const PairedDifference& d : world.differences) {
-    table += "<tr><td>" + html_text(d.policy) + "</td><td>" + std::to_string(d.pairs) +
-             "</td><td>" + std::to_string(d.wins) + "</td>" + cell(d.time_s, 1.0, 1) +
-             cell(d.energy_j, 1e-3, 1) + cell(d.energy_percent, 1.0, 1) +
+  for (const PairedDifference& d : differences) {
+    table += "<tr><td>" + html_text(names_both ? d.name() : d.policy) + "</td><td>" +
+             std::to_string(d.pairs) + "</td><td>" + std::to_string(d.wins) + "</td>" +
+             cell(d.time_s, 1.0, 1) + cell(d.energy_j, 1e-3, 1) + cell(d.energy_percent, 1.0, 1) +
              cell(d.computer_percent, 1.0, 1) + cell(d.battery_percent, 1.0, 1) + "</tr>\n";
   }
   return table + "</table>\n";
+}
+
+std::string promises_html(const WorldResult& world) {
+  if (world.promises.empty()) {
+    return {};
+  }
+  std::string table =
+      "<h3>Promises of latency</h3><table><tr><th>policy</th><th>cells m</th><th>issued</th>"
+      "<th>late</th><th>late %</th><th>at most %</th></tr>\n";
+  for (const PromiseFigures& level : world.promises) {
+    const auto most = level.most_percent();
+    table += "<tr><td>" + html_text(level.policy) + "</td><td>" + rounded(level.resolution_m, 2) +
+             "</td><td>" + std::to_string(level.issued) + "</td><td>" + std::to_string(level.late) +
+             "</td><td>" + rounded(level.late_percent(), 1) + "</td><td>" +
+             (most ? rounded(*most, 1) : "-") + "</td></tr>\n";
+  }
+  return table +
+         "</table>\n<p class=\"note\">At most: the share asked for and the slack of a bound that "
+         "calibrates itself, where no map takes over four times what was predicted.</p>\n";
 }
 
 std::string decisions_html(const WorldResult& world) {
@@ -71,11 +93,17 @@ std::string decisions_html(const WorldResult& world) {
   std::string table =
       "<h3>Decisions</h3><table><tr><th>policy</th><th>maps later than bounded %</th><th>budget "
       "use</th><th>99 % within us, on the host</th>";
-  table += has_bound ? "<th>energy over its bound</th></tr>\n" : "</tr>\n";
+  const bool has_heat = world.has_heat();
+  table += has_bound ? "<th>energy over its bound</th>" : "";
+  table += has_heat ? "<th>times throttled</th></tr>\n" : "</tr>\n";
   for (const DecisionFigures& d : world.decisions) {
     table += "<tr><td>" + html_text(d.policy) + "</td>" + cell(d.overrun_percent, 1.0, 2) +
              cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) +
-             (has_bound ? cell(d.over_bound, 1.0, 2) : "") + "</tr>\n";
+             (has_bound ? cell(d.over_bound, 1.0, 2) : "") +
+             (has_heat ? "<td>" + (d.throttle_events ? std::to_string(*d.throttle_events) : "-") +
+                             "</td>"
+                       : "") +
+             "</tr>\n";
   }
   return table + "</table>\n";
 }
@@ -124,17 +152,69 @@ std::string pareto_of(const WorldResult& world) {
 
 std::string world_html(const WorldResult& world) {
   return "<h2>" + html_text(world.comparison.scenario) + "</h2>\n<div class=\"panel\">" +
-         to_html(world.comparison) + differences_html(world) + decisions_html(world) +
+         to_html(world.comparison) +
+         differences_html("Less " + world.comparison.rows.front().policy, world.differences,
+                          false) +
+         differences_html("Pairs", world.pairs, true) + decisions_html(world) +
+         promises_html(world) +
          "</div>\n<div class=\"panel\"><h3>Energy over time; dashed: what nothing beats in "
          "both</h3>" +
          pareto_of(world) + "</div>\n<div class=\"panel plots\">" + plots_of(world) + "</div>\n";
+}
+
+const PairedDifference* pair_in(const WorldResult& world, const PairedDifference& pair) {
+  for (const PairedDifference& other : world.pairs) {
+    if (other.policy == pair.policy && other.to == pair.to) {
+      return &other;
+    }
+  }
+  return nullptr;
+}
+
+/// The pairs that were asked for over all worlds: when it pays, and when not.
+std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
+  std::vector<PairedDifference> pairs;
+  std::string head;
+  for (const WorldResult& world : worlds) {
+    head += "<th>" + html_text(world.comparison.scenario) + "</th>";
+    for (const PairedDifference& pair : world.pairs) {
+      const bool is_known = std::any_of(pairs.begin(), pairs.end(), [&](const auto& known) {
+        return known.name() == pair.name();
+      });
+      if (!is_known) {
+        pairs.push_back(pair);
+      }
+    }
+  }
+  if (pairs.empty()) {
+    return {};
+  }
+  std::string table =
+      "<h2>Pairs over all worlds</h2>\n<div class=\"panel\"><table><tr><th>energy "
+      "%, below it the computer's</th>" +
+      head + "</tr>\n";
+  for (const PairedDifference& pair : pairs) {
+    table += "<tr><td>" + html_text(pair.name()) + "</td>";
+    for (const WorldResult& world : worlds) {
+      const PairedDifference* here = pair_in(world, pair);
+      table +=
+          here == nullptr || !here->energy_percent
+              ? "<td>-</td>"
+              : "<td>" + rounded(here->energy_percent->median, 1) + "<small>" +
+                    (here->computer_percent ? rounded(here->computer_percent->median, 1) : "-") +
+                    "</small></td>";
+    }
+    table += "</tr>\n";
+  }
+  return table + "</table></div>\n";
 }
 
 }  // namespace
 
 std::string tournament_page(const std::string& title, const std::vector<WorldResult>& worlds) {
   std::string page = page_head + std::string{"<title>"} + html_text(title) +
-                     " - Flyball</title></head><body>\n<h1>" + html_text(title) + "</h1>\n";
+                     " - Flyball</title></head><body>\n<h1>" + html_text(title) + "</h1>\n" +
+                     pairs_over_worlds(worlds);
   for (const WorldResult& world : worlds) {
     page += world_html(world);
   }

@@ -179,6 +179,17 @@ PromiseCount EnergySearch::promises() const {
   return count;
 }
 
+std::vector<LevelPromises> EnergySearch::promise_levels() const {
+  constexpr double worst = 4.0;  // Above the factor 3 of the drifts that are tried.
+  std::vector<LevelPromises> levels;
+  for (std::size_t i = 0; i < bound_.levels(); ++i) {
+    const QuantileTracker& one = bound_.tracker(i);
+    levels.push_back({points_.axes()[resolution].values[i], one.decisions(), one.misses(),
+                      one.most_misses(worst, 1)});
+  }
+  return levels;
+}
+
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
   const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
                                                         : settings_.deceleration_m_s2};

@@ -7,15 +7,23 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
 
-bool differs(const std::optional<double>& request, double granted) {
-  // Zero: whoever observes does not tell. Boards round their clocks to kilohertz.
-  constexpr double rounding = 1e-3;
-  return request && granted != 0.0 && std::abs(*request - granted) > rounding * *request;
+bool are_apart(double one, double other) {
+  constexpr double rounding = 1e-3;  // Boards round their clocks to kilohertz.
+  return std::abs(one - other) > rounding * one;
 }
+
+bool differs(const std::optional<double>& request, double granted, double cap) {
+  // Zero: whoever observes does not tell.
+  return request && granted != 0.0 && are_apart(*request, granted) &&
+         are_apart(std::min(*request, cap), granted);
+}
+
+constexpr double no_cap = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -45,7 +53,8 @@ bool is_believable(const Observation& seen) {
          seen.speed_m_s >= 0.0 && seen.cores >= 0;
 }
 
-FallbackLadder::FallbackLadder(const FallbackSettings& settings) : settings_{settings} {
+FallbackLadder::FallbackLadder(const FallbackSettings& settings)
+    : settings_{settings}, cap_{no_cap, no_cap} {
   FLYBALL_ASSERT(settings_.map_window >= 1 && settings_.map_window <= 64, "map_window=%d",
                  settings_.map_window);
 }
@@ -93,8 +102,10 @@ bool FallbackLadder::has_coverage_alarm(const Observation& seen) {
 }
 
 bool FallbackLadder::is_mismatched(const Observation& seen, const Request& request) {
-  const bool differs_now = differs(request.frequency_hz, seen.frequency.value()) ||
-                           differs(request.cores, static_cast<double>(seen.cores));
+  const Grant grant{seen.frequency.value(), static_cast<double>(seen.cores)};
+  note_cap(grant, seen.now);
+  const bool differs_now = differs(request.frequency_hz, grant.frequency_hz, cap_.frequency_hz) ||
+                           differs(request.cores, grant.cores, cap_.cores);
   const bool is_new =
       request.frequency_hz != last_request_.frequency_hz || request.cores != last_request_.cores;
   last_request_ = request;
@@ -105,6 +116,19 @@ bool FallbackLadder::is_mismatched(const Observation& seen, const Request& reque
   }
   is_table_ = differs_now && seen.now - *mismatched_since_ >= settings_.mismatch_patience;
   return is_table_;
+}
+
+/// A cap is what the table was given and is believed until more is granted.
+void FallbackLadder::note_cap(const Grant& grant, MissionTime now) {
+  if (grant.frequency_hz > cap_.frequency_hz || grant.cores > cap_.cores) {
+    cap_ = {no_cap, no_cap};
+  }
+  if (!is_table_ || !(grant == under_table_)) {
+    under_table_ = grant;
+    under_table_since_ = now;
+  } else if (now - under_table_since_ >= settings_.cap_patience) {
+    cap_ = grant;
+  }
 }
 
 bool FallbackLadder::must_hover(const Observation& seen) {

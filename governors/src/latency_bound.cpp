@@ -9,7 +9,7 @@
 namespace flyball {
 
 QuantileTracker::QuantileTracker(const Settings& settings)
-    : settings_{settings}, q_{settings.first} {
+    : settings_{settings}, q_{settings.first}, first_{settings.first} {
   FLYBALL_ASSERT(settings.alpha > 0.0 && settings.alpha < 1.0 && settings.eta >= 0.0,
                  "alpha=%g, eta=%g", settings.alpha, settings.eta);
 }
@@ -24,9 +24,23 @@ void QuantileTracker::count(bool missed) {
   misses_ += missed ? 1 : 0;
 }
 
+std::optional<double> QuantileTracker::most_misses(double worst, std::size_t open) const {
+  FLYBALL_ASSERT(worst > 0.0 && open >= 1, "worst=%g, open=%zu", worst, open);
+  if (settings_.eta == 0.0) {
+    return std::nullopt;
+  }
+  // B is no less than q_1: else q falls from the start, and (3) would allow less than it began
+  // with.
+  const double largest =
+      std::max(std::log(worst), first_) + static_cast<double>(open) * settings_.eta;
+  return settings_.alpha * static_cast<double>(decisions_) +
+         (largest - first_) / settings_.eta;  // eq. (3), times T
+}
+
 void QuantileTracker::restore(double q) {
   FLYBALL_ASSERT(std::isfinite(q), "q=%g", q);
   q_ = q;
+  first_ = q;
 }
 
 MissionTime LatencyBound::Open::expires() const {

@@ -138,9 +138,17 @@ toml::table completed(toml::table own, const std::string& path) {
     return own;
   }
   toml::table all = toml::parse_file(base);
-  for (const auto& [key, node] : own) {
-    all.insert_or_assign(key.str(), node);
+  const auto take_over = [](const toml::table& from, toml::table& into) {
+    for (const auto& [key, node] : from) {
+      into.insert_or_assign(key.str(), node);
+    }
+  };
+  // Kernel by kernel: whoever prices one anew keeps the others.
+  if (own["kernels"].is_table() && all["kernels"].is_table()) {
+    take_over(*own["kernels"].as_table(), *all["kernels"].as_table());
+    own.erase("kernels");
   }
+  take_over(own, all);
   return all;
 }
 

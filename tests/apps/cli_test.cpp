@@ -80,6 +80,14 @@ TEST_F(Cli, refuses_a_policy_twice) {
                  "name each once");
 }
 
+TEST_F(Cli, refuses_pairs_of_policies_that_do_not_fly) {
+  const std::string two = "tournament --worlds delivery_forest --policies fixed_fine,two_level ";
+  for (const char* pair : {"fixed_fine:two_levels", "fixed_fine", "fixed_fine:", ":two_level",
+                           "two_level:two_level"}) {
+    expect_refused(two + "--pairs " + pair, "give two of --policies with a colon between");
+  }
+}
+
 TEST_F(Cli, refuses_a_world_that_cannot_be_made) {
   expect_refused("run delivery_building_079 --set world.file=nowhere.bt --out deep/out",
                  "nowhere.bt");

@@ -22,6 +22,9 @@ TEST(Summary, reads_back_what_was_written) {
   EXPECT_EQ(read.seed, written.seed);
   EXPECT_EQ(read.kernels.at("octomap").calls, 123U);
   EXPECT_EQ(read.quality.at("area_covered_percent"), 97.25);
+  ASSERT_EQ(read.promises.size(), 2U);
+  EXPECT_EQ(read.promises[0].most_late, 3.5);
+  EXPECT_FALSE(read.promises[1].most_late);
 }
 
 TEST(Summary, every_status_and_failure_reads_back) {
@@ -84,6 +87,7 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "maps",
                               "bound_overruns",
                               "budget_use_p50",
+                              "promises",
                               "decision_host_us",
                               "throttle_events",
                               "hottest_c",

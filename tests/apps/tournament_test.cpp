@@ -77,6 +77,53 @@ TEST(Tournament, tells_the_computers_energy_apart) {
   EXPECT_LT(text.find("computer %"), text.find("battery %", text.find("less first")));
 }
 
+TEST(Tournament, measures_pairs_that_were_asked_for_by_each_other) {
+  std::vector<Summary> flights = two_worlds();
+  flights.insert(flights.begin() + 6,
+                 {flight("hills", "third", 1, 60), flight("hills", "third", 2, 120)});
+  const std::vector<WorldResult> worlds = tournament_of(flights, {}, {{"third", "other"}});
+  ASSERT_EQ(worlds[0].pairs.size(), 1U);
+  EXPECT_EQ(worlds[0].pairs[0].name(), "third less other");
+  EXPECT_DOUBLE_EQ(worlds[0].pairs[0].energy_j->median, -25e3);
+  EXPECT_TRUE(worlds[1].pairs.empty()) << "neither flew there";
+  EXPECT_NE(to_text(worlds).find("third less other"), std::string::npos);
+  const auto json = nlohmann::json::parse(to_json(worlds));
+  EXPECT_EQ(json[0]["differences"].back()["to"], "other");
+  const std::string page = tournament_page("Tournament", worlds);
+  const auto table = page.find("Pairs over all worlds");
+  ASSERT_NE(table, std::string::npos);
+  EXPECT_NE(page.find("<td>third less other</td><td>-22.5<small>-</small></td><td>-</td>", table),
+            std::string::npos);
+  EXPECT_EQ(tournament_page("Tournament", tournament_of(two_worlds())).find("Pairs"),
+            std::string::npos);
+}
+
+TEST(Tournament, holds_promises_against_what_was_stated_level_by_level) {
+  std::vector<Summary> flights{flight("hills", "first", 1, 100), flight("hills", "first", 2, 100)};
+  flights[1].status = MissionStatus::failed;
+  const std::vector<WorldResult> worlds = tournament_of(flights);
+  ASSERT_EQ(worlds[0].promises.size(), 2U);
+  const PromiseFigures& fine = worlds[0].promises[0];
+  EXPECT_EQ(fine.resolution_m, 0.15);
+  EXPECT_EQ(fine.issued, 80U) << "a flight that failed promised, too";
+  EXPECT_DOUBLE_EQ(fine.late_percent(), 5.0);
+  EXPECT_DOUBLE_EQ(*fine.most_percent(), 100.0 * 7.0 / 80.0);
+  EXPECT_FALSE(worlds[0].promises[1].most_percent()) << "nothing is stated there";
+  EXPECT_NE(to_text(worlds).find("promises of latency"), std::string::npos);
+  EXPECT_NE(tournament_page("Tournament", worlds).find("Promises of latency"), std::string::npos);
+}
+
+TEST(Tournament, counts_how_often_heat_took_clocks_away_where_it_is_known) {
+  std::vector<Summary> flights{flight("hills", "first", 1, 100), flight("hills", "other", 1, 99)};
+  flights[1].hottest_c = std::nullopt;
+  const std::vector<WorldResult> worlds = tournament_of(flights);
+  EXPECT_EQ(worlds[0].decisions[0].throttle_events, 2U);
+  EXPECT_FALSE(worlds[0].decisions[1].throttle_events);
+  EXPECT_NE(to_text(worlds).find("throttled"), std::string::npos);
+  flights[0].hottest_c = std::nullopt;
+  EXPECT_EQ(to_text(tournament_of(flights)).find("throttled"), std::string::npos);
+}
+
 TEST(Tournament, prints_an_object_for_each_world_in_the_shape_of_a_comparison) {
   const auto json = nlohmann::json::parse(to_json(tournament_of(two_worlds())));
   ASSERT_EQ(json.size(), 2U);

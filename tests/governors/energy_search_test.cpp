@@ -206,6 +206,19 @@ TEST(EnergySearch, a_map_that_was_quick_is_in_time_however_seldom_it_is_looked_f
   EXPECT_LT(one.promises().late, 8U);
 }
 
+TEST(EnergySearch, keeps_its_promises_apart_by_level) {
+  EnergySearch one = search();
+  see_maps(one, 100, 0.25, 0.01);
+  std::uint64_t issued = 0;
+  for (const LevelPromises& level : one.promise_levels()) {
+    issued += level.issued;
+    EXPECT_EQ(level.issued > 0, level.resolution_m == 0.80) << level.resolution_m;
+    ASSERT_TRUE(level.most_late);
+    EXPECT_LE(static_cast<double>(level.late), *level.most_late);
+  }
+  EXPECT_EQ(issued, one.promises().issued);
+}
+
 TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
   EnergySearch one = search();
   see_maps(one, 20, 0.25, 0.1);

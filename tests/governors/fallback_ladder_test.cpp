@@ -102,6 +102,36 @@ TEST(FallbackLadder, takes_the_table_when_the_platform_does_not_follow) {
   EXPECT_EQ(Fallback::none, looking.next());
 }
 
+/// Steps of the ladder in the next `looks`, after which the table's request is in force.
+int tables_of(Looking& looking, int looks) {
+  int tables = 0;
+  for (int i = 0; i < looks; ++i) {
+    tables += looking.next() == Fallback::table ? 1 : 0;
+  }
+  return tables;
+}
+
+TEST(FallbackLadder, goes_on_with_what_is_granted_when_the_table_got_no_more) {
+  Looking looking;
+  static_cast<void>(looking.next());
+  looking.seen.frequency = Hertz{1e9};  // Throttled, for good.
+  const int patience = 5;               // Looks: 1 s until the table, 2 s until it is given up.
+  EXPECT_EQ(tables_of(looking, 40), 8);
+  looking.request.frequency_hz = 8e8;
+  looking.seen.frequency = Hertz{8e8};
+  EXPECT_EQ(tables_of(looking, 20), 0) << "less than the cap is granted as ever";
+  looking.request.frequency_hz = 2e9;
+  looking.seen.frequency = Hertz{1e9};
+  EXPECT_EQ(tables_of(looking, 20), 0) << "the cap is known";
+  looking.seen.frequency = Hertz{5e8};  // Hotter still: news.
+  EXPECT_EQ(tables_of(looking, patience), 1);
+  EXPECT_GT(tables_of(looking, 40), 0);
+  looking.seen.frequency = Hertz{2e9};  // Cool again.
+  EXPECT_EQ(tables_of(looking, 20), 0);
+  looking.seen.frequency = Hertz{1e9};
+  EXPECT_EQ(tables_of(looking, 40), 8) << "the cap was forgotten when more was granted";
+}
+
 TEST(FallbackLadder, a_policy_that_changes_its_mind_is_no_mismatch) {
   Looking looking;
   for (int i = 0; i < 40; ++i) {

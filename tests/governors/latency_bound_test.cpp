@@ -63,6 +63,19 @@ TEST(QuantileTracker, keeps_its_promise_against_every_opponent) {
   }
 }
 
+TEST(QuantileTracker, states_how_many_misses_it_may_come_to) {
+  const QuantileTracker::Settings settings{0.05, 0.05, 0.2};
+  QuantileTracker tracker{settings};
+  (void)mean_miss(tracker, 300, [](double q) { return q < most ? q + 1e-9 : -9.0; });
+  const double stated = *tracker.most_misses(std::exp(most), 1);
+  EXPECT_NEAR(stated, 300 * promise(settings, 300), 1e-9);
+  EXPECT_LE(static_cast<double>(tracker.misses()), stated);
+  QuantileTracker wide{settings};
+  wide.restore(5.0);  // A margin beyond any error: one step of slack is left.
+  EXPECT_NEAR(*wide.most_misses(std::exp(most), 1), 1.0, 1e-9);
+  EXPECT_FALSE(QuantileTracker({0.05, 0.0, 0.2}).most_misses(2.0, 1)) << "a constant margin";
+}
+
 TEST(QuantileTracker, the_promise_is_nearly_reached_so_it_is_not_empty) {
   const QuantileTracker::Settings settings{0.05, 0.05, 0.2};
   QuantileTracker tracker{settings};

@@ -4,10 +4,13 @@
 /// @file
 /// What a mission came to.
 
+#include "flyball/governors/policy.h"
+
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flyball {
 
@@ -58,10 +61,11 @@ struct Summary {
   double latency_p50_s{};  ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
-  std::uint64_t maps{};            ///< Published; each was expected within a bound.
-  std::uint64_t bound_overruns{};  ///< Maps that came later than bounded.
-  double budget_use_p50{};         ///< Latency over its bound.
-  double decision_host_us_p50{};   ///< One decision of the governor, on the host.
+  std::uint64_t maps{};                   ///< Published; each was expected within a bound.
+  std::uint64_t bound_overruns{};         ///< Maps that came later than bounded.
+  double budget_use_p50{};                ///< Latency over its bound.
+  std::vector<LevelPromises> promises{};  ///< Empty for a policy that makes none.
+  double decision_host_us_p50{};          ///< One decision of the governor, on the host.
   double decision_host_us_p99{};
   std::uint64_t throttle_events{};  ///< How often heat took clocks away.
   std::optional<double>
@@ -83,7 +87,7 @@ struct Summary {
 };
 
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
-/// {name: {...}}` and `quality {name: number}`.
+/// {name: {...}}`, `quality {name: number}` and `promises`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
 /// @return Empty optional-like result when the text is not a summary.
 [[nodiscard]] bool from_json(const std::string& text, Summary& summary);

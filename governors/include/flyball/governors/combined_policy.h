@@ -29,6 +29,9 @@ class CombinedPolicy final : public Policy {
   [[nodiscard]] std::optional<PromiseCount> promises() const noexcept override {
     return application_->promises();
   }
+  [[nodiscard]] std::vector<LevelPromises> promise_levels() const override {
+    return application_->promise_levels();
+  }
 
  private:
   std::unique_ptr<Policy> application_;

@@ -115,6 +115,8 @@ class EnergySearch {
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
   /// Of all levels; the factor is that of the level in force.
   [[nodiscard]] PromiseCount promises() const;
+  /// `most_late` where no map takes more than four times as long as predicted.
+  [[nodiscard]] std::vector<LevelPromises> promise_levels() const;
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
 
  private:

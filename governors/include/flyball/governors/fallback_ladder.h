@@ -33,6 +33,9 @@ struct FallbackSettings {
   double bound_factor{1.5};  ///< While the alarm lasts: until none of the window was late.
   /// Granted clock or cores differ from what was requested for so long: a switch takes its time.
   Duration mismatch_patience{std::chrono::seconds{1}};
+  /// The table asks for the most. What is still granted after so long is what there is (a computer
+  /// that is too hot): the policy goes on with it.
+  Duration cap_patience{std::chrono::seconds{2}};
   /// Deadlines missed, less `miss_drain_hz` a second: above 5 within 2 s or 50 within 20 s.
   double missed_deadlines{5.0};
   double miss_drain_hz{2.5};
@@ -56,6 +59,14 @@ class FallbackLadder {
   [[nodiscard]] std::string_view why() const { return why_; }
 
  private:
+  struct Grant {
+    double frequency_hz{};
+    double cores{};
+    bool operator==(const Grant& other) const {
+      return frequency_hz == other.frequency_hz && cores == other.cores;
+    }
+  };
+  void note_cap(const Grant& grant, MissionTime now);
   [[nodiscard]] bool has_coverage_alarm(const Observation& seen);
   [[nodiscard]] bool is_mismatched(const Observation& seen, const Request& request);
   [[nodiscard]] bool must_hover(const Observation& seen);
@@ -68,6 +79,9 @@ class FallbackLadder {
   Request last_request_{};
   bool is_table_{};  ///< Which asks for more than the policy did: no new beginning.
   std::optional<MissionTime> mismatched_since_{};
+  Grant under_table_{};  ///< Granted last while the table asked.
+  MissionTime under_table_since_{};
+  Grant cap_;  ///< More has turned out not to be granted.
   double missed_{};
   std::optional<MissionTime> last_look_{};
   std::optional<MissionTime> hovering_since_{};

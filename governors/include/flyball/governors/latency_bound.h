@@ -50,12 +50,16 @@ class QuantileTracker {
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
   [[nodiscard]] std::uint64_t misses() const { return misses_; }
   [[nodiscard]] const Settings& settings() const { return settings_; }
+  /// What eq. (3) allows by now, while `open` decisions are open at a time and no latency is more
+  /// than `worst` times the predicted one; empty where q stays. @pre `worst > 0`, `open >= 1`.
+  [[nodiscard]] std::optional<double> most_misses(double worst, std::size_t open) const;
   /// For the next mission: q persists, the counts do not. @pre `q` is finite.
   void restore(double q);
 
  private:
   Settings settings_;
   double q_;
+  double first_;  ///< q_1, of this mission.
   std::uint64_t decisions_{};
   std::uint64_t misses_{};
 };

@@ -32,6 +32,14 @@ struct PromiseCount {
   double factor{1.0};      ///< Of the next promise: bound over prediction.
 };
 
+/// The same at one level of map resolution, for people who ask when the mission is over.
+struct LevelPromises {
+  double resolution_m{};
+  std::uint64_t issued{};
+  std::uint64_t late{};
+  std::optional<double> most_late{};  ///< By what the policy states; empty: it states nothing.
+};
+
 class Policy {
  public:
   Policy() = default;
@@ -64,6 +72,8 @@ class Policy {
   [[nodiscard]] virtual std::optional<PromiseCount> promises() const noexcept {
     return std::nullopt;
   }
+  /// Level by level; allocates, unlike `promises`.
+  [[nodiscard]] virtual std::vector<LevelPromises> promise_levels() const { return {}; }
   /// What it weighed in the last `decide`, best first; empty: it does not compare. For people who
   /// ask afterwards, not in flight: may allocate.
   [[nodiscard]] virtual std::vector<PolicyOption> options() const { return {}; }
