@@ -153,9 +153,10 @@ TEST(PlatformFile, that_is_like_another_one_may_price_one_kernel_anew) {
   const ScratchFolder scratch;
   (void)scratch.file("board.toml", std::string{whole} + "[kernels.other]\na = 1.0\nb = 0.0\n" +
                                        "[kernels.other.seconds_per]\ncalls = 1.0\n");
-  const auto model = load_platform(
-      scratch.file("dear.toml", "like = \"board\"\n[kernels.other]\na = 2.0\nb = 0.0\n"
-                                "[kernels.other.seconds_per]\ncalls = 3.0\n"));
+  const auto model =
+      load_platform(scratch.file("dear.toml",
+                                 "like = \"board\"\n[kernels.other]\na = 2.0\nb = 0.0\n"
+                                 "[kernels.other.seconds_per]\ncalls = 3.0\n"));
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ(model->kernels.at("other").a, 2.0);
   EXPECT_EQ(model->kernels.at("octomap").scale, 2.0) << "the others keep their prices";
