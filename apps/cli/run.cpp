@@ -38,6 +38,10 @@ std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
       {"  latency", with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
                         with_unit(s.latency_p95_s * 1e3, 0, "ms")},
       {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")}};
+  if (const std::string trouble = trouble_text(s.policy_faults, s.decisions, s.policy_trouble);
+      !trouble.empty()) {
+    lines.push_back({"  policy", trouble});
+  }
   if (s.hottest_c) {
     lines.push_back({"  computer's heat", with_unit(*s.hottest_c, 1, "degrees Celsius at most") +
                                               ", throttled " + std::to_string(s.throttle_events) +

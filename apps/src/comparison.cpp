@@ -33,6 +33,9 @@ ComparisonRow counted(const Flights& flights) {
   row.policy = flights.front()->policy;
   row.n = static_cast<int>(flights.size());
   for (const Summary* flight : flights) {
+    row.decisions += flight->decisions;
+    row.policy_faults += flight->policy_faults;
+    row.policy_trouble = row.policy_trouble.empty() ? flight->policy_trouble : row.policy_trouble;
     if (has_succeeded(*flight)) {
       ++row.succeeded;
       continue;
@@ -86,6 +89,8 @@ Json to_json(const ComparisonRow& row) {
           {"succeeded", row.succeeded},
           {"collisions", row.collisions},
           {"failures", Json(row.failures)},
+          {"policy_faults", row.policy_faults},
+          {"policy_trouble", row.policy_trouble},
           {"mission_time_s", to_json(row.mission_time_s)},
           {"energy_total_j", to_json(row.energy_total_j)},
           {"battery_used_percent", to_json(row.battery_used_percent)},

@@ -78,6 +78,11 @@ std::string failures_text(const ComparisonRow& row) {
   return text;
 }
 
+std::string trouble_of(const ComparisonRow& row) {
+  const std::string text = trouble_text(row.policy_faults, row.decisions, row.policy_trouble);
+  return text.empty() ? "" : "policy " + row.policy + " " + text;
+}
+
 std::string meaning(const Comparison& comparison) {
   return "Median [95 % bootstrap interval] over succeeded flights only, seeds " +
          seeds_text(comparison.seeds) + "; failed flights are listed by failure. Ratios are to " +
@@ -94,12 +99,16 @@ std::string to_text(const Comparison& comparison) {
     if (!row.failures.empty()) {
       failed += row.policy + " failed: " + failures_text(row) + "\n";
     }
+    if (const std::string trouble = trouble_of(row); !trouble.empty()) {
+      failed += trouble + "\n";
+    }
   }
   return comparison.scenario + "\n" + aligned(lines) + failed + meaning(comparison) + "\n";
 }
 
 std::string to_html(const Comparison& comparison) {
   std::string table = "<table>\n<tr>";
+  std::string troubles;
   for (const std::string& title : header()) {
     table += "<th>" + title + "</th>";
   }
@@ -110,8 +119,12 @@ std::string to_html(const Comparison& comparison) {
       const Figure shown = figure(row, column);
       table += "<td>" + shown.median + "<small>" + shown.interval + "</small></td>";
     }
+    if (const std::string trouble = trouble_of(row); !trouble.empty()) {
+      troubles += "<p class=\"note\">" + html_text(trouble) + "</p>\n";
+    }
   }
-  return table + "</tr>\n</table>\n<p class=\"note\">" + html_text(meaning(comparison)) + "</p>\n";
+  return table + "</tr>\n</table>\n" + troubles + "<p class=\"note\">" +
+         html_text(meaning(comparison)) + "</p>\n";
 }
 
 }  // namespace flyball

@@ -218,6 +218,9 @@ void GovernorLoop::note_fallback(MissionTime now) {
     return;
   }
   const std::string why = governor_.why();
+  if (is_fault && trouble_.empty()) {
+    trouble_ = why;
+  }
   if (fallback != fallback_ || why != why_) {
     context_.event(
         now, "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));

@@ -37,6 +37,8 @@ class GovernorLoop {
   [[nodiscard]] const std::vector<double>& decision_host_us() const { return decision_host_us_; }
   [[nodiscard]] std::uint64_t knob_changes() const { return knob_changes_; }
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
+  /// Why the policy failed first; empty: it did not.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
   [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
   [[nodiscard]] std::vector<LevelPromises> promise_levels() const {
     return governor_.policy().promise_levels();
@@ -75,6 +77,7 @@ class GovernorLoop {
   std::uint64_t knob_changes_{};
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
+  std::string trouble_{};
   std::uint64_t promises_{};  ///< Settled ones that the record has.
   Fallback fallback_{Fallback::none};
   std::string why_{};              ///< Of the last fallback that the record has.

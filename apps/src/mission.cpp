@@ -123,6 +123,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.decisions = flight.governor->decisions();
   summary.knob_changes = flight.governor->knob_changes();
   summary.policy_faults = flight.governor->faults();
+  summary.policy_trouble = flight.governor->trouble();
   summary.latency_p50_s = quantile(counters.latency_s, 0.5);
   summary.latency_p95_s = quantile(counters.latency_s, 0.95);
   summary.latency_max_s = quantile(counters.latency_s, 1.0);

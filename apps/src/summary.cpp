@@ -113,6 +113,7 @@ void read_computing(const Json& json, Summary& summary) {
   summary.decisions = json.at("decisions").get<std::uint64_t>();
   summary.knob_changes = json.at("knob_changes").get<std::uint64_t>();
   summary.policy_faults = json.at("policy_faults").get<std::uint64_t>();
+  summary.policy_trouble = json.at("policy_trouble").get<std::string>();
   summary.latency_p50_s = number(json.at("latency_s").at("p50"));
   summary.latency_p95_s = number(json.at("latency_s").at("p95"));
   summary.latency_max_s = number(json.at("latency_s").at("max"));
@@ -170,6 +171,12 @@ const char* to_string(MissionFailure failure) {
   return "unknown";
 }
 
+std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {
+  return faults == 0 ? ""
+                     : "failed in " + std::to_string(faults) + " of " + std::to_string(decisions) +
+                           " decisions and was replaced by safe settings there: " + why;
+}
+
 std::string to_json(const Summary& summary, int indent) {
   const Json json{
       {"scenario", summary.scenario},
@@ -195,6 +202,7 @@ std::string to_json(const Summary& summary, int indent) {
       {"decisions", summary.decisions},
       {"knob_changes", summary.knob_changes},
       {"policy_faults", summary.policy_faults},
+      {"policy_trouble", summary.policy_trouble},
       {"latency_s",
        {{"p50", summary.latency_p50_s},
         {"p95", summary.latency_p95_s},

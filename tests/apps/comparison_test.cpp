@@ -78,10 +78,9 @@ TEST(Comparison, json_has_exactly_the_documented_keys) {
     return all;
   };
   EXPECT_EQ(keys(json), "scenario seeds rows ");
-  EXPECT_EQ(
-      keys(json["rows"][0]),
-      "policy n succeeded collisions failures mission_time_s energy_total_j battery_used_percent "
-      "mean_speed_m_s latency_p50_s ");
+  EXPECT_EQ(keys(json["rows"][0]),
+            "policy n succeeded collisions failures policy_faults policy_trouble mission_time_s "
+            "energy_total_j battery_used_percent mean_speed_m_s latency_p50_s ");
   EXPECT_EQ(keys(json["rows"][0]["latency_p50_s"]), "median lo hi ");
   EXPECT_EQ(json["rows"][1]["failures"]["no_plan"], 1);
 }
@@ -93,6 +92,20 @@ TEST(Comparison, the_table_has_a_row_a_policy_and_says_what_it_shows) {
   EXPECT_NE(text.find("fast failed: no_plan 1"), std::string::npos) << text;
   EXPECT_NE(text.find("over succeeded flights only, seeds 1..3"), std::string::npos) << text;
   EXPECT_NE(text.find("Ratios are to slow"), std::string::npos) << text;
+}
+
+TEST(Comparison, says_in_one_sentence_that_a_policy_was_replaced) {
+  std::vector<Summary> flights{flight("good", 1, 1, 1), flight("bad", 1, 1, 1),
+                               flight("bad", 2, 1, 1)};
+  flights[0].policy_faults = 0;
+  flights[2].policy_trouble = "a later one";
+  const std::string sentence =
+      "policy bad failed in 20 of 800 decisions and was replaced by safe settings there: threw: ";
+  const Comparison comparison = compare_flights(flights);
+  EXPECT_NE(to_text(comparison).find(sentence + "<enough>\n"), std::string::npos)
+      << to_text(comparison);
+  EXPECT_NE(to_html(comparison).find(sentence + "&lt;enough&gt;"), std::string::npos);
+  EXPECT_EQ(to_text(comparison).find("policy good"), std::string::npos);
 }
 
 TEST(Comparison, seeds_are_written_short) {

@@ -30,6 +30,7 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.decisions = 400;
   summary.knob_changes = 9;
   summary.policy_faults = 10;
+  summary.policy_trouble = "threw: <enough>";
   summary.latency_p50_s = 0.11;
   summary.latency_p95_s = 0.22;
   summary.latency_max_s = 0.33;

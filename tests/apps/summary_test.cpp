@@ -22,6 +22,7 @@ TEST(Summary, reads_back_what_was_written) {
   EXPECT_EQ(read.seed, written.seed);
   EXPECT_EQ(read.kernels.at("octomap").calls, 123U);
   EXPECT_EQ(read.quality.at("area_covered_percent"), 97.25);
+  EXPECT_EQ(read.policy_trouble, "threw: <enough>");
   ASSERT_EQ(read.promises.size(), 2U);
   EXPECT_EQ(read.promises[0].most_late, 3.5);
   EXPECT_FALSE(read.promises[1].most_late);
@@ -83,6 +84,7 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "decisions",
                               "knob_changes",
                               "policy_faults",
+                              "policy_trouble",
                               "latency_s",
                               "maps",
                               "bound_overruns",

@@ -4,6 +4,7 @@
 #ifdef FLYBALL_EXAMPLES
 
 #include "../apps/short_delivery.h"
+#include "scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,18 @@ TEST(PolicyFlights, of_one_rule_in_three_kinds_of_file_have_one_trace) {
   EXPECT_EQ(preset.trace_hash, flown_with(FLYBALL_EXAMPLES "/density_switch.lua").trace_hash);
 #endif
 }
+
+#ifdef FLYBALL_HAS_LUA
+TEST(PolicyFlights, of_a_rule_that_fails_are_flown_with_safe_settings_and_say_why) {
+  const ScratchFolder scratch;
+  const Summary summary =
+      flown_with(scratch.file("tired.lua", "function decide(seen)\n  error('no more')\nend\n"));
+  EXPECT_EQ(summary.status, MissionStatus::succeeded);
+  EXPECT_EQ(summary.policy_faults, summary.decisions);
+  EXPECT_NE(summary.policy_trouble.find("tired.lua:2: no more"), std::string::npos)
+      << summary.policy_trouble;
+}
+#endif
 
 }  // namespace
 }  // namespace flyball

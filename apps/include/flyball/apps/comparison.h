@@ -22,6 +22,9 @@ struct ComparisonRow {
   int succeeded{};
   int collisions{};
   std::map<std::string, int> failures{};
+  std::uint64_t decisions{};      ///< Of all its flights.
+  std::uint64_t policy_faults{};  ///< Of these.
+  std::string policy_trouble{};   ///< The first one's.
   std::optional<MedianInterval> mission_time_s{};
   std::optional<MedianInterval> energy_total_j{};
   std::optional<MedianInterval> battery_used_percent{};

@@ -57,8 +57,9 @@ struct Summary {
   std::uint64_t deadline_overruns{};
   std::uint64_t decisions{};
   std::uint64_t knob_changes{};
-  std::uint64_t policy_faults{};
-  double latency_p50_s{};  ///< Sensor to command.
+  std::uint64_t policy_faults{};  ///< Decisions in which safe settings stood in for the policy.
+  std::string policy_trouble{};   ///< Why it failed first, in one sentence; empty: it did not.
+  double latency_p50_s{};         ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
   std::uint64_t maps{};                   ///< Published; each was expected within a bound.
@@ -89,6 +90,11 @@ struct Summary {
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
 /// {name: {...}}`, `quality {name: number}` and `promises`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
+/// `failed in 3 of 400 decisions and was replaced by safe settings there: threw: no more`; empty
+/// where it never failed.
+[[nodiscard]] std::string trouble_text(std::uint64_t faults,
+                                       std::uint64_t decisions,
+                                       const std::string& why);
 /// @return Empty optional-like result when the text is not a summary.
 [[nodiscard]] bool from_json(const std::string& text, Summary& summary);
 
