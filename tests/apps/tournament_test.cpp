@@ -109,6 +109,9 @@ TEST(Tournament, holds_promises_against_what_was_stated_level_by_level) {
   EXPECT_DOUBLE_EQ(fine.late_percent(), 5.0);
   EXPECT_DOUBLE_EQ(*fine.most_percent(), 100.0 * 7.0 / 80.0);
   EXPECT_FALSE(worlds[0].promises[1].most_percent()) << "nothing is stated there";
+  PromiseFigures few = fine;
+  few.issued = 3;
+  EXPECT_EQ(few.most_percent(), 100.0) << "more than all cannot be late";
   EXPECT_NE(to_text(worlds).find("promises of latency"), std::string::npos);
   EXPECT_NE(tournament_page("Tournament", worlds).find("Promises of latency"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 
 #include "flyball/apps/comparison.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -57,7 +58,7 @@ struct PromiseFigures {
       most_late{};  ///< The share asked for and the stated slack; empty: unstated.
   [[nodiscard]] double late_percent() const { return percent(static_cast<double>(late)); }
   [[nodiscard]] std::optional<double> most_percent() const {
-    return most_late ? std::optional{percent(*most_late)} : std::nullopt;
+    return most_late ? std::optional{std::min(100.0, percent(*most_late))} : std::nullopt;
   }
 
  private:
