@@ -18,7 +18,7 @@
 
 #include "bricks/bits.h"
 #include "bricks/clear_cells.h"
-#include "bricks/ray_scan.h"
+#include "bricks/exact_scan.h"
 #include "layered_view.h"
 #include "octomap_tree.h"
 #include "shown_cells.h"
@@ -46,9 +46,7 @@ class LayeredMapper final : public Mapper {
     }
     try {
       Layer& layer = layer_of(settings.resolution_m);
-      to_world(cloud_C, X_WC, scan_);
-      scan_.range_m = settings.range_m;
-      masks_ = &layer.rays.compute(scan_);
+      masks_ = &layer.exact.compute(cloud_C, X_WC, settings.range_m);
       pending_ = &layer;
       Work work;
       work.add("frame", 1.0);
@@ -141,7 +139,7 @@ class LayeredMapper final : public Mapper {
   struct Layer {
     explicit Layer(Store of_cells)
         : cell_m{of_cells.cell_m()},
-          rays{cell_m, RayScan::Match::stock},
+          exact{cell_m},
           store{std::move(of_cells)},
           clear{cell_m},
           walls{cell_m} {}
@@ -167,7 +165,7 @@ class LayeredMapper final : public Mapper {
     }
 
     double cell_m;
-    RayScan rays;
+    ExactScan exact;
     Store store;
     ClearCells clear;
     Store walls;
@@ -199,7 +197,6 @@ class LayeredMapper final : public Mapper {
 
   std::vector<std::unique_ptr<Layer>> layers_{};
   LayeredView<typename Store::Cells> view_{};
-  Scan scan_{};
   const ScanMasks* masks_{};  ///< Of the pending layer.
   Layer* pending_{};
 };

@@ -9,7 +9,7 @@
 namespace flyball {
 namespace {
 
-constexpr std::size_t spare = 4;  // four are read from the last one on
+constexpr std::size_t spare = lanes;  // so many are read from the last one on
 
 }  // namespace
 

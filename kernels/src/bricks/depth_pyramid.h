@@ -19,14 +19,6 @@ struct DepthSpan {
   float most;
 };
 
-/// Pixels from (u0, v0) to (u1, v1), both included.
-struct PixelBlock {
-  int u0;
-  int v0;
-  int u1;
-  int v1;
-};
-
 class DepthPyramid {
  public:
   /// Puts the cloud's points back into the pixels from which they came. A pixel without a point has

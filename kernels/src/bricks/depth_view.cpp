@@ -5,13 +5,37 @@
 #include <cmath>
 
 namespace flyball {
-namespace {
 
-constexpr float nearest_depth_m = 0.05F;  // nearer, a block's image has no bounds
+/// The image of the box of C around a cube, in pixels from the image's corner; perhaps beside it.
+struct DepthView::Image {
+  float u0;
+  float v0;
+  float u1;
+  float v1;
 
-}  // namespace
+  [[nodiscard]] bool is_beside(const PixelGrid& grid) const {
+    return u1 < 0.0F || v1 < 0.0F || u0 >= static_cast<float>(grid.width_px) ||
+           v0 >= static_cast<float>(grid.height_px);
+  }
+  [[nodiscard]] bool is_inside(const PixelGrid& grid) const {
+    return u0 >= 0.0F && v0 >= 0.0F && u1 < static_cast<float>(grid.width_px) &&
+           v1 < static_cast<float>(grid.height_px);
+  }
+  /// @pre It is not beside the image.
+  [[nodiscard]] PixelBlock pixels(const PixelGrid& grid) const {
+    const auto last = [](float at, int size) {
+      return static_cast<int>(std::min(at, static_cast<float>(size - 1)));
+    };
+    return {static_cast<int>(std::max(u0, 0.0F)), static_cast<int>(std::max(v0, 0.0F)),
+            last(u1, grid.width_px), last(v1, grid.height_px)};
+  }
+};
 
-void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+void DepthView::look(const PointCloud& cloud_C,
+                     const Pose& X_WC,
+                     double range_m,
+                     SightMargins margins) {
+  margins_ = margins;
   depth_.build(cloud_C, range_m, loops_);
   const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
   measure_cubes(R_CW, range_m);
@@ -21,7 +45,7 @@ void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m
 
 void DepthView::measure_cubes(const Eigen::Matrix3d& R_CW, double range_m) {
   for (std::size_t level = 0; level < extents_.size(); ++level) {
-    const double half_m = 0.5 * finest_m_ * (1 << level);
+    const double half_m = 0.5 * finest_m_ * (1 << level) + margins_.slack_m;
     const double ball_m = std::sqrt(3.0) * half_m;
     const double near_m = std::max(range_m - ball_m, 0.0);
     const double far_m = range_m + ball_m;
@@ -44,7 +68,7 @@ void DepthView::aim_octants(const Eigen::Matrix3d& R_CW) {
       }
     }
     probe.half_C = {extent.half.x(), extent.half.y(), extent.half.z()};
-    probe.nearest_m = nearest_depth_m;
+    probe.nearest_m = static_cast<float>(margins_.nearest_m);
     probe.squared_near_m2 = extent.squared_near;
     probe.squared_far_m2 = extent.squared_far;
     probe.grid = depth_.grid();
@@ -63,48 +87,71 @@ void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, double range_m) {
     }
   }
   probe_.grid = depth_.grid();
-  probe_.nearest_m = nearest_depth_m;
+  probe_.nearest_m = static_cast<float>(margins_.nearest_m);
   probe_.squared_range_m2 = static_cast<float>(range_m * range_m);
   probe_.half_cell_m = static_cast<float>(0.5 * finest_m_);
   probe_.depth_m = depth_.depth_m();
 }
 
-Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
+Aabb DepthView::box_of_view(const Pose& X_WC, double range_m, double margin_m) const {
   const PixelGrid& grid = probe_.grid;
+  const Vec3 p_WC = X_WC.translation();
+  Aabb box{p_WC, p_WC};
+  for (const float u : {0.0F, static_cast<float>(grid.width_px)}) {
+    for (const float v : {0.0F, static_cast<float>(grid.height_px)}) {
+      const Vec3 corner_C{(u - grid.centre_u_px) / grid.focal_px,
+                          (v - grid.centre_v_px) / grid.focal_px, 1.0};
+      const Vec3 corner_W = X_WC * (range_m * corner_C);
+      box.min = box.min.cwiseMin(corner_W);
+      box.max = box.max.cwiseMax(corner_W);
+    }
+  }
+  const Vec3 reach = Vec3::Constant(range_m + margin_m);
+  const Vec3 margin = Vec3::Constant(margin_m);
+  return {box.min.cwiseMax(p_WC - reach) - margin, box.max.cwiseMin(p_WC + reach) + margin};
+}
+
+// At its near end where it spreads, else at its far end.
+DepthView::Image DepthView::image_of(const Eigen::Vector3f& centre_C, const Extent& extent) const {
+  const PixelGrid& grid = probe_.grid;
+  const float first_z = centre_C.z() - extent.half.z();
+  constexpr float without_bounds = 1e9F;
+  const float near_scale = first_z > probe_.nearest_m ? grid.focal_px / first_z : without_bounds;
+  const float far_scale = grid.focal_px / (centre_C.z() + extent.half.z());
+  const auto low_px = [&](float x) { return x * (x < 0.0F ? near_scale : far_scale); };
+  const auto high_px = [&](float x) { return x * (x < 0.0F ? far_scale : near_scale); };
+  return {low_px(centre_C.x() - extent.half.x()) + grid.centre_u_px,
+          low_px(centre_C.y() - extent.half.y()) + grid.centre_v_px,
+          high_px(centre_C.x() + extent.half.x()) + grid.centre_u_px,
+          high_px(centre_C.y() + extent.half.y()) + grid.centre_v_px};
+}
+
+PixelBlock DepthView::pixels_around(const Eigen::Vector3f& centre_C, int level) const {
+  const Image image = image_of(centre_C, extents_[static_cast<std::size_t>(level)]);
+  return image.is_beside(probe_.grid) ? PixelBlock{0, 0, -1, -1} : image.pixels(probe_.grid);
+}
+
+Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();
   const float last_z = centre_C.z() + extent.half.z();
   const float squared_distance = centre_C.squaredNorm();
-  if (last_z <= nearest_depth_m || squared_distance > extent.squared_far) {
+  if (last_z <= probe_.nearest_m || squared_distance > extent.squared_far) {
     return Sight::none;
   }
-  if (first_z <= nearest_depth_m) {
+  if (first_z <= probe_.nearest_m) {
     return Sight::part;
   }
-  // The image of the box of C around the cube: at its near end where it spreads, else at its far.
-  const float near_scale = grid.focal_px / first_z;
-  const float far_scale = grid.focal_px / last_z;
-  const auto low_px = [&](float x) { return x * (x < 0.0F ? near_scale : far_scale); };
-  const auto high_px = [&](float x) { return x * (x < 0.0F ? far_scale : near_scale); };
-  const float u0 = low_px(centre_C.x() - extent.half.x()) + grid.centre_u_px;
-  const float u1 = high_px(centre_C.x() + extent.half.x()) + grid.centre_u_px;
-  const float v0 = low_px(centre_C.y() - extent.half.y()) + grid.centre_v_px;
-  const float v1 = high_px(centre_C.y() + extent.half.y()) + grid.centre_v_px;
-  const auto width = static_cast<float>(grid.width_px);
-  const auto height = static_cast<float>(grid.height_px);
-  if (u1 < 0.0F || v1 < 0.0F || u0 >= width || v0 >= height) {
+  const Image image = image_of(centre_C, extent);
+  if (image.is_beside(probe_.grid)) {
     return Sight::none;
   }
-  const PixelBlock pixels{
-      static_cast<int>(std::max(u0, 0.0F)), static_cast<int>(std::max(v0, 0.0F)),
-      static_cast<int>(std::min(u1, width - 1.0F)), static_cast<int>(std::min(v1, height - 1.0F))};
-  const DepthSpan behind = depth_.span(pixels);
+  const DepthSpan behind = depth_.span(image.pixels(probe_.grid));
   if (first_z >= behind.most) {
     return Sight::none;
   }
-  const bool in_view = u0 >= 0.0F && v0 >= 0.0F && u1 < width && v1 < height;
-  const bool is_whole =
-      in_view && squared_distance <= extent.squared_near && last_z <= behind.least;
+  const bool is_whole = image.is_inside(probe_.grid) && squared_distance <= extent.squared_near &&
+                        last_z <= behind.least;
   return is_whole ? Sight::whole : Sight::part;
 }
 

@@ -18,12 +18,20 @@ enum class Sight : std::uint8_t {
   whole,  ///< All: in view, in range, and nearer than the least depth behind it.
 };
 
+/// How a block is held against an image.
+struct SightMargins {
+  double nearest_m{0.05};  ///< Nearer to the camera, a block's image has no bounds.
+  double slack_m{0.0};     ///< Blocks are taken for wider by this to each side.
+};
+
 class DepthView {
  public:
   DepthView(double finest_m, const InnerLoops& loops) : finest_m_{finest_m}, loops_{loops} {}
 
   /// @pre The cloud has a camera.
-  void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m, SightMargins margins = {});
+  /// The box in W around the camera and all that it sees within the range, and a margin.
+  [[nodiscard]] Aabb box_of_view(const Pose& X_WC, double range_m, double margin_m) const;
   /// A cube of level 1..5 around a point of C.
   [[nodiscard]] Sight sight_of(const Eigen::Vector3f& centre_C, int level) const;
   /// Of the eight cubes in a cube of level 2..5.
@@ -38,6 +46,10 @@ class DepthView {
     const auto& offset_C = octants_[static_cast<std::size_t>(level)].offset_C;
     return {offset_C[0][octant], offset_C[1][octant], offset_C[2][octant]};
   }
+  /// The pixels whose rays may cross a block: the whole side of the image where it has no bounds.
+  /// @pre Some of it lies before the camera and in view.
+  [[nodiscard]] PixelBlock pixels_around(const Eigen::Vector3f& centre_C, int level) const;
+  [[nodiscard]] const DepthPyramid& depths() const { return depth_; }
   /// For the single cells of a brick; see InnerLoops::seen_cells.
   [[nodiscard]] const CellProbe& probe() const { return probe_; }
 
@@ -48,12 +60,15 @@ class DepthView {
     float squared_near{};  ///< Centres nearer than this: the cube is in range as a whole.
     float squared_far{};   ///< Centres farther than this: it is out of range.
   };
+  struct Image;
+  [[nodiscard]] Image image_of(const Eigen::Vector3f& centre_C, const Extent& extent) const;
   void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
   void aim_octants(const Eigen::Matrix3d& R_CW);
   void aim_probe(const Eigen::Matrix3d& R_CW, double range_m);
 
   double finest_m_;
   const InnerLoops& loops_;
+  SightMargins margins_{};
   DepthPyramid depth_{};
   std::array<Extent, chunk_level + 1> extents_{};
   std::array<OctantProbe, chunk_level + 1> octants_{};  ///< By the level of the outer cube.

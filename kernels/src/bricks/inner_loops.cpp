@@ -33,6 +33,11 @@ using Doubles [[gnu::vector_size(vector_bytes)]] = double;
 inline Doubles roots(const Doubles& numbers) {
   return Doubles{std::sqrt(numbers[0]), std::sqrt(numbers[1])};
 }
+using Singles [[gnu::vector_size(vector_bytes)]] = float;
+inline Singles roots(const Singles& numbers) {
+  return Singles{std::sqrt(numbers[0]), std::sqrt(numbers[1]), std::sqrt(numbers[2]),
+                 std::sqrt(numbers[3])};
+}
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 /// All bits of a byte, or none, for each of the lowest bits of a mask.
 inline Bytes bytes_of(std::uint64_t mask) {
@@ -63,6 +68,7 @@ inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "crossing_loops.inc"
 #include "view_octants.inc"
 }  // namespace portable
 
@@ -74,6 +80,10 @@ constexpr std::size_t vector_bytes = 32;
 using Doubles [[gnu::vector_size(vector_bytes)]] = double;
 inline Doubles roots(const Doubles& numbers) {
   return Doubles(_mm256_sqrt_pd(__m256d(numbers)));
+}
+using Singles [[gnu::vector_size(vector_bytes)]] = float;
+inline Singles roots(const Singles& numbers) {
+  return Singles(_mm256_sqrt_ps(__m256(numbers)));
 }
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 inline Bytes bytes_of(std::uint64_t mask) {
@@ -95,6 +105,7 @@ inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "crossing_loops.inc"
 #include "view_octants.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
@@ -104,6 +115,10 @@ using Doubles [[gnu::vector_size(vector_bytes)]] = double;
 inline Doubles roots(const Doubles& numbers) {
   // Zero-masked, for GCC 12 warns of what the plain one leaves unset.
   return Doubles(_mm512_maskz_sqrt_pd(0xff, __m512d(numbers)));
+}
+using Singles [[gnu::vector_size(vector_bytes)]] = float;
+inline Singles roots(const Singles& numbers) {
+  return Singles(_mm512_maskz_sqrt_ps(0xffff, __m512(numbers)));
 }
 using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
 inline Bytes bytes_of(std::uint64_t mask) {
@@ -138,6 +153,7 @@ inline bool mark_distinct(const Lanes<std::int32_t>& steps,
 }
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "crossing_loops.inc"
 #include "view_octants.inc"
 }  // namespace avx512
 #pragma GCC pop_options

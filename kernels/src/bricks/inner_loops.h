@@ -99,6 +99,12 @@ struct PixelGrid {
   float centre_v_px;
   std::int32_t width_px;
   std::int32_t height_px;
+
+  [[nodiscard]] bool operator==(const PixelGrid& other) const {
+    return focal_px == other.focal_px && centre_u_px == other.centre_u_px &&
+           centre_v_px == other.centre_v_px && width_px == other.width_px &&
+           height_px == other.height_px;
+  }
 };
 
 /// The cells of a window of chunks (see mask_window.h).
@@ -115,6 +121,56 @@ struct HitFrame {
   float squared_range_m2;  ///< The greatest squared length that is within the range.
   double cells_per_m;
   WindowChunks window;
+};
+
+/// What settles rays without a walk (see exact_scan.h).
+struct EndFrame {
+  std::array<std::array<float, 3>, 3> R_WC;
+  std::array<float, 3> in_cell;  ///< From the corner of its cell to the origin [m].
+  float range_m;
+  float cells_per_m;
+  float range_doubt_m;         ///< Ends nearer to the range are not sure,
+  std::array<float, 3> doubt;  ///< nor those nearer to a border of cells along an axis, in cells.
+  std::array<std::int32_t, 3> start;  ///< Of the origin's cell in the window.
+  WindowChunks window;
+};
+
+/// What the ends of sixteen rays tell of them.
+struct alignas(64) RayEnds {
+  Lanes<std::int32_t> steps;    ///< Cells that the ray crosses before that of its end.
+  Lanes<std::int32_t> cells;    ///< Of hits, as `locate_hits` finds them; -1 beyond the range.
+  Lanes<std::int32_t> is_sure;  ///< Not 0 where no rounding can put the end elsewhere.
+};
+
+/// The rays through the middles of an image's pixels, in W and of depth 1: the sum of what their
+/// column and their row says. A vector of pixels or columns may be read from any of them on.
+struct PixelProbe {
+  std::array<const float*, 3> column_W;
+  std::array<const float*, 3> row_W;
+  const float* depth_m;  ///< That was seen.
+  const float* range_m;  ///< As a depth: where the ray is cut.
+  std::int32_t width_px;
+};
+
+/// Pixels from (u0, v0) to (u1, v1), both included.
+struct PixelBlock {
+  int u0;
+  int v0;
+  int u1;
+  int v1;
+};
+
+/// A box in W, from the eye [m].
+struct BoxOfCell {
+  std::array<float, 3> centre;
+  std::array<float, 3> half;
+  std::array<float, 3> slack;  ///< By which its sides may be off.
+};
+
+/// Whether rays cross a box and end behind it.
+struct Crossing {
+  bool is_sure;      ///< At least one, whatever the slack.
+  bool is_possible;  ///< Perhaps one does. Said of the pixels before a sure one only.
 };
 
 /// Two rows of a scale of a depth pyramid, each as its least and its greatest depths.
@@ -208,6 +264,13 @@ struct InnerLoops {
   OctantSight (*see_octants)(const OctantProbe& probe, const float* centre_C);
   /// The same, when only those seen as a whole matter.
   std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
+  /// Counts what rays to points of C cross, by the cells of their ends.
+  void (*settle_rays)(const PointBlock& points_C, const EndFrame& frame, RayEnds& settled);
+  /// Asks every `row_step`-th row of the pixels, until one is sure.
+  Crossing (*cross_box)(const PixelProbe& probe,
+                        const BoxOfCell& box,
+                        const PixelBlock& pixels,
+                        int row_step);
   /// Takes sixteen points, three numbers each.
   void (*split_points)(const float* points, PointBlock& block);
   /// Takes sixteen points of C to W, through doubles and back to floats, and puts them one after

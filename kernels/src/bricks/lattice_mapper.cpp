@@ -5,6 +5,7 @@
 #include "brick_contents.h"
 #include "brick_view.h"
 #include "chunk_log.h"
+#include "exact_scan.h"
 #include "map_file.h"
 #include "pyramid_scan.h"
 #include "ray_scan.h"
@@ -93,12 +94,11 @@ class LatticeMapper final : public Mapper {
     if (pending_ != nullptr) {
       map_.apply(pending_->bricks);
       if (keep_radius_m_ > 0.0) {
-        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, scan_.range_m),
-                         [this](const Chunk& chunk) {
-                           if (forgotten_) {
-                             forgotten_->append(chunk);
-                           }
-                         });
+        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, range_m_), [this](const Chunk& chunk) {
+          if (forgotten_) {
+            forgotten_->append(chunk);
+          }
+        });
       }
       view_.activate(pending_level_);
       pending_ = nullptr;
@@ -157,8 +157,7 @@ class LatticeMapper final : public Mapper {
     pending_ = nullptr;
     exact_.clear();
     for (int level = 0; level <= coarsest_level; ++level) {
-      exact_.push_back(
-          std::make_unique<RayScan>(map_.lattice().cell_m(level), RayScan::Match::stock));
+      exact_.push_back(std::make_unique<ExactScan>(map_.lattice().cell_m(level)));
     }
     close_ = std::make_unique<RayScan>(finest_m, RayScan::Match::close);
     pyramid_ = std::make_unique<PyramidScan>(finest_m);
@@ -198,29 +197,31 @@ class LatticeMapper final : public Mapper {
                  const MapperSettings& settings,
                  int level) {
     eye_W_ = X_WC.translation();
+    range_m_ = settings.range_m;
     const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
-    if (!looks || reports_stock_work_ || most_traversals_ > 0.0) {
-      to_world(cloud_C, X_WC, scan_);
-    }
-    scan_.range_m = settings.range_m;
     const ScanMasks* stock = nullptr;
     if (reports_stock_work_) {
-      stock = &exact_[static_cast<std::size_t>(level)]->compute(scan_);
+      stock = &exact_[static_cast<std::size_t>(level)]->compute(cloud_C, X_WC, range_m_);
     }
     Work work = work_of(stock);
-    if (most_traversals_ > 0.0) {
-      scan_.range_m = range_within(scan_, map_.lattice().cell_m(0), most_traversals_);
+    const bool is_limited = most_traversals_ > 0.0;
+    if (is_limited || (!looks && front_end_ == FrontEnd::rays)) {
+      to_world(cloud_C, X_WC, scan_);
+      scan_.range_m = range_m_;
     }
-    const bool is_done = stock != nullptr && !looks && level == 0 &&
-                         front_end_ == FrontEnd::exact && !(most_traversals_ > 0.0);
-    pending_ = is_done ? stock
-               : looks ? &pyramid_->compute(cloud_C, X_WC, scan_.range_m, level)
-                       : &walker().compute(scan_);
+    if (is_limited) {
+      range_m_ = range_within(scan_, map_.lattice().cell_m(0), most_traversals_);
+      scan_.range_m = range_m_;
+    }
+    const bool is_exact = front_end_ == FrontEnd::exact;
+    const bool is_done = stock != nullptr && !looks && level == 0 && is_exact && !is_limited;
+    pending_ = is_done    ? stock
+               : looks    ? &pyramid_->compute(cloud_C, X_WC, range_m_, level)
+               : is_exact ? &exact_[0]->compute(cloud_C, X_WC, range_m_)
+                          : &close_->compute(scan_);
     pending_level_ = level;
     return reports_stock_work_ ? work : work_of(pending_);
   }
-
-  [[nodiscard]] RayScan& walker() { return front_end_ == FrontEnd::exact ? *exact_[0] : *close_; }
 
   static Work work_of(const ScanMasks* masks) {
     Work work;
@@ -244,10 +245,11 @@ class LatticeMapper final : public Mapper {
   BrickMap map_{default_finest_m};
   BrickView view_{map_};
   std::unique_ptr<ChunkLog> forgotten_{};  ///< Null where nothing is, and where nobody asks.
-  std::vector<std::unique_ptr<RayScan>> exact_{};  ///< One for each level, which sets its counts.
+  std::vector<std::unique_ptr<ExactScan>> exact_{};  ///< One for each level, which sets its counts.
   std::unique_ptr<RayScan> close_{};
   std::unique_ptr<PyramidScan> pyramid_{};
   Scan scan_{};
+  double range_m_{};  ///< Of the pending scan.
   const ScanMasks* pending_{};
   int pending_level_{};
   Vec3 eye_W_{Vec3::Zero()};  ///< Of the pending scan.

@@ -24,6 +24,7 @@ class MaskWindow {
   /// Of a chunk's first brick. @pre `chunk` lies in the window.
   [[nodiscard]] std::size_t place(const CellKey& chunk) const;
 
+  [[nodiscard]] std::uint64_t hits(std::size_t place) const { return masks_[place].hit; }
   void add_free(std::size_t place, std::uint64_t cells) {
     masks_[place].free |= cells;
     touch(place);

@@ -2,26 +2,12 @@
 #include "pyramid_scan.h"
 
 #include "bits.h"
+#include "scan.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flyball {
 namespace {
-
-/// The greatest float whose root, in double, is at most `length`: a length that octomath computes
-/// (the root of a square in float) is held against the range without a root.
-float greatest_square(double length) {
-  const float infinity = std::numeric_limits<float>::infinity();
-  auto square = static_cast<float>(length * length);
-  while (std::sqrt(static_cast<double>(square)) > length) {
-    square = std::nextafter(square, 0.0F);
-  }
-  while (std::sqrt(static_cast<double>(std::nextafter(square, infinity))) <= length) {
-    square = std::nextafter(square, infinity);
-  }
-  return square;
-}
 
 /// In a block of a level from `brick_level` on.
 std::size_t bricks_in(int level) {
@@ -58,26 +44,10 @@ const ScanMasks& PyramidScan::compute(const PointCloud& cloud_C,
   return masks_;
 }
 
-/// The box around the camera and the far corners of its view.
 void PyramidScan::span_window(const Pose& X_WC, double range_m) {
-  const PixelGrid& grid = view_.probe().grid;
-  const Vec3 p_WC = X_WC.translation();
-  Vec3 low = p_WC;
-  Vec3 high = p_WC;
-  for (const float u : {0.0F, static_cast<float>(grid.width_px)}) {
-    for (const float v : {0.0F, static_cast<float>(grid.height_px)}) {
-      const Vec3 corner_C{(u - grid.centre_u_px) / grid.focal_px,
-                          (v - grid.centre_v_px) / grid.focal_px, 1.0};
-      const Vec3 corner_W = X_WC * (range_m * corner_C);
-      low = low.cwiseMin(corner_W);
-      high = high.cwiseMax(corner_W);
-    }
-  }
-  const Vec3 reach = Vec3::Constant(range_m + lattice_.cell_m(0));
-  const Vec3 first = low.cwiseMax(p_WC - reach) - Vec3::Constant(lattice_.cell_m(0));
-  const Vec3 last = high.cwiseMin(p_WC + reach) + Vec3::Constant(lattice_.cell_m(0));
-  first_chunk_ = lattice_.cell(first).above(chunk_level);
-  last_chunk_ = lattice_.cell(last).above(chunk_level);
+  const Aabb box = view_.box_of_view(X_WC, range_m, lattice_.cell_m(0));
+  first_chunk_ = lattice_.cell(box.min).above(chunk_level);
+  last_chunk_ = lattice_.cell(box.max).above(chunk_level);
   window_.span(first_chunk_, last_chunk_);
 }
 

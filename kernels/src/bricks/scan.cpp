@@ -5,6 +5,7 @@
 #include "ray_scan.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
@@ -45,6 +46,18 @@ void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan) {
   move(cloud_C.hits_C, scan.hits_W);
   move(cloud_C.clear_C, scan.clear_W);
   scan.origin_W = to_octomap(X_WC.translation());
+}
+
+float greatest_square(double length) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  auto square = static_cast<float>(length * length);
+  while (std::sqrt(static_cast<double>(square)) > length) {
+    square = std::nextafter(square, 0.0F);
+  }
+  while (std::sqrt(static_cast<double>(std::nextafter(square, infinity))) <= length) {
+    square = std::nextafter(square, infinity);
+  }
+  return square;
 }
 
 Status check_scan(const PointCloud& cloud_C,

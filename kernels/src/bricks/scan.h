@@ -24,6 +24,10 @@ struct Scan {
 /// Into the world, rounded to floats as stock OctoMap gets them.
 void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan);
 
+/// The greatest float whose root, in double, is at most `length`: a length that octomath computes
+/// (the root of a square in float) is held against the range without a root.
+[[nodiscard]] float greatest_square(double length);
+
 /// What is checked of a scan whatever the map.
 ///
 /// @param cell_m  Of the cells that its rays cross.

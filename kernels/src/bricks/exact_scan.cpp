@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exact_scan.h"
+
+#include "flyball/runtime/assert.h"
+
+#include "../ray_walk.h"
+#include "bits.h"
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+constexpr std::size_t few = 16;  ///< If more rays than this part are walked, all may as well be.
+
+/// What floats up to this size, and sums of a few of them, may be off, with some to spare: a float
+/// is right to 6e-8 of it.
+double slack_at(double greatest_m) {
+  constexpr double least_m = 1e-6;
+  constexpr double share = 5e-7;
+  return least_m + share * greatest_m;
+}
+
+/// Points with a depth: each in a pixel of its own, and all of them in the image?
+bool are_one_a_pixel(const DepthPyramid& depths, std::size_t points) {
+  const PixelGrid& grid = depths.grid();
+  const auto pixels = static_cast<std::ptrdiff_t>(grid.width_px) * grid.height_px;
+  return std::count_if(depths.depth_m(), depths.depth_m() + pixels, [](float depth_m) {
+           return depth_m > 0.0F;
+         }) == static_cast<std::ptrdiff_t>(points);
+}
+
+}  // namespace
+
+ExactScan::ExactScan(double cell_m, Simd simd)
+    : lattice_{cell_m},
+      stock_lattice_{cell_m},
+      loops_{inner_loops(simd)},
+      rays_{cell_m, RayScan::Match::stock, simd},
+      view_{cell_m, loops_} {
+  frame_.cell_m = cell_m;
+  frame_.cells_per_m = lattice_.cells_per_m();
+}
+
+const ScanMasks& ExactScan::compute(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  const std::size_t rays = cloud_C.hits_C.size() + cloud_C.clear_C.size();
+  walked_ = 0;
+  traversals_ = 0;
+  masks_.bricks.clear();
+  if (!look(cloud_C, X_WC, range_m)) {
+    return walk_all(cloud_C, X_WC, range_m);
+  }
+  settle(cloud_C.hits_C, true);
+  settle(cloud_C.clear_C, false);
+  const bool is_settled = walked_ <= rays / few;
+  if (is_settled) {
+    free_seen(X_WC.inverse());
+    walk_doubtful(cloud_C);
+  }
+  masks_.updates = static_cast<double>(window_.collect(masks_.bricks));
+  masks_.rays = static_cast<double>(rays);
+  masks_.traversals = static_cast<double>(traversals_);
+  return is_settled ? masks_ : walk_all(cloud_C, X_WC, range_m);
+}
+
+const ScanMasks& ExactScan::walk_all(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  to_world(cloud_C, X_WC, scan_);
+  scan_.range_m = range_m;
+  walked_ = scan_.hits_W.size() + scan_.clear_W.size();
+  return rays_.compute(scan_);
+}
+
+/// False where the rays are not those of an image's pixels, or begin on an edge of cells.
+bool ExactScan::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+  if (!cloud_C.camera) {
+    return false;
+  }
+  const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
+  eye_W_ = origin_W.cast<double>();
+  const CellKey cell = lattice_.cell(eye_W_);
+  const Vec3 slack_m = eye_W_.cwiseAbs().unaryExpr([&](double m) { return slack_at(m + range_m); });
+  if (borders_near(eye_W_, cell, 3.0 * slack_m) > 1) {
+    return false;
+  }
+  const double block_slack_m =
+      slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
+  view_.look(cloud_C, X_WC, range_m, {block_slack_m, block_slack_m});
+  if (!are_one_a_pixel(view_.depths(), cloud_C.hits_C.size() + cloud_C.clear_C.size())) {
+    return false;
+  }
+  ways_.aim(view_.depths(), X_WC, range_m);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box_.half[axis] = static_cast<float>(0.5 * frame_.cell_m);
+    box_.slack[axis] = static_cast<float>(slack_m(static_cast<int>(axis)));
+  }
+  constexpr double ball_px = 0.75;  // a disc that wide holds the middle of a pixel
+  ball_reach_m_ = (0.5 * frame_.cell_m - block_slack_m) * cloud_C.camera->focal_px / ball_px;
+  frame_.range_m = range_m;
+  frame_.origin_W = {origin_W.x(), origin_W.y(), origin_W.z()};
+  frame_.start = {cell.x, cell.y, cell.z};
+  span_window(X_WC);
+  rows_ = rows_of(X_WC);
+  aim_ends(cell, range_m);
+  return true;
+}
+
+void ExactScan::aim_ends(const CellKey& own, double range_m) {
+  constexpr double share = 2.4e-7;  // of a place in W: what stock's floats may be off
+  const Vec3 in_cell = eye_W_ - lattice_.cube(own, 0).min;
+  ends_.range_m = static_cast<float>(range_m);
+  ends_.cells_per_m = static_cast<float>(frame_.cells_per_m);
+  ends_.range_doubt_m =
+      static_cast<float>(3.0 * slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m));
+  ends_.window = window_.chunks();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto row = static_cast<int>(axis);
+    for (std::size_t column = 0; column < 3; ++column) {
+      ends_.R_WC[axis][column] = static_cast<float>(rows_[axis][column]);
+    }
+    ends_.in_cell[axis] = static_cast<float>(in_cell(row));
+    ends_.start[axis] = frame_.start[axis] - ends_.window.first[axis];
+    ends_.doubt[axis] =
+        static_cast<float>(frame_.cells_per_m *
+                           (3.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
+  }
+}
+
+/// Along how many axes a point of a cell is as near as that to one of its sides.
+int ExactScan::borders_near(const Vec3& p_W, const CellKey& cell, const Vec3& near_m) const {
+  const Aabb cube = lattice_.cube(cell, 0);
+  return static_cast<int>(
+      ((p_W - cube.min).cwiseMin(cube.max - p_W).array() < near_m.array()).count());
+}
+
+void ExactScan::span_window(const Pose& X_WC) {
+  // A walk in OctoMap's arithmetic may step past its end by a cell.
+  const Aabb box = view_.box_of_view(X_WC, frame_.range_m, 2.0 * frame_.cell_m);
+  first_chunk_ = lattice_.cell(box.min).above(chunk_level);
+  last_chunk_ = lattice_.cell(box.max).above(chunk_level);
+  window_.span(first_chunk_, last_chunk_);
+}
+
+/// Counts what rays cross and marks hits.
+void ExactScan::settle(const std::vector<Eigen::Vector3f>& points_C, bool are_hits) {
+  for (std::size_t first = 0; first < points_C.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, points_C.size() - first);
+    PointBlock points;
+    RayEnds settled;
+    take_points(loops_, &points_C[first], count, points);
+    loops_.settle_rays(points, ends_, settled);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (settled.is_sure[lane] == 0) {
+        settled.cells[lane] = -1;
+        traversals_ += walk(points_C[first + lane], are_hits);
+      } else {
+        traversals_ += static_cast<std::size_t>(settled.steps[lane]);
+      }
+    }
+    if (are_hits) {
+      mark_hits(settled, count);
+    }
+  }
+}
+
+void ExactScan::mark_hits(const RayEnds& settled, std::size_t count) {
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    if (settled.cells[lane] >= 0) {
+      const auto cell = static_cast<std::size_t>(settled.cells[lane]);
+      window_.add_hit(cell >> 6U, std::uint64_t{1} << (cell & 63U));
+    }
+  }
+}
+
+void ExactScan::free_seen(const Pose& X_CW) {
+  if (traversals_ > 0) {  // The first cell of every ray that leaves it; it may lie behind the eye.
+    free_cell({frame_.start[0], frame_.start[1], frame_.start[2]});
+  }
+  for (int z = first_chunk_.z; z <= last_chunk_.z; ++z) {
+    for (int y = first_chunk_.y; y <= last_chunk_.y; ++y) {
+      for (int x = first_chunk_.x; x <= last_chunk_.x; ++x) {
+        free_chunk({x, y, z}, X_CW);
+      }
+    }
+  }
+}
+
+std::size_t ExactScan::place_of(const CellKey& cell) const {
+  return window_.place(cell.above(chunk_level)) + brick_number(cell.above(brick_level));
+}
+
+void ExactScan::free_cell(const CellKey& cell) {
+  window_.add_free(place_of(cell), std::uint64_t{1} << bit_in_brick(cell));
+}
+
+void ExactScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
+  const Aabb cube = lattice_.cube(chunk, chunk_level);
+  const Vec3 centre_W = 0.5 * (cube.min + cube.max);
+  const Block block{(X_CW * centre_W).cast<float>(), centre_W - eye_W_, window_.place(chunk),
+                    chunk_level};
+  const Sight sight = view_.sight_of(block.centre_C, block.level);
+  if (sight == Sight::whole && fills_pixels(block)) {
+    window_.free_block(block.place, std::size_t{512});
+  } else if (sight != Sight::none) {
+    free_inside(block);
+  }
+}
+
+bool ExactScan::fills_pixels(const Block& block) const {
+  const double ball_m = std::sqrt(0.75) * lattice_.cell_m(block.level);
+  return static_cast<double>(block.centre_C.norm()) + ball_m < ball_reach_m_;
+}
+
+ExactScan::Block ExactScan::octant_of(const Block& block,
+                                      unsigned octant,
+                                      std::size_t place) const {
+  const double half_m = 0.25 * lattice_.cell_m(block.level);
+  const Vec3 offset_W{(octant & 1U) != 0 ? half_m : -half_m, (octant & 2U) != 0 ? half_m : -half_m,
+                      (octant & 4U) != 0 ? half_m : -half_m};
+  return {block.centre_C + view_.to_octant(block.level, octant), block.centre_W + offset_W, place,
+          block.level - 1};
+}
+
+/// Of a block that is perhaps crossed in part.
+void ExactScan::free_inside(const Block& block) {
+  if (block.level == brick_level) {
+    free_brick(block);
+    return;
+  }
+  const OctantSight sight = view_.sight_of_octants(block.centre_C, block.level);
+  const std::size_t bricks = std::size_t{1}
+                             << 3 * static_cast<unsigned>(block.level - 1 - brick_level);
+  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+    const auto octant = static_cast<unsigned>(lowest_bit(left));
+    const Block part = octant_of(block, octant, block.place + octant * bricks);
+    if ((sight.whole >> octant & 1U) != 0 && fills_pixels(part)) {
+      window_.free_block(part.place, bricks);
+    } else {
+      free_inside(part);
+    }
+  }
+}
+
+void ExactScan::free_brick(const Block& brick) {
+  const OctantSight sight = view_.sight_of_octants(brick.centre_C, brick_level);
+  std::uint64_t free = 0;
+  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+    const auto octant = static_cast<unsigned>(lowest_bit(left));
+    const Block eighth = octant_of(brick, octant, brick.place);
+    const unsigned first_bit = (octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32;
+    if ((sight.whole >> octant & 1U) != 0 && fills_pixels(eighth)) {
+      free |= std::uint64_t{0x330033} << first_bit;
+    } else {
+      free |= crossed_cells(eighth, first_bit);
+    }
+  }
+  if (free != 0) {
+    window_.add_free(brick.place, free);
+  }
+}
+
+/// Of two by two by two cells, the first of which has this bit in its brick.
+std::uint64_t ExactScan::crossed_cells(const Block& eighth, unsigned first_bit) {
+  const OctantSight sight = view_.sight_of_octants(eighth.centre_C, 1);
+  std::uint64_t crossed = 0;
+  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+    const auto octant = static_cast<unsigned>(lowest_bit(left));
+    const unsigned step = (octant & 1U) + (octant >> 1U & 1U) * 4 + (octant >> 2U) * 16;
+    const std::uint64_t bit = std::uint64_t{1} << (first_bit + step);
+    if ((window_.hits(eighth.place) & bit) != 0) {
+      continue;  // A hit is not freed, whoever crosses it.
+    }
+    const Block cell = octant_of(eighth, octant, eighth.place);
+    const bool is_whole = (sight.whole >> octant & 1U) != 0 && fills_pixels(cell);
+    crossed |= is_whole || is_crossed(cell) ? bit : 0;
+  }
+  return crossed;
+}
+
+/// Where only the slack could tell, remembers the pixels in question.
+bool ExactScan::is_crossed(const Block& cell) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box_.centre[axis] = static_cast<float>(cell.centre_W(static_cast<int>(axis)));
+  }
+  const PixelBlock pixels = view_.pixels_around(cell.centre_C, 0);
+  const Crossing crossing = ways_.cross(box_, pixels, loops_);
+  if (!crossing.is_sure && crossing.is_possible) {
+    ways_.append_doubtful(box_, pixels, loops_, doubtful_px_);
+  }
+  return crossing.is_sure;
+}
+
+/// The rays of the pixels in question. What they cross is counted already.
+void ExactScan::walk_doubtful(const PointCloud& cloud_C) {
+  std::sort(doubtful_px_.begin(), doubtful_px_.end());
+  doubtful_px_.erase(std::unique(doubtful_px_.begin(), doubtful_px_.end()), doubtful_px_.end());
+  for (const int pixel : doubtful_px_) {
+    (void)walk(point_in(pixel, cloud_C), false);
+  }
+  doubtful_px_.clear();
+}
+
+/// @pre The pixel has a point.
+const Eigen::Vector3f& ExactScan::point_in(int pixel, const PointCloud& cloud_C) const {
+  for (const bool in_rows : {true, false}) {  // as points come most often
+    for (const auto* points_C : {&cloud_C.hits_C, &cloud_C.clear_C}) {
+      if (const auto found = ways_.find(pixel, *points_C, in_rows)) {
+        return (*points_C)[*found];
+      }
+    }
+  }
+  FLYBALL_ASSERT(false, "no point in pixel %d", pixel);
+  return cloud_C.hits_C.front();
+}
+
+/// Frees what the ray to a point crosses in OctoMap's arithmetic, and returns how many cells these
+/// are.
+std::size_t ExactScan::walk(const Eigen::Vector3f& p_C, bool is_hit) {
+  ++walked_;
+  PointBlock point;
+  std::array<float, 3 * lanes> end_W;
+  point.take(&p_C, 1);
+  loops_.move_to_world(point, rows_, end_W.data());
+  PointBlock end;
+  const octomap::point3d uncut_W{end_W[0], end_W[1], end_W[2]};
+  end.take(&uncut_W, 1);
+  loops_.cut_rays(end, frame_);
+  if (is_hit && end.reaches[0] != 0) {
+    const CellKey cell{end.key[0][0], end.key[1][0], end.key[2][0]};
+    window_.add_hit(place_of(cell), std::uint64_t{1} << bit_in_brick(cell));
+  }
+  const octomap::point3d from{frame_.origin_W[0], frame_.origin_W[1], frame_.origin_W[2]};
+  const octomap::point3d to{end.p[0][0], end.p[1][0], end.p[2][0]};
+  return RayWalk{stock_lattice_, from, to}.visit_free(
+      [this](const RayWalk::Cell& at) { free_cell({at[0], at[1], at[2]}); });
+}
+
+}  // namespace flyball

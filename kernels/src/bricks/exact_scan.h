@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Stock OctoMap's masks and counts of a depth image, though hardly a ray is walked.
+///
+/// What a scan makes of a cell is a question about all rays at once: does any of them cross it and
+/// end behind it? So space is held against the depth image block by block, as `PyramidScan` does
+/// it, but nothing is left to the middle of a cell:
+///   - behind every surface, out of view or out of range: no ray crosses the block;
+///   - in view as a whole and before the nearest surface: rays cross all its cells, since each cell
+///     holds a ball that is wider in the image than a pixel's diagonal;
+///   - a single cell between the two: its pixels are asked, until one's ray crosses it.
+/// Each answer keeps clear of its borders by a slack that is far more than what floats and
+/// OctoMap's arithmetic may be off. Where the slack decides, and for rays that end on a border of
+/// cells, the ray is walked in that arithmetic (`RayScan`). So the masks are stock's, bit for bit,
+/// and so are the counts: a ray that ends inside a cell has crossed as many cells as their keys are
+/// apart.
+
+#include "../octomap_tree.h"
+#include "depth_view.h"
+#include "mask_window.h"
+#include "pixel_ways.h"
+#include "ray_scan.h"
+
+namespace flyball {
+
+class ExactScan {
+ public:
+  explicit ExactScan(double cell_m, Simd simd = widest_simd());
+
+  /// @pre As RayScan's and PyramidScan's. The points of a cloud with a camera lie on the rays
+  ///      through the middles of its pixels.
+  /// @return Valid until the next call.
+  /// @cost Without a camera, and for several points in a pixel, every ray is walked.
+  const ScanMasks& compute(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  /// Of the last scan: rays that were walked.
+  [[nodiscard]] std::size_t walked_rays() const { return walked_; }
+
+ private:
+  struct Block {
+    Eigen::Vector3f centre_C;
+    Vec3 centre_W;      ///< From the eye.
+    std::size_t place;  ///< Of its first brick in the window.
+    int level;
+  };
+
+  const ScanMasks& walk_all(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  [[nodiscard]] bool look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  [[nodiscard]] int borders_near(const Vec3& p_W, const CellKey& cell, const Vec3& near_m) const;
+  void span_window(const Pose& X_WC);
+  void aim_ends(const CellKey& own, double range_m);
+  void settle(const std::vector<Eigen::Vector3f>& points_C, bool are_hits);
+  void mark_hits(const RayEnds& settled, std::size_t count);
+  void free_seen(const Pose& X_CW);
+  [[nodiscard]] std::size_t place_of(const CellKey& cell) const;
+  void free_cell(const CellKey& cell);
+  void free_chunk(const CellKey& chunk, const Pose& X_CW);
+  void free_inside(const Block& block);
+  void free_brick(const Block& brick);
+  [[nodiscard]] std::uint64_t crossed_cells(const Block& eighth, unsigned first_bit);
+  [[nodiscard]] bool is_crossed(const Block& cell);
+  [[nodiscard]] Block octant_of(const Block& block, unsigned octant, std::size_t place) const;
+  [[nodiscard]] bool fills_pixels(const Block& block) const;
+  void walk_doubtful(const PointCloud& cloud_C);
+  [[nodiscard]] const Eigen::Vector3f& point_in(int pixel, const PointCloud& cloud_C) const;
+  std::size_t walk(const Eigen::Vector3f& p_C, bool is_hit);
+
+  Lattice lattice_;
+  octomap::OcTree stock_lattice_;  ///< Empty: it only lends its arithmetic.
+  const InnerLoops& loops_;
+  RayScan rays_;
+  DepthView view_;
+  PixelWays ways_{};
+  MaskWindow window_{};
+  RayFrame frame_{};
+  Vec3 eye_W_{Vec3::Zero()};  ///< As the rays begin: rounded to floats.
+  PoseRows rows_{};
+  EndFrame ends_{};
+  BoxOfCell box_{};  ///< The cell in question.
+  Scan scan_{};  ///< For the walk of all rays.
+  ScanMasks masks_{};
+  CellKey first_chunk_{};
+  CellKey last_chunk_{};
+  std::vector<int> doubtful_px_{};
+  double ball_reach_m_{};  ///< Up to there a cell is wider in the image than a pixel.
+  std::size_t traversals_{};
+  std::size_t walked_{};
+};
+
+}  // namespace flyball
