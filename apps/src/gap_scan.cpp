@@ -2,6 +2,7 @@
 #include "gap_scan.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flyball {
 namespace {
@@ -15,8 +16,34 @@ constexpr double feeling_m = 0.1;
 constexpr double span_step_m = 0.5;  // A wall of .2 m is no farther than .15 m from one of them.
 constexpr double sight_m = 3.0;  // A farther obstacle need not be found: the next step finds it.
 
+/// Asks for the nearest obstacle around, which most often saves the questions that follow: nothing
+/// is nearer to a place beside this one than that, less the way there.
+class Surroundings {
+ public:
+  /// @param reach_m  The places that will be asked for are no farther, at the same height.
+  Surroundings(const OccupancyView& map, const Vec3& p_W, double reach_m, double half_band_m)
+      : map_{map},
+        p_W_{p_W},
+        half_band_m_{half_band_m},
+        nearest_m_{map.nearest_obstacle_m(p_W, reach_m + 2.0 * sight_m, half_band_m)} {}
+  /// `sight_m` at most.
+  [[nodiscard]] double nearest_obstacle_m(const Vec3& p_W) const {
+    constexpr double rounding_m = 1e-6;
+    if (nearest_m_ - (p_W - p_W_).norm() > sight_m + rounding_m) {
+      return sight_m;
+    }
+    return map_.nearest_obstacle_m(p_W, sight_m, half_band_m_);
+  }
+
+ private:
+  const OccupancyView& map_;
+  Vec3 p_W_;
+  double half_band_m_;
+  double nearest_m_;
+};
+
 /// The widest opening on one line, by steps as long as the obstacles are far.
-double widest_m(const OccupancyView& map,
+double widest_m(const Surroundings& map,
                 const Vec3& centre_W,
                 const Vec3& aside_W,
                 const GapScan& scan) {
@@ -28,7 +55,7 @@ double widest_m(const OccupancyView& map,
     const Vec3 p_W = centre_W + u * aside_W;
     const bool inside = p_W.x() >= scan.bounds_W.min.x() && p_W.x() <= scan.bounds_W.max.x() &&
                         p_W.y() >= scan.bounds_W.min.y() && p_W.y() <= scan.bounds_W.max.y();
-    const double clear_m = inside ? map.nearest_obstacle_m(p_W, sight_m, scan.half_band_m) : 0.0;
+    const double clear_m = inside ? map.nearest_obstacle_m(p_W) : 0.0;
     closest = std::max(closest, clear_m);
     if (clear_m >= near_m) {
       run_from = is_open ? run_from : u - clear_m;
@@ -91,10 +118,12 @@ GapsAhead gaps_ahead(const OccupancyView& map,
   ahead_W /= distance_m;
   const Vec3 aside_W{-ahead_W.y(), ahead_W.x(), 0.0};
   const double reach_m = std::min(scan.reach_m, distance_m);
+  const Surroundings around{map, from_W + 0.5 * reach_m * ahead_W,
+                            std::hypot(0.5 * reach_m, scan.aside_m), scan.half_band_m};
   double sum_m = 0.0;
   int lines = 0;
   for (double s = 0.0; s <= reach_m; s += line_spacing_m) {
-    const double width_m = widest_m(map, from_W + s * ahead_W, aside_W, scan);
+    const double width_m = widest_m(around, from_W + s * ahead_W, aside_W, scan);
     if (width_m < gaps.narrowest_m) {
       gaps.narrowest_m = width_m;
       gaps.narrowest_at_m = s;

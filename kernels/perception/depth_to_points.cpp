@@ -13,84 +13,62 @@ namespace {
 
 constexpr double beyond_range = 1.001;  // so that a mapper with the same range cuts the ray there
 
-/// Writes points where there is room for all of them.
-class PointWriter {
- public:
-  PointWriter(std::vector<Eigen::Vector3f>& points, std::size_t most)
-      : points_{points}, count_{points.size()} {
-    points_.resize(count_ + most);
-  }
-  void add(const flyball::Vec3& p) { points_[count_++] = p.cast<float>(); }
-  void end() { points_.resize(count_); }
+/// Makes room for so many more points, and returns where the first of them goes.
+Eigen::Vector3f* room_for(std::vector<Eigen::Vector3f>& points, std::size_t most) {
+  const std::size_t count = points.size();
+  points.resize(count + most);
+  return points.data() + count;
+}
 
- private:
-  std::vector<Eigen::Vector3f>& points_;
-  std::size_t count_;
-};
-
-class CloudWriter {
- public:
-  CloudWriter(flyball::PointCloud& cloud, std::size_t most, double reach_m)
-      : hits_{cloud.hits_C, most}, clear_{cloud.clear_C, most}, reach_m_{reach_m} {}
-  /// `ray_C` has depth 1 in its own camera. A depth that is not a number, or not in front of the
-  /// camera, is a broken measurement: it must neither mark nor clear anything.
-  void add(const flyball::Vec3& ray_C, double depth_m) {
-    if (std::isnan(depth_m) || depth_m <= 0.0) {
-      return;
-    }
-    const double length = ray_C.norm();
-    if (depth_m * length > reach_m_) {
-      clear_.add(ray_C * (beyond_range * reach_m_ / length));
-    } else {
-      hits_.add(ray_C * depth_m);
-    }
-  }
-  void end() {
-    hits_.end();
-    clear_.end();
-  }
-
- private:
-  PointWriter hits_;
-  PointWriter clear_;
-  double reach_m_;
-};
+/// Drops the room that was not used.
+void end_at(std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f* end) {
+  points.resize(static_cast<std::size_t>(end - points.data()));
+}
 
 /// Where its columns and rows look, as coordinates of rays of depth 1.
 struct PixelRays {
-  std::vector<double> x;
-  std::vector<double> y;
+  Eigen::ArrayXd x;
+  Eigen::ArrayXd y;
 
   explicit PixelRays(const flyball::Intrinsics& camera)
       : x{slopes(camera.width_px, camera.centre_x_px, camera.focal_px)},
         y{slopes(camera.height_px, camera.centre_y_px, camera.focal_px)} {}
-  static std::vector<double> slopes(int count, double centre_px, double focal_px) {
-    std::vector<double> slopes(static_cast<std::size_t>(count));
-    for (int pixel = 0; pixel < count; ++pixel) {
-      slopes[static_cast<std::size_t>(pixel)] = (pixel - centre_px) / focal_px;
-    }
-    return slopes;
+  static Eigen::ArrayXd slopes(int count, double centre_px, double focal_px) {
+    return (Eigen::ArrayXd::LinSpaced(count, 0.0, count - 1.0) - centre_px) / focal_px;
   }
+  [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(x.size() * y.size()); }
 };
 
+/// `turn` takes a ray of depth 1 in its own camera to C.
+template <class Turn>
 void append(flyball::PointCloud& cloud,
             const flyball::DepthImage& image,
-            const Eigen::Matrix3d& R_CS,
-            double range_m) {
+            double range_m,
+            Turn&& turn) {
   const PixelRays rays{image.camera};
-  const std::size_t pixels = rays.x.size() * rays.y.size();
-  FLYBALL_ASSERT(image.depth_m.size() == pixels, "%zu depths for %d x %d pixels",
+  FLYBALL_ASSERT(image.depth_m.size() == rays.pixels(), "%zu depths for %d x %d pixels",
                  image.depth_m.size(), image.camera.width_px, image.camera.height_px);
-  const bool is_turned = R_CS != Eigen::Matrix3d::Identity();
-  CloudWriter writer{cloud, pixels, std::min(range_m, image.max_range_m)};
+  const double reach_m = std::min(range_m, image.max_range_m);
+  Eigen::Vector3f* hit_C = room_for(cloud.hits_C, rays.pixels());
+  Eigen::Vector3f* clear_C = room_for(cloud.clear_C, rays.pixels());
   const float* depth_m = image.depth_m.data();
   for (const double y : rays.y) {
-    for (const double x : rays.x) {
-      const flyball::Vec3 ray_S{x, y, 1.0};
-      writer.add(is_turned ? flyball::Vec3{R_CS * ray_S} : ray_S, static_cast<double>(*depth_m++));
+    const Eigen::ArrayXd lengths = (rays.x.square() + (y * y + 1.0)).sqrt();
+    const Eigen::ArrayXd clear_depths_m = beyond_range * reach_m / lengths;
+    for (Eigen::Index column = 0; column < lengths.size(); ++column) {
+      const double depth = static_cast<double>(*depth_m++);
+      const flyball::Vec3 ray_C = turn(flyball::Vec3{rays.x(column), y, 1.0});
+      // A depth that is not a number, or not in front of the camera, is a broken measurement: it
+      // must neither mark nor clear anything.
+      if (depth * lengths(column) > reach_m) {
+        *clear_C++ = (ray_C * clear_depths_m(column)).cast<float>();
+      } else if (depth > 0.0) {
+        *hit_C++ = (ray_C * depth).cast<float>();
+      }
     }
   }
-  writer.end();
+  end_at(cloud.hits_C, hit_C);
+  end_at(cloud.clear_C, clear_C);
 }
 
 /// Of several cameras the points are no longer the pixels of one image.
@@ -100,9 +78,10 @@ flyball::PointCloud back_project(const flyball::DepthFrame& frame, double range_
   const std::size_t pixels = ahead.depth_m.size() * (1 + frame.sides.size());
   cloud.hits_C.reserve(pixels);
   cloud.clear_C.reserve(pixels);
-  append(cloud, ahead, Eigen::Matrix3d::Identity(), range_m);
+  append(cloud, ahead, range_m, [](const flyball::Vec3& ray_C) { return ray_C; });
   for (const flyball::SideView& side : frame.sides) {
-    append(cloud, side.image.value(), side.R_CS, range_m);
+    append(cloud, side.image.value(), range_m,
+           [&](const flyball::Vec3& ray_S) { return flyball::Vec3{side.R_CS * ray_S}; });
   }
   if (frame.sides.empty()) {
     cloud.camera = ahead.camera;

@@ -49,6 +49,10 @@ class DepthView {
   /// The pixels whose rays may cross a block: the whole side of the image where it has no bounds.
   /// @pre Some of it lies before the camera and in view.
   [[nodiscard]] PixelBlock pixels_around(const Eigen::Vector3f& centre_C, int level) const;
+  /// No part of a block is nearer along the optical axis.
+  [[nodiscard]] float nearest_depth_m(const Eigen::Vector3f& centre_C, int level) const {
+    return centre_C.z() - extents_[static_cast<std::size_t>(level)].half.z();
+  }
   [[nodiscard]] const DepthPyramid& depths() const { return depth_; }
   /// For the single cells of a brick; see InnerLoops::seen_cells.
   [[nodiscard]] const CellProbe& probe() const { return probe_; }

@@ -109,8 +109,7 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
   const Vec3 in_cell = eye_W_ - lattice_.cube(own, 0).min;
   ends_.range_m = static_cast<float>(range_m);
   ends_.cells_per_m = static_cast<float>(frame_.cells_per_m);
-  ends_.range_doubt_m =
-      static_cast<float>(3.0 * slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m));
+  ends_.range_doubt_m = static_cast<float>(3.0 * slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m));
   ends_.window = window_.chunks();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto row = static_cast<int>(axis);
@@ -119,9 +118,8 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
     }
     ends_.in_cell[axis] = static_cast<float>(in_cell(row));
     ends_.start[axis] = frame_.start[axis] - ends_.window.first[axis];
-    ends_.doubt[axis] =
-        static_cast<float>(frame_.cells_per_m *
-                           (3.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
+    ends_.doubt[axis] = static_cast<float>(
+        frame_.cells_per_m * (3.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
   }
 }
 
@@ -281,6 +279,7 @@ bool ExactScan::is_crossed(const Block& cell) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box_.centre[axis] = static_cast<float>(cell.centre_W(static_cast<int>(axis)));
   }
+  box_.depth = view_.nearest_depth_m(cell.centre_C, 0);
   const PixelBlock pixels = view_.pixels_around(cell.centre_C, 0);
   const Crossing crossing = ways_.cross(box_, pixels, loops_);
   if (!crossing.is_sure && crossing.is_possible) {
@@ -330,8 +329,9 @@ std::size_t ExactScan::walk(const Eigen::Vector3f& p_C, bool is_hit) {
   }
   const octomap::point3d from{frame_.origin_W[0], frame_.origin_W[1], frame_.origin_W[2]};
   const octomap::point3d to{end.p[0][0], end.p[1][0], end.p[2][0]};
-  return RayWalk{stock_lattice_, from, to}.visit_free(
-      [this](const RayWalk::Cell& at) { free_cell({at[0], at[1], at[2]}); });
+  return RayWalk{stock_lattice_, from, to}.visit_free([this](const RayWalk::Cell& at) {
+    free_cell({at[0], at[1], at[2]});
+  });
 }
 
 }  // namespace flyball

@@ -165,6 +165,7 @@ struct BoxOfCell {
   std::array<float, 3> centre;
   std::array<float, 3> half;
   std::array<float, 3> slack;  ///< By which its sides may be off.
+  float depth;                 ///< All of it lies at this depth or farther.
 };
 
 /// Whether rays cross a box and end behind it.
