@@ -110,8 +110,8 @@ void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& co
     }
     const MapperSettings settings{context.knobs.value("map.resolution_m"),
                                   context.knobs.value("map.range_m")};
-    const auto work = context.kernels.mapper->prepare(
-        frame->cloud_C.value(), camera_pose(pose->X_WB, context.scenario.camera), settings);
+    const auto work = context.kernels.mapper->prepare_frame(
+        *frame, camera_pose(pose->X_WB, context.scenario.camera), settings);
     if (!work) {
       context.event(job.now(), "frame not mapped: " + work.error().message);
       return Work{};

@@ -2,6 +2,7 @@
 //
 // Pinhole back-projection. No voxel filter: the map would lose rays.
 
+#include "flyball/kernels/pixel_point.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/runtime/assert.h"
 #include "flyball/runtime/registry.h"
@@ -10,8 +11,6 @@
 #include <cmath>
 
 namespace {
-
-constexpr double beyond_range = 1.001;  // so that a mapper with the same range cuts the ray there
 
 /// Makes room for so many more points, and returns where the first of them goes.
 Eigen::Vector3f* room_for(std::vector<Eigen::Vector3f>& points, std::size_t most) {
@@ -39,7 +38,7 @@ struct PixelRays {
   [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(x.size() * y.size()); }
 };
 
-/// `turn` takes a ray of depth 1 in its own camera to C.
+/// As `point_of_pixel` makes each. `turn` takes a ray of depth 1 in its own camera to C.
 template <class Turn>
 void append(flyball::PointCloud& cloud,
             const flyball::DepthImage& image,
@@ -54,7 +53,7 @@ void append(flyball::PointCloud& cloud,
   const float* depth_m = image.depth_m.data();
   for (const double y : rays.y) {
     const Eigen::ArrayXd lengths = (rays.x.square() + (y * y + 1.0)).sqrt();
-    const Eigen::ArrayXd clear_depths_m = beyond_range * reach_m / lengths;
+    const Eigen::ArrayXd clear_depths_m = flyball::beyond_reach * reach_m / lengths;
     for (Eigen::Index column = 0; column < lengths.size(); ++column) {
       const double depth = static_cast<double>(*depth_m++);
       const flyball::Vec3 ray_C = turn(flyball::Vec3{rays.x(column), y, 1.0});
@@ -96,9 +95,13 @@ class DepthToPoints final : public flyball::PointCloudBuilder {
                                  flyball::Work& work) override {
     FLYBALL_ASSERT(range_m > 0.0, "range_m=%g", range_m);
     work.add("pixels", frame.pixels * (1.0 + static_cast<double>(frame.sides.size())));
-    return {frame.captured, frame.sequence,
-            flyball::Deferred<flyball::PointCloud>{
-                [frame, range_m] { return back_project(frame, range_m); }}};
+    flyball::PointCloudFrame points{frame.captured, frame.sequence,
+                                    flyball::Deferred<flyball::PointCloud>{
+                                        [frame, range_m] { return back_project(frame, range_m); }}};
+    if (frame.sides.empty()) {
+      points.pixels = flyball::RangeImage{frame.image, range_m};
+    }
+    return points;
   }
 };
 

@@ -60,6 +60,14 @@ class FlyballMapper final : public flyball::Mapper {
     }
     return map_->prepare(cloud_C, X_WC, settings);
   }
+  Result<flyball::Work> prepare_frame(const flyball::PointCloudFrame& frame,
+                                      const flyball::Pose& X_WC,
+                                      const flyball::MapperSettings& settings) override {
+    if (!refusal_.empty()) {
+      return Error{ErrorCode::invalid_input, refusal_};
+    }
+    return map_->prepare_frame(frame, X_WC, settings);
+  }
   void commit() override { map_->commit(); }
 
   void declare_clear(const Vec3& centre_W, const flyball::Cylinder& space) override {

@@ -38,25 +38,23 @@ class LayeredMapper final : public Mapper {
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
                        const MapperSettings& settings) override {
-    pending_ = nullptr;
-    constexpr double half_keys = 32768.0;  // OctoMap's keys have 16 bits
-    const double edge_m = (half_keys - 4.0) * settings.resolution_m - settings.range_m;
-    if (auto status = check_scan(cloud_C, X_WC, settings, settings.resolution_m, edge_m); !status) {
+    if (auto status = check_points(cloud_C, X_WC); !status) {
+      pending_ = nullptr;
       return status.error();
     }
-    try {
-      Layer& layer = layer_of(settings.resolution_m);
-      masks_ = &layer.exact.compute(cloud_C, X_WC, settings.range_m);
-      pending_ = &layer;
-      Work work;
-      work.add("frame", 1.0);
-      work.add("rays", masks_->rays);
-      work.add("traversals", masks_->traversals);
-      work.add("updates", masks_->updates);
-      return work;
-    } catch (const std::exception& e) {
-      return failure(e);
+    return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
+      return exact.walk(cloud_C, X_WC, settings.range_m);
+    });
+  }
+  Result<Work> prepare_frame(const PointCloudFrame& frame,
+                             const Pose& X_WC,
+                             const MapperSettings& settings) override {
+    if (!frame.pixels) {
+      return prepare(frame.cloud_C.value(), X_WC, settings);
     }
+    return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
+      return exact.compute(frame, X_WC, settings.range_m);
+    });
   }
 
   void commit() override {
@@ -170,6 +168,30 @@ class LayeredMapper final : public Mapper {
     ClearCells clear;
     Store walls;
   };
+
+  /// @param masks_of  What a front-end makes of the scan.
+  template <class MasksOf>
+  Result<Work> integrate(const Pose& X_WC, const MapperSettings& settings, MasksOf&& masks_of) {
+    pending_ = nullptr;
+    constexpr double half_keys = 32768.0;  // OctoMap's keys have 16 bits
+    const double edge_m = (half_keys - 4.0) * settings.resolution_m - settings.range_m;
+    if (auto status = check_view(X_WC, settings, settings.resolution_m, edge_m); !status) {
+      return status.error();
+    }
+    try {
+      Layer& layer = layer_of(settings.resolution_m);
+      masks_ = &masks_of(layer.exact);
+      pending_ = &layer;
+      Work work;
+      work.add("frame", 1.0);
+      work.add("rays", masks_->rays);
+      work.add("traversals", masks_->traversals);
+      work.add("updates", masks_->updates);
+      return work;
+    } catch (const std::exception& e) {
+      return failure(e);
+    }
+  }
 
   static Error failure(const std::exception& e) {
     return {ErrorCode::failed, std::string{"octomap: "} + e.what()};

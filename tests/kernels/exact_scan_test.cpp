@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../kernels/src/bricks/exact_scan.h"
 
+#include "flyball/kernels/kernels.h"
+#include "flyball/kernels/point_cloud.h"
 #include "flyball/runtime/random.h"
+#include "flyball/runtime/registry.h"
 
 #include "mask_cells.h"
 #include "synthetic_scans.h"
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -12,21 +16,38 @@ namespace flyball {
 namespace {
 
 struct View {
-  PointCloud cloud_C;
   Pose X_WC;
-  Scan scan;
+  PointCloudFrame frame;
 };
 
-/// One of the synthetic frames with noise along its rays, seen from anywhere: the place is moved
-/// and turned with the camera, so that its walls lie askew in the lattice.
-View view_of(kit::Place place, std::uint64_t number, double range_m, double far_m, int width_px) {
-  RandomStream random{7, "exact_scan_test", number};
-  const kit::SyntheticScan from =
-      kit::synthetic_scan(place, static_cast<int>(number % 10), range_m, width_px);
-  View view{from.cloud_C, from.X_WC, {}};
-  for (Eigen::Vector3f& p_C : view.cloud_C.hits_C) {
-    p_C *= static_cast<float>(1.0 + 0.01 * (random.uniform() - 0.5));
+/// The image of a synthetic place, with noise and a few broken pixels.
+DepthImage image_of(const kit::SyntheticScan& scan, kit::Place place, RandomStream& random) {
+  constexpr double max_range_m = 20.0;
+  DepthImage image;
+  image.camera = *scan.cloud_C.camera;
+  image.max_range_m = max_range_m;
+  for (int pixel = 0; pixel < image.camera.width_px * image.camera.height_px; ++pixel) {
+    const Vec3 ray_C{
+        (pixel % image.camera.width_px - image.camera.centre_x_px) / image.camera.focal_px,
+        (pixel / image.camera.width_px - image.camera.centre_y_px) / image.camera.focal_px, 1.0};
+    const double d_m =
+        kit::distance_m(place, scan.X_WC.translation(), scan.X_WC.linear() * ray_C.normalized());
+    const double noisy_m = d_m / ray_C.norm() * (1.0 + 0.01 * (random.uniform() - 0.5));
+    image.depth_m.push_back(d_m > max_range_m ? std::numeric_limits<float>::infinity()
+                                              : static_cast<float>(noisy_m));
+    if (random.uniform() < 0.01) {
+      image.depth_m.back() =
+          random.uniform() < 0.5 ? 0.0F : std::numeric_limits<float>::quiet_NaN();
+    }
   }
+  return image;
+}
+
+/// One of the synthetic frames seen from anywhere: the place is moved and turned with the camera,
+/// so that its walls lie askew in the lattice.
+View view_of(kit::Place place, std::uint64_t number, double reach_m, double far_m, int width_px) {
+  RandomStream random{7, "exact_scan_test", number};
+  const auto from = kit::synthetic_scan(place, static_cast<int>(number % 10), reach_m, width_px);
   const auto any = [&](double most) { return most * (2.0 * random.uniform() - 1.0); };
   Pose X_moved = Pose::Identity();
   X_moved.linear() =
@@ -34,10 +55,13 @@ View view_of(kit::Place place, std::uint64_t number, double range_m, double far_
        Eigen::AngleAxisd{any(0.4), Vec3::UnitX()})
           .toRotationMatrix();
   X_moved.translation() = Vec3{any(far_m), any(far_m), any(3.0)};
-  view.X_WC = X_moved * from.X_WC;
-  to_world(view.cloud_C, view.X_WC, view.scan);
-  view.scan.range_m = range_m;
-  return view;
+  DepthFrame frame;
+  frame.image = Deferred<DepthImage>::of(image_of(from, place, random));
+  Work work;
+  Registry registry;
+  register_kernels(registry);
+  const auto builder = registry.make<PointCloudBuilder>("depth_to_points");
+  return {X_moved * from.X_WC, builder->build(frame, reach_m, work)};
 }
 
 void expect_same(const ScanMasks& ours, const ScanMasks& stock) {
@@ -64,9 +88,16 @@ TEST_P(EveryCell, is_marked_and_counted_as_if_every_ray_had_been_walked) {
     for (std::uint64_t number = 0; number < 40; ++number) {
       const auto place = number % 2 == 0 ? kit::Place::indoor : kit::Place::outdoor;
       const double range_m = number % 3 == 0 ? 7.0 : 20.0;
-      const View view = view_of(place, number, range_m, number % 5 == 0 ? 900.0 : 20.0, 96);
-      expect_same(exact.compute(view.cloud_C, view.X_WC, range_m), walked.compute(view.scan));
-      rays += view.scan.hits_W.size() + view.scan.clear_W.size();
+      // A knob may have changed since the points were made.
+      const double reach_m = number % 7 == 0 ? 10.0 : range_m;
+      const int width_px = number % 4 == 0 ? 90 : 96;
+      const View view = view_of(place, number, reach_m, number % 5 == 0 ? 900.0 : 20.0, width_px);
+      const PointCloud& cloud_C = view.frame.cloud_C.value();
+      Scan scan;
+      to_world(cloud_C, view.X_WC, scan);
+      scan.range_m = range_m;
+      expect_same(exact.compute(view.frame, view.X_WC, range_m), walked.compute(scan));
+      rays += cloud_C.hits_C.size() + cloud_C.clear_C.size();
       walks += exact.walked_rays();
     }
     EXPECT_LT(walks, rays / 10);

@@ -16,10 +16,19 @@ constexpr std::size_t spare = lanes;  // so many are read from the last one on
 void DepthPyramid::build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops) {
   FLYBALL_ASSERT(cloud_C.camera.has_value(), "scan %llu has no camera",
                  static_cast<unsigned long long>(cloud_C.sequence));
-  lay_out(*cloud_C.camera);
+  (void)begin(*cloud_C.camera);
   std::fill(depth_m_.begin(), depth_m_.end(), 0.0F);
   put(cloud_C.hits_C, static_cast<float>(range_m), loops);
   put(cloud_C.clear_C, static_cast<float>(range_m), loops);
+  finish(loops);
+}
+
+float* DepthPyramid::begin(const Intrinsics& camera) {
+  lay_out(camera);
+  return depth_m_.data();
+}
+
+void DepthPyramid::finish(const InnerLoops& loops) {
   for (std::size_t scale = 1; scale < scales_.size(); ++scale) {
     build_scale(scale, loops);
   }

@@ -27,6 +27,10 @@ class DepthPyramid {
   /// @pre The cloud has a camera.
   void build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops);
 
+  /// The same in two steps, for whoever has the depths: returns where they go, row by row.
+  float* begin(const Intrinsics& camera);
+  void finish(const InnerLoops& loops);
+
   [[nodiscard]] const PixelGrid& grid() const { return grid_; }
   /// The finest scale, row by row.
   [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }

@@ -31,12 +31,18 @@ struct DepthView::Image {
   }
 };
 
-void DepthView::look(const PointCloud& cloud_C,
-                     const Pose& X_WC,
-                     double range_m,
-                     SightMargins margins) {
-  margins_ = margins;
+void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
   depth_.build(cloud_C, range_m, loops_);
+  aim(X_WC, range_m, {});
+}
+
+void DepthView::look(const Pose& X_WC, double range_m, SightMargins margins) {
+  depth_.finish(loops_);
+  aim(X_WC, range_m, margins);
+}
+
+void DepthView::aim(const Pose& X_WC, double range_m, SightMargins margins) {
+  margins_ = margins;
   const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
   measure_cubes(R_CW, range_m);
   aim_octants(R_CW);

@@ -29,7 +29,10 @@ class DepthView {
   DepthView(double finest_m, const InnerLoops& loops) : finest_m_{finest_m}, loops_{loops} {}
 
   /// @pre The cloud has a camera.
-  void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m, SightMargins margins = {});
+  void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  /// The same in two steps, for whoever has the depths of an image: returns where they go.
+  float* begin(const Intrinsics& camera) { return depth_.begin(camera); }
+  void look(const Pose& X_WC, double range_m, SightMargins margins);
   /// The box in W around the camera and all that it sees within the range, and a margin.
   [[nodiscard]] Aabb box_of_view(const Pose& X_WC, double range_m, double margin_m) const;
   /// A cube of level 1..5 around a point of C.
@@ -66,6 +69,7 @@ class DepthView {
   };
   struct Image;
   [[nodiscard]] Image image_of(const Eigen::Vector3f& centre_C, const Extent& extent) const;
+  void aim(const Pose& X_WC, double range_m, SightMargins margins);
   void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
   void aim_octants(const Eigen::Matrix3d& R_CW);
   void aim_probe(const Eigen::Matrix3d& R_CW, double range_m);

@@ -21,15 +21,6 @@ double slack_at(double greatest_m) {
   return least_m + share * greatest_m;
 }
 
-/// Points with a depth: each in a pixel of its own, and all of them in the image?
-bool are_one_a_pixel(const DepthPyramid& depths, std::size_t points) {
-  const PixelGrid& grid = depths.grid();
-  const auto pixels = static_cast<std::ptrdiff_t>(grid.width_px) * grid.height_px;
-  return std::count_if(depths.depth_m(), depths.depth_m() + pixels, [](float depth_m) {
-           return depth_m > 0.0F;
-         }) == static_cast<std::ptrdiff_t>(points);
-}
-
 }  // namespace
 
 ExactScan::ExactScan(double cell_m, Simd simd)
@@ -42,39 +33,39 @@ ExactScan::ExactScan(double cell_m, Simd simd)
   frame_.cells_per_m = lattice_.cells_per_m();
 }
 
-const ScanMasks& ExactScan::compute(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
-  const std::size_t rays = cloud_C.hits_C.size() + cloud_C.clear_C.size();
+const ScanMasks& ExactScan::compute(const PointCloudFrame& frame,
+                                    const Pose& X_WC,
+                                    double range_m) {
+  FLYBALL_ASSERT(frame.pixels.has_value(), "scan %llu has no image",
+                 static_cast<unsigned long long>(frame.sequence));
   walked_ = 0;
+  measured_ = 0;
   traversals_ = 0;
   masks_.bricks.clear();
-  if (!look(cloud_C, X_WC, range_m)) {
-    return walk_all(cloud_C, X_WC, range_m);
+  if (!look(*frame.pixels, X_WC, range_m)) {
+    return walk(frame.cloud_C.value(), X_WC, range_m);
   }
-  settle(cloud_C.hits_C, true);
-  settle(cloud_C.clear_C, false);
-  const bool is_settled = walked_ <= rays / few;
+  settle();
+  const bool is_settled = walked_ <= measured_ / few;
   if (is_settled) {
     free_seen(X_WC.inverse());
-    walk_doubtful(cloud_C);
+    walk_doubtful();
   }
   masks_.updates = static_cast<double>(window_.collect(masks_.bricks));
-  masks_.rays = static_cast<double>(rays);
+  masks_.rays = static_cast<double>(measured_);
   masks_.traversals = static_cast<double>(traversals_);
-  return is_settled ? masks_ : walk_all(cloud_C, X_WC, range_m);
+  return is_settled ? masks_ : walk(frame.cloud_C.value(), X_WC, range_m);
 }
 
-const ScanMasks& ExactScan::walk_all(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
+const ScanMasks& ExactScan::walk(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
   to_world(cloud_C, X_WC, scan_);
   scan_.range_m = range_m;
   walked_ = scan_.hits_W.size() + scan_.clear_W.size();
   return rays_.compute(scan_);
 }
 
-/// False where the rays are not those of an image's pixels, or begin on an edge of cells.
-bool ExactScan::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m) {
-  if (!cloud_C.camera) {
-    return false;
-  }
+/// False where the rays begin on an edge of cells.
+bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m) {
   const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
   eye_W_ = origin_W.cast<double>();
   const CellKey cell = lattice_.cell(eye_W_);
@@ -82,24 +73,23 @@ bool ExactScan::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m
   if (borders_near(eye_W_, cell, 3.0 * slack_m) > 1) {
     return false;
   }
+  const DepthImage& image = pixels.image.value();
+  ways_.look(image, pixels.reach_m, range_m);
+  ways_.lay_ends(X_WC, view_.begin(image.camera), loops_);
   const double block_slack_m =
       slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
-  view_.look(cloud_C, X_WC, range_m, {block_slack_m, block_slack_m});
-  if (!are_one_a_pixel(view_.depths(), cloud_C.hits_C.size() + cloud_C.clear_C.size())) {
-    return false;
-  }
-  ways_.aim(view_.depths(), X_WC, range_m);
+  view_.look(X_WC, range_m, {block_slack_m, block_slack_m});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box_.half[axis] = static_cast<float>(0.5 * frame_.cell_m);
     box_.slack[axis] = static_cast<float>(slack_m(static_cast<int>(axis)));
   }
   constexpr double ball_px = 0.75;  // a disc that wide holds the middle of a pixel
-  ball_reach_m_ = (0.5 * frame_.cell_m - block_slack_m) * cloud_C.camera->focal_px / ball_px;
+  ball_reach_m_ = (0.5 * frame_.cell_m - block_slack_m) * image.camera.focal_px / ball_px;
   frame_.range_m = range_m;
   frame_.origin_W = {origin_W.x(), origin_W.y(), origin_W.z()};
   frame_.start = {cell.x, cell.y, cell.z};
-  span_window(X_WC);
   rows_ = rows_of(X_WC);
+  span_window(X_WC);
   aim_ends(cell, range_m);
   return true;
 }
@@ -138,31 +128,32 @@ void ExactScan::span_window(const Pose& X_WC) {
   window_.span(first_chunk_, last_chunk_);
 }
 
-/// Counts what rays cross and marks hits.
-void ExactScan::settle(const std::vector<Eigen::Vector3f>& points_C, bool are_hits) {
-  for (std::size_t first = 0; first < points_C.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, points_C.size() - first);
-    PointBlock points;
-    RayEnds settled;
-    take_points(loops_, &points_C[first], count, points);
-    loops_.settle_rays(points, ends_, settled);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      if (settled.is_sure[lane] == 0) {
-        settled.cells[lane] = -1;
-        traversals_ += walk(points_C[first + lane], are_hits);
-      } else {
-        traversals_ += static_cast<std::size_t>(settled.steps[lane]);
-      }
-    }
-    if (are_hits) {
-      mark_hits(settled, count);
+/// Counts what rays cross, and marks hits.
+void ExactScan::settle() {
+  for (int v = 0; v < ways_.height_px(); ++v) {
+    for (int u = 0; u < ways_.width_px(); u += static_cast<int>(lanes)) {
+      settle_block(u, v);
     }
   }
 }
 
-void ExactScan::mark_hits(const RayEnds& settled, std::size_t count) {
+void ExactScan::settle_block(int u, int v) {
+  PointBlock points;
+  PixelKinds kinds;
+  RayEnds settled;
+  const auto count = static_cast<std::size_t>(ways_.points_from(u, v, points, kinds, loops_));
+  loops_.settle_rays(points, ends_, settled);
   for (std::size_t lane = 0; lane < count; ++lane) {
-    if (settled.cells[lane] >= 0) {
+    if (kinds.is_ray[lane] == 0) {
+      continue;
+    }
+    ++measured_;
+    if ((settled.is_sure[lane] & kinds.is_sure[lane]) == 0) {
+      traversals_ += walk_pixel(v * ways_.width_px() + u + static_cast<int>(lane));
+      continue;
+    }
+    traversals_ += static_cast<std::size_t>(settled.steps[lane]);
+    if (kinds.is_hit[lane] != 0 && settled.cells[lane] >= 0) {
       const auto cell = static_cast<std::size_t>(settled.cells[lane]);
       window_.add_hit(cell >> 6U, std::uint64_t{1} << (cell & 63U));
     }
@@ -289,41 +280,32 @@ bool ExactScan::is_crossed(const Block& cell) {
 }
 
 /// The rays of the pixels in question. What they cross is counted already.
-void ExactScan::walk_doubtful(const PointCloud& cloud_C) {
+void ExactScan::walk_doubtful() {
   std::sort(doubtful_px_.begin(), doubtful_px_.end());
   doubtful_px_.erase(std::unique(doubtful_px_.begin(), doubtful_px_.end()), doubtful_px_.end());
   for (const int pixel : doubtful_px_) {
-    (void)walk(point_in(pixel, cloud_C), false);
+    (void)walk_pixel(pixel);
   }
   doubtful_px_.clear();
 }
 
-/// @pre The pixel has a point.
-const Eigen::Vector3f& ExactScan::point_in(int pixel, const PointCloud& cloud_C) const {
-  for (const bool in_rows : {true, false}) {  // as points come most often
-    for (const auto* points_C : {&cloud_C.hits_C, &cloud_C.clear_C}) {
-      if (const auto found = ways_.find(pixel, *points_C, in_rows)) {
-        return (*points_C)[*found];
-      }
-    }
+/// Frees what a ray crosses in OctoMap's arithmetic, marks its hit, and returns how many cells it
+/// crosses.
+std::size_t ExactScan::walk_pixel(int pixel) {
+  const auto end_C = ways_.point(pixel);
+  if (!end_C) {
+    return 0;
   }
-  FLYBALL_ASSERT(false, "no point in pixel %d", pixel);
-  return cloud_C.hits_C.front();
-}
-
-/// Frees what the ray to a point crosses in OctoMap's arithmetic, and returns how many cells these
-/// are.
-std::size_t ExactScan::walk(const Eigen::Vector3f& p_C, bool is_hit) {
   ++walked_;
   PointBlock point;
   std::array<float, 3 * lanes> end_W;
-  point.take(&p_C, 1);
+  point.take(&end_C->p_C, 1);
   loops_.move_to_world(point, rows_, end_W.data());
   PointBlock end;
   const octomap::point3d uncut_W{end_W[0], end_W[1], end_W[2]};
   end.take(&uncut_W, 1);
   loops_.cut_rays(end, frame_);
-  if (is_hit && end.reaches[0] != 0) {
+  if (end_C->is_hit && end.reaches[0] != 0) {
     const CellKey cell{end.key[0][0], end.key[1][0], end.key[2][0]};
     window_.add_hit(place_of(cell), std::uint64_t{1} << bit_in_brick(cell));
   }

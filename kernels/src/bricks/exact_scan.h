@@ -29,11 +29,13 @@ class ExactScan {
  public:
   explicit ExactScan(double cell_m, Simd simd = widest_simd());
 
-  /// @pre As RayScan's and PyramidScan's. The points of a cloud with a camera lie on the rays
-  ///      through the middles of its pixels.
+  /// @pre As RayScan's, and the frame has an image.
   /// @return Valid until the next call.
-  /// @cost Without a camera, and for several points in a pixel, every ray is walked.
-  const ScanMasks& compute(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  /// @cost Points are made only where the eye is on an edge of cells, or where so many rays end on
+  ///       a border that all are walked.
+  const ScanMasks& compute(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
+  /// The same of points: every ray is walked.
+  const ScanMasks& walk(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
   /// Of the last scan: rays that were walked.
   [[nodiscard]] std::size_t walked_rays() const { return walked_; }
 
@@ -45,13 +47,12 @@ class ExactScan {
     int level;
   };
 
-  const ScanMasks& walk_all(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
-  [[nodiscard]] bool look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
+  [[nodiscard]] bool look(const RangeImage& pixels, const Pose& X_WC, double range_m);
   [[nodiscard]] int borders_near(const Vec3& p_W, const CellKey& cell, const Vec3& near_m) const;
   void span_window(const Pose& X_WC);
   void aim_ends(const CellKey& own, double range_m);
-  void settle(const std::vector<Eigen::Vector3f>& points_C, bool are_hits);
-  void mark_hits(const RayEnds& settled, std::size_t count);
+  void settle();
+  void settle_block(int u, int v);
   void free_seen(const Pose& X_CW);
   [[nodiscard]] std::size_t place_of(const CellKey& cell) const;
   void free_cell(const CellKey& cell);
@@ -62,9 +63,8 @@ class ExactScan {
   [[nodiscard]] bool is_crossed(const Block& cell);
   [[nodiscard]] Block octant_of(const Block& block, unsigned octant, std::size_t place) const;
   [[nodiscard]] bool fills_pixels(const Block& block) const;
-  void walk_doubtful(const PointCloud& cloud_C);
-  [[nodiscard]] const Eigen::Vector3f& point_in(int pixel, const PointCloud& cloud_C) const;
-  std::size_t walk(const Eigen::Vector3f& p_C, bool is_hit);
+  void walk_doubtful();
+  std::size_t walk_pixel(int pixel);
 
   Lattice lattice_;
   octomap::OcTree stock_lattice_;  ///< Empty: it only lends its arithmetic.
@@ -78,12 +78,13 @@ class ExactScan {
   PoseRows rows_{};
   EndFrame ends_{};
   BoxOfCell box_{};  ///< The cell in question.
-  Scan scan_{};  ///< For the walk of all rays.
+  Scan scan_{};      ///< For the walk of all rays.
   ScanMasks masks_{};
   CellKey first_chunk_{};
   CellKey last_chunk_{};
   std::vector<int> doubtful_px_{};
-  double ball_reach_m_{};  ///< Up to there a cell is wider in the image than a pixel.
+  double ball_reach_m_{};   ///< Up to there a cell is wider in the image than a pixel.
+  std::size_t measured_{};  ///< Pixels that are rays.
   std::size_t traversals_{};
   std::size_t walked_{};
 };

@@ -135,6 +135,22 @@ struct EndFrame {
   WindowChunks window;
 };
 
+/// Pixels of a depth image side by side, and how far their rays reach. Numbers stand one after the
+/// other; `loops` read as many as they are told.
+struct PixelDepths {
+  const float* depth_m;  ///< Along the optical axis, as all of these.
+  const float* reach_m;  ///< Farther ones are rays without return,
+  const float* clear_m;  ///< and end there.
+  const float* range_m;  ///< Where rays are cut.
+};
+
+/// What sixteen pixels are.
+struct alignas(64) PixelKinds {
+  Lanes<std::int32_t> is_hit;
+  Lanes<std::int32_t> is_ray;   ///< A hit, or clear: not broken.
+  Lanes<std::int32_t> is_sure;  ///< Not 0 where no rounding can make a hit of a clear ray.
+};
+
 /// What the ends of sixteen rays tell of them.
 struct alignas(64) RayEnds {
   Lanes<std::int32_t> steps;    ///< Cells that the ray crosses before that of its end.
@@ -265,6 +281,11 @@ struct InnerLoops {
   OctantSight (*see_octants)(const OctantProbe& probe, const float* centre_C);
   /// The same, when only those seen as a whole matter.
   std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
+  /// Where rays end, as depths: infinite beyond the range, 0 where nothing was measured.
+  void (*lay_depths)(const PixelDepths& pixels, std::size_t count, float* depth_m);
+  /// The points of sixteen pixels of a row. @param x  Where their columns look; `y`: their row.
+  void (*take_pixels)(
+      const PixelDepths& pixels, const float* x, float y, PointBlock& points, PixelKinds& kinds);
   /// Counts what rays to points of C cross, by the cells of their ends.
   void (*settle_rays)(const PointBlock& points_C, const EndFrame& frame, RayEnds& settled);
   /// Asks every `row_step`-th row of the pixels, until one is sure.

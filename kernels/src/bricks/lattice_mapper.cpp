@@ -75,19 +75,12 @@ class LatticeMapper final : public Mapper {
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
                        const MapperSettings& settings) override {
-    pending_ = nullptr;
-    if (auto status = check(cloud_C, X_WC, settings); !status) {
-      return status.error();
-    }
-    const auto level = level_of(settings.resolution_m);
-    if (!level) {
-      return level.error();
-    }
-    try {
-      return integrate(cloud_C, X_WC, settings, *level);
-    } catch (const std::exception& e) {
-      return Error{ErrorCode::failed, std::string{"flyball map: "} + e.what()};
-    }
+    return prepare_scan(cloud_C, nullptr, X_WC, settings);
+  }
+  Result<Work> prepare_frame(const PointCloudFrame& frame,
+                             const Pose& X_WC,
+                             const MapperSettings& settings) override {
+    return prepare_scan(frame.cloud_C.value(), frame.pixels ? &frame : nullptr, X_WC, settings);
   }
 
   void commit() override {
@@ -164,6 +157,31 @@ class LatticeMapper final : public Mapper {
     pyramid_->refine_near_camera();
   }
 
+  /// @param frame  With the image of the cloud, if there is one.
+  Result<Work> prepare_scan(const PointCloud& cloud_C,
+                            const PointCloudFrame* frame,
+                            const Pose& X_WC,
+                            const MapperSettings& settings) {
+    pending_ = nullptr;
+    if (auto status = check(cloud_C, X_WC, settings); !status) {
+      return status.error();
+    }
+    const auto level = level_of(settings.resolution_m);
+    if (!level) {
+      return level.error();
+    }
+    const auto exact = [&](int at_level, double range_m) {
+      ExactScan& scan = *exact_[static_cast<std::size_t>(at_level)];
+      return frame != nullptr ? &scan.compute(*frame, X_WC, range_m)
+                              : &scan.walk(cloud_C, X_WC, range_m);
+    };
+    try {
+      return integrate(cloud_C, X_WC, settings, *level, exact);
+    } catch (const std::exception& e) {
+      return Error{ErrorCode::failed, std::string{"flyball map: "} + e.what()};
+    }
+  }
+
   /// A map that is still empty takes a resolution off its lattice as its finest.
   Result<int> level_of(double resolution_m) {
     for (int attempt = 0; attempt < 2; ++attempt) {
@@ -189,19 +207,25 @@ class LatticeMapper final : public Mapper {
                                 : map_.lattice().cell_m(0);
     // A pyramid looks at the whole box around its view, up to the next chunk.
     const double edge_m = map_.lattice().edge_m() - settings.range_m - 64.0 * finest_m;
-    return check_scan(cloud_C, X_WC, settings, finest_m, edge_m);
+    if (auto status = check_points(cloud_C, X_WC); !status) {
+      return status;
+    }
+    return check_view(X_WC, settings, finest_m, edge_m);
   }
 
+  /// @param exact  Stock's masks at a level and a range.
+  template <class Exact>
   Work integrate(const PointCloud& cloud_C,
                  const Pose& X_WC,
                  const MapperSettings& settings,
-                 int level) {
+                 int level,
+                 Exact&& exact) {
     eye_W_ = X_WC.translation();
     range_m_ = settings.range_m;
     const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
     const ScanMasks* stock = nullptr;
     if (reports_stock_work_) {
-      stock = &exact_[static_cast<std::size_t>(level)]->compute(cloud_C, X_WC, range_m_);
+      stock = exact(level, range_m_);
     }
     Work work = work_of(stock);
     const bool is_limited = most_traversals_ > 0.0;
@@ -217,7 +241,7 @@ class LatticeMapper final : public Mapper {
     const bool is_done = stock != nullptr && !looks && level == 0 && is_exact && !is_limited;
     pending_ = is_done    ? stock
                : looks    ? &pyramid_->compute(cloud_C, X_WC, range_m_, level)
-               : is_exact ? &exact_[0]->compute(cloud_C, X_WC, range_m_)
+               : is_exact ? exact(0, range_m_)
                           : &close_->compute(scan_);
     pending_level_ = level;
     return reports_stock_work_ ? work : work_of(pending_);

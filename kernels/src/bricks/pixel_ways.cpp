@@ -5,9 +5,67 @@
 #include <cmath>
 
 namespace flyball {
+namespace {
 
-void PixelWays::aim(const DepthPyramid& depths, const Pose& X_WC, double range_m) {
-  measure(depths.grid(), range_m);
+bool are_same(const Intrinsics& a, const Intrinsics& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px && a.focal_px == b.focal_px &&
+         a.centre_x_px == b.centre_x_px && a.centre_y_px == b.centre_y_px;
+}
+
+void measure_slopes(int pixels, double centre_px, double focal_px, std::vector<double>& slopes) {
+  slopes.resize(static_cast<std::size_t>(pixels));
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    slopes[static_cast<std::size_t>(pixel)] = (pixel - centre_px) / focal_px;
+  }
+}
+
+}  // namespace
+
+void PixelWays::look(const DepthImage& image, double reach_m, double range_m) {
+  image_ = &image;
+  const bool is_new = !are_same(image.camera, camera_);
+  if (is_new) {
+    measure(image.camera);
+  }
+  const double nearer_m = std::min(reach_m, image.max_range_m);
+  if (is_new || nearer_m != reach_m_) {
+    reach_m_ = nearer_m;
+    scale(reach_m_, reach_depths_m_);
+    scale(beyond_reach * reach_m_, clear_depths_m_);
+  }
+  if (is_new || range_m != range_m_) {
+    range_m_ = range_m;
+    scale(range_m_, range_depths_m_);
+  }
+}
+
+void PixelWays::measure(const Intrinsics& camera) {
+  camera_ = camera;
+  measure_slopes(camera.width_px, camera.centre_x_px, camera.focal_px, slope_x_);
+  measure_slopes(camera.height_px, camera.centre_y_px, camera.focal_px, slope_y_);
+  column_x_.assign(slope_x_.size() + lanes, 0.0F);
+  std::transform(slope_x_.begin(), slope_x_.end(), column_x_.begin(),
+                 [](double x) { return static_cast<float>(x); });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    column_W_[axis].assign(slope_x_.size() + lanes, 0.0F);
+    row_W_[axis].resize(slope_y_.size());
+  }
+  lengths_.clear();
+  for (const double y : slope_y_) {
+    for (const double x : slope_x_) {
+      lengths_.push_back(std::sqrt(x * x + (y * y + 1.0)));
+    }
+  }
+}
+
+/// The depths at which rays are that long, and room for a vector.
+void PixelWays::scale(double length_m, std::vector<float>& depths_m) const {
+  depths_m.assign(lengths_.size() + lanes, 0.0F);
+  std::transform(lengths_.begin(), lengths_.end(), depths_m.begin(),
+                 [&](double length) { return static_cast<float>(length_m / length); });
+}
+
+void PixelWays::lay_ends(const Pose& X_WC, float* ends_m, const InnerLoops& loops) {
   const Eigen::Matrix3d& R_WC = X_WC.linear();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto row = static_cast<int>(axis);
@@ -18,40 +76,42 @@ void PixelWays::aim(const DepthPyramid& depths, const Pose& X_WC, double range_m
       row_W_[axis][v] = static_cast<float>(R_WC(row, 1) * slope_y_[v] + R_WC(row, 2));
     }
   }
+  loops.lay_depths(depths_from(0), lengths_.size(), ends_m);
   probe_ = {{column_W_[0].data(), column_W_[1].data(), column_W_[2].data()},
             {row_W_[0].data(), row_W_[1].data(), row_W_[2].data()},
-            depths.depth_m(),
-            range_m_.data(),
-            grid_.width_px};
+            ends_m,
+            range_depths_m_.data(),
+            width_px()};
 }
 
-/// What does not change while camera and range stay.
-void PixelWays::measure(const PixelGrid& grid, double range_m) {
-  if (grid == grid_ && range_m == measured_m_) {
-    return;
+PixelDepths PixelWays::depths_from(std::size_t pixel) const {
+  return {image_->depth_m.data() + pixel, reach_depths_m_.data() + pixel,
+          clear_depths_m_.data() + pixel, range_depths_m_.data() + pixel};
+}
+
+int PixelWays::points_from(
+    int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const {
+  constexpr auto most = static_cast<int>(lanes);
+  const int count = std::min(most, width_px() - u);
+  const auto column = static_cast<std::size_t>(u);
+  const auto row = static_cast<std::size_t>(v);
+  const std::size_t first = row * slope_x_.size() + column;
+  PixelDepths depths = depths_from(first);
+  std::array<float, lanes> last_m{};
+  if (first + lanes > image_->depth_m.size()) {  // The image has no room for a vector.
+    std::copy_n(depths.depth_m, count, last_m.begin());
+    depths.depth_m = last_m.data();
   }
-  grid_ = grid;
-  measured_m_ = range_m;
-  const auto slopes = [&](int pixels, float centre_px, std::vector<double>& slope) {
-    slope.resize(static_cast<std::size_t>(pixels));
-    for (std::size_t pixel = 0; pixel < slope.size(); ++pixel) {
-      slope[pixel] = (static_cast<double>(pixel) + 0.5 - static_cast<double>(centre_px)) /
-                     static_cast<double>(grid.focal_px);
-    }
-  };
-  slopes(grid.width_px, grid.centre_u_px, slope_x_);
-  slopes(grid.height_px, grid.centre_v_px, slope_y_);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    column_W_[axis].resize(slope_x_.size() + lanes);
-    row_W_[axis].resize(slope_y_.size());
-  }
-  range_m_.clear();
-  for (const double y : slope_y_) {
-    for (const double x : slope_x_) {
-      range_m_.push_back(static_cast<float>(range_m / std::sqrt(1.0 + x * x + y * y)));
-    }
-  }
-  range_m_.resize(range_m_.size() + lanes);
+  loops.take_pixels(depths, column_x_.data() + column, static_cast<float>(slope_y_[row]), points,
+                    kinds);
+  return count;
+}
+
+std::optional<PixelPoint> PixelWays::point(int pixel) const {
+  const auto column = static_cast<std::size_t>(pixel % width_px());
+  const auto row = static_cast<std::size_t>(pixel / width_px());
+  const float depth_m = image_->depth_m[static_cast<std::size_t>(pixel)];
+  return point_of_pixel(slope_x_[column], slope_y_[row], static_cast<double>(depth_m), reach_m_);
 }
 
 // Most cells that are crossed at all are crossed in the middle of their image.
@@ -91,40 +151,10 @@ void PixelWays::append_doubtful(const BoxOfCell& box,
     }
     for (int u = pixels.u0; u <= pixels.u1; ++u) {
       if (loops.cross_box(probe_, box, {u, v, u, v}, 1).is_possible) {
-        numbers.push_back(v * grid_.width_px + u);
+        numbers.push_back(v * width_px() + u);
       }
     }
   }
-}
-
-std::optional<std::size_t> PixelWays::find(int pixel,
-                                           const std::vector<Eigen::Vector3f>& points_C,
-                                           bool in_rows) const {
-  const auto is_before = [this](const Eigen::Vector3f& p_C, int number) {
-    return pixel_of(p_C) < number;
-  };
-  const auto is_it = [&](const Eigen::Vector3f& p_C) { return pixel_of(p_C) == pixel; };
-  const auto first = points_C.begin();
-  const auto last = points_C.end();
-  const auto found =
-      in_rows ? std::lower_bound(first, last, pixel, is_before) : std::find_if(first, last, is_it);
-  if (found == last || !is_it(*found)) {
-    return std::nullopt;
-  }
-  return static_cast<std::size_t>(found - first);
-}
-
-/// The pixel in which it is seen; -1 beside the image.
-int PixelWays::pixel_of(const Eigen::Vector3f& p_C) const {
-  if (!(p_C.z() > 0.0F)) {
-    return -1;
-  }
-  const float scale = grid_.focal_px / p_C.z();
-  const float u = p_C.x() * scale + grid_.centre_u_px;
-  const float v = p_C.y() * scale + grid_.centre_v_px;
-  const bool is_inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(grid_.width_px) &&
-                         v < static_cast<float>(grid_.height_px);
-  return is_inside ? static_cast<int>(v) * grid_.width_px + static_cast<int>(u) : -1;
 }
 
 }  // namespace flyball

@@ -2,11 +2,13 @@
 #pragma once
 
 /// @file
-/// The rays through the middles of an image's pixels, held against a box in W.
+/// The rays through the middles of a depth image's pixels: as points of C, and held against a box
+/// in W.
 
+#include "flyball/kernels/pixel_point.h"
 #include "flyball/runtime/geometry.h"
+#include "flyball/runtime/messages.h"
 
-#include "depth_pyramid.h"
 #include "inner_loops.h"
 #include <array>
 #include <optional>
@@ -16,8 +18,21 @@ namespace flyball {
 
 class PixelWays {
  public:
-  /// @param depths  Where each pixel's ray ends, if not at the range. Must outlive the questions.
-  void aim(const DepthPyramid& depths, const Pose& X_WC, double range_m);
+  /// @param image    Must outlive the questions. @param reach_m  As RangeImage's.
+  /// @param range_m  Rays are cut there.
+  void look(const DepthImage& image, double reach_m, double range_m);
+  /// Where the rays end, as a depth pyramid wants it: see InnerLoops::lay_depths.
+  /// @param ends_m  Room for all pixels and sixteen more; must outlive the questions about boxes.
+  void lay_ends(const Pose& X_WC, float* ends_m, const InnerLoops& loops);
+
+  [[nodiscard]] int width_px() const { return static_cast<int>(slope_x_.size()); }
+  [[nodiscard]] int height_px() const { return static_cast<int>(slope_y_.size()); }
+  /// Sixteen pixels of a row, or those that are left of it. Returns how many these are.
+  int points_from(
+      int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const;
+  /// As whoever makes points of images makes it.
+  [[nodiscard]] std::optional<PixelPoint> point(int pixel) const;
+
   /// @param box  From the eye, in W.
   [[nodiscard]] Crossing cross(const BoxOfCell& box,
                                const PixelBlock& pixels,
@@ -28,25 +43,26 @@ class PixelWays {
                        const PixelBlock& pixels,
                        const InnerLoops& loops,
                        std::vector<int>& numbers) const;
-  /// Which of the points of C is seen in a pixel.
-  /// @param in_rows  They are taken to come row by row, which is faster: others are not found.
-  [[nodiscard]] std::optional<std::size_t> find(int pixel,
-                                                const std::vector<Eigen::Vector3f>& points_C,
-                                                bool in_rows) const;
 
  private:
-  [[nodiscard]] int pixel_of(const Eigen::Vector3f& p_C) const;
+  void measure(const Intrinsics& camera);
+  void scale(double length_m, std::vector<float>& depths_m) const;
+  [[nodiscard]] PixelDepths depths_from(std::size_t pixel) const;
 
-  void measure(const PixelGrid& grid, double range_m);
-
-  PixelGrid grid_{};
-  double measured_m_{};  ///< The range for which `range_m_` was made.
-  PixelProbe probe_{};
+  const DepthImage* image_{};
+  Intrinsics camera_{};  ///< For which the slopes were measured,
+  double reach_m_{};     ///< and the depths.
+  double range_m_{};
   std::vector<double> slope_x_{};
   std::vector<double> slope_y_{};
+  std::vector<float> column_x_{};  ///< `slope_x_`, and room for a vector.
+  std::vector<double> lengths_{};  ///< Of each pixel's ray at depth 1.
+  std::vector<float> reach_depths_m_{};
+  std::vector<float> clear_depths_m_{};
+  std::vector<float> range_depths_m_{};
   std::array<std::vector<float>, 3> column_W_{};
   std::array<std::vector<float>, 3> row_W_{};
-  std::vector<float> range_m_{};  ///< As a depth, for each pixel.
+  PixelProbe probe_{};
 };
 
 }  // namespace flyball

@@ -60,11 +60,7 @@ float greatest_square(double length) {
   return square;
 }
 
-Status check_scan(const PointCloud& cloud_C,
-                  const Pose& X_WC,
-                  const MapperSettings& settings,
-                  double cell_m,
-                  double edge_m) {
+Status check_view(const Pose& X_WC, const MapperSettings& settings, double cell_m, double edge_m) {
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(settings.resolution_m) || !is_positive(settings.range_m)) {
     return invalid("map.resolution_m " + std::to_string(settings.resolution_m) +
@@ -74,12 +70,19 @@ Status check_scan(const PointCloud& cloud_C,
     return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 250 cells of " +
                    std::to_string(cell_m) + " m; shorten it or coarsen the map");
   }
-  if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
-    return invalid("scan " + std::to_string(cloud_C.sequence) +
-                   " has a coordinate that is not finite");
+  if (!X_WC.matrix().allFinite()) {
+    return invalid("the camera's pose is not finite");
   }
   if (X_WC.translation().cwiseAbs().maxCoeff() >= edge_m) {
     return invalid("camera is over " + std::to_string(edge_m) + " m from the map's centre");
+  }
+  return Done{};
+}
+
+Status check_points(const PointCloud& cloud_C, const Pose& X_WC) {
+  if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
+    return invalid("scan " + std::to_string(cloud_C.sequence) +
+                   " has a coordinate that is not finite");
   }
   return Done{};
 }

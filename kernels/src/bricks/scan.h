@@ -28,15 +28,16 @@ void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan);
 /// (the root of a square in float) is held against the range without a root.
 [[nodiscard]] float greatest_square(double length);
 
-/// What is checked of a scan whatever the map.
+/// What is checked of a camera's place and range whatever the map.
 ///
 /// @param cell_m  Of the cells that its rays cross.
 /// @param edge_m  The camera must be nearer to the map's centre along each axis.
 /// @error `invalid_input` with what is wrong.
-[[nodiscard]] Status check_scan(const PointCloud& cloud_C,
-                                const Pose& X_WC,
+[[nodiscard]] Status check_view(const Pose& X_WC,
                                 const MapperSettings& settings,
                                 double cell_m,
                                 double edge_m);
+/// @error `invalid_input` for a point or a pose that is not finite.
+[[nodiscard]] Status check_points(const PointCloud& cloud_C, const Pose& X_WC);
 
 }  // namespace flyball

@@ -70,6 +70,12 @@ class Mapper : public Kernel {
   virtual Result<Work> prepare(const PointCloud& cloud_C,
                                const Pose& X_WC,
                                const MapperSettings& settings) = 0;
+  /// The same, of a frame whose points need not be made where its image says enough.
+  virtual Result<Work> prepare_frame(const PointCloudFrame& frame,
+                                     const Pose& X_WC,
+                                     const MapperSettings& settings) {
+    return prepare(frame.cloud_C.value(), X_WC, settings);
+  }
   /// Makes the prepared change visible. Without one: nothing.
   virtual void commit() = 0;
 

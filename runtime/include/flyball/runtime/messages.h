@@ -58,11 +58,19 @@ struct PointCloud {
   std::optional<Intrinsics> camera{};  ///< Of the image whose pixels these are, if they are any.
 };
 
+/// An image whose pixels are the points of a cloud: each lies on the ray through the middle of its
+/// pixel (`point_of_pixel`).
+struct RangeImage {
+  Deferred<DepthImage> image{};
+  double reach_m{};  ///< Pixels that are farther became rays without return of about this length.
+};
+
 /// A point cloud as its builder publishes it.
 struct PointCloudFrame {
   MissionTime captured{};
   std::uint64_t sequence{};
   Deferred<PointCloud> cloud_C{};
+  std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
 };
 
 /// What the navigation sensors measured. `truth` fields are for the `truth` localizer and for
