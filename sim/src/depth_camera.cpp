@@ -5,6 +5,7 @@
 
 #include "mover_view.h"
 #include "pinhole.h"
+#include "ray_loops.h"
 #include "solid_rays.h"
 #include <algorithm>
 #include <array>
@@ -16,27 +17,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double min_depth_m = 0.05;  // Noise does not push a surface into the lens.
-
-// Standard deviation of MAVBench's RGB-D model (its code).
-double rgbd_sigma_m(double d) {
-  return d < 6.0 ? std::max(0.0, 0.0035 * d - 0.0023) : 0.0657 * d - 0.4193;
-}
-
-// Sum of eight 16-bit uniforms, scaled to variance 1: quantiles within 2 % of the normal
-// distribution's up to 2.3 sigma, 4 % short at 3 sigma, never beyond 4.9. Box-Muller costs more,
-// and its logarithm and cosine differ between processors in the last bit; this does not.
-double cheap_normal(RandomStream& random) {
-  constexpr std::uint64_t every_other = 0x0000ffff0000ffff;
-  std::uint64_t pairs = 0;  // sums of four, side by side
-  for (int word = 0; word < 2; ++word) {
-    const std::uint64_t bits = random.next();
-    pairs += (bits & every_other) + (bits >> 16U & every_other);
-  }
-  const std::uint64_t sum = (pairs & 0xffffffffU) + (pairs >> 32U);
-  constexpr double mean = 8.0 * 0.5 * 65535.0;
-  constexpr double sigma = 53509.9;  // sqrt(8 (65536^2 - 1) / 12)
-  return (static_cast<double>(sum) - mean) / sigma;
-}
 
 /// The orientation of the ring's camera `i` in the first one's frame: turned around the upright.
 Eigen::Matrix3d turned(const DepthCameraSpec& spec, int i) {
@@ -72,20 +52,9 @@ void DepthCamera::Scene::add_noise(std::uint64_t sequence, std::vector<float>& d
   if (!spec.rgbd_noise && spec.extra_noise_m <= 0.0) {
     return;
   }
-  RandomStream random{seed, "depth_noise", sequence};
-  for (float& depth : depth_m) {
-    if (depth == infinity) {
-      continue;
-    }
-    const double d = static_cast<double>(depth);
-    const double rgbd = spec.rgbd_noise ? rgbd_sigma_m(d) : 0.0;
-    // Without other noise the root of its square is the number itself, to the bit.
-    const double sigma_m = spec.extra_noise_m > 0.0
-                               ? std::sqrt(rgbd * rgbd + spec.extra_noise_m * spec.extra_noise_m)
-                               : rgbd;
-    const double noisy = std::max(d + sigma_m * cheap_normal(random), min_depth_m);
-    depth = noisy <= spec.max_range_m ? static_cast<float>(noisy) : infinity;
-  }
+  const RandomStream random{seed, "depth_noise", sequence};
+  const DepthNoise noise{spec.rgbd_noise, spec.extra_noise_m, min_depth_m, spec.max_range_m};
+  supported_ray_loops().back()->add_noise(noise, random.state(), depth_m.size(), depth_m.data());
 }
 
 DepthCamera::DepthCamera(const World& world, const DepthCameraSpec& spec, std::uint64_t seed)

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The innermost loops of the depth camera: a tile of rays against one solid. Written once, in the
+/// The innermost loops of the depth camera: a tile of rays against one solid, and noise. Written once, in the
 /// compiler's portable vector types (`ray_loops.inc`), and compiled for several instruction sets,
 /// of which the processor's widest is taken at run time. All give the same bits on every processor:
 /// sums, products and quotients as IEEE 754 rounds them, no approximate reciprocals, no
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace flyball {
@@ -53,6 +54,14 @@ struct PillarOffset {
   float high_z;
 };
 
+/// What a depth camera adds to what it sees.
+struct DepthNoise {
+  bool is_rgbd;        ///< Of MAVBench's RGB-D model (its code).
+  double extra_m;      ///< Standard deviation that comes on top.
+  double least_m;      ///< Noise does not push a surface nearer.
+  double max_range_m;  ///< Farther is nothing.
+};
+
 /// Each `meet` takes the nearer of the depths that stand there and the solid's, where the latter is
 /// not beyond the range. From inside a solid its far side is seen. The greatest depth comes back.
 struct RayLoops {
@@ -63,6 +72,9 @@ struct RayLoops {
                        const PillarOffset& pillar,
                        float range_m,
                        TileDepths& seen);
+  /// Adds noise to all depths that are not infinite: each takes the next two draws of the stream
+  /// of which this is the state (`RandomStream::state`).
+  void (*add_noise)(const DepthNoise& noise, std::uint64_t state, std::size_t count, float* depth_m);
 };
 
 /// Those that this processor can run, the widest last.

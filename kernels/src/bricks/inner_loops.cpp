@@ -66,9 +66,9 @@ inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
                           std::uint8_t* /*marks*/) {
   return false;
 }
-#include "crossing_loops.inc"
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_meetings.inc"
 #include "view_octants.inc"
 }  // namespace portable
 
@@ -103,9 +103,9 @@ inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
                           std::uint8_t* /*marks*/) {
   return false;
 }
-#include "crossing_loops.inc"
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_meetings.inc"
 #include "view_octants.inc"
 }  // namespace avx2
 #pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
@@ -151,9 +151,9 @@ inline bool mark_distinct(const Lanes<std::int32_t>& steps,
   }
   return true;
 }
-#include "crossing_loops.inc"
 #include "inner_loops.inc"
 #include "view_loops.inc"
+#include "view_meetings.inc"
 #include "view_octants.inc"
 }  // namespace avx512
 #pragma GCC pop_options

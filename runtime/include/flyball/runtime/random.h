@@ -18,8 +18,19 @@ class RandomStream {
       : state_{mix(seed) ^ mix(hash(purpose)) ^ mix(index + 0x51ed2701)} {}
 
   [[nodiscard]] std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15ULL;
+    state_ += step;
     return mix(state_);
+  }
+  /// Draw n from now on is `mix(state() + n * step)`, n = 1, 2, ...: whoever makes many can make
+  /// them side by side.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
+  static constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
+  static constexpr std::uint64_t first_factor = 0xbf58476d1ce4e5b9ULL;
+  static constexpr std::uint64_t second_factor = 0x94d049bb133111ebULL;
+  [[nodiscard]] static std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30U)) * first_factor;
+    z = (z ^ (z >> 27U)) * second_factor;
+    return z ^ (z >> 31U);
   }
   /// In [0, 1).
   [[nodiscard]] double uniform() { return static_cast<double>(next() >> 11U) * 0x1.0p-53; }
@@ -33,11 +44,6 @@ class RandomStream {
   }
 
  private:
-  static std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31U);
-  }
   static std::uint64_t hash(std::string_view text) {  // FNV-1a
     std::uint64_t h = 0xcbf29ce484222325ULL;
     for (const char c : text) {
