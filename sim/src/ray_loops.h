@@ -2,11 +2,11 @@
 #pragma once
 
 /// @file
-/// The innermost loops of the depth camera: a tile of rays against one solid, and noise. Written once, in the
-/// compiler's portable vector types (`ray_loops.inc`), and compiled for several instruction sets,
-/// of which the processor's widest is taken at run time. All give the same bits on every processor:
-/// sums, products and quotients as IEEE 754 rounds them, no approximate reciprocals, no
-/// fused multiply-add.
+/// The innermost loops of the depth camera: a tile of rays against one solid, and noise. Written
+/// once, in the compiler's portable vector types (`ray_loops.inc`), and compiled for several
+/// instruction sets, of which the processor's widest is taken at run time. All give the same bits
+/// on every processor: sums, products and quotients as IEEE 754 rounds them, no approximate
+/// reciprocals, no fused multiply-add.
 
 #include <array>
 #include <cstddef>
@@ -74,7 +74,10 @@ struct RayLoops {
                        TileDepths& seen);
   /// Adds noise to all depths that are not infinite: each takes the next two draws of the stream
   /// of which this is the state (`RandomStream::state`).
-  void (*add_noise)(const DepthNoise& noise, std::uint64_t state, std::size_t count, float* depth_m);
+  void (*add_noise)(const DepthNoise& noise,
+                    std::uint64_t state,
+                    std::size_t count,
+                    float* depth_m);
 };
 
 /// Those that this processor can run, the widest last.

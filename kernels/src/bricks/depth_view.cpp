@@ -94,8 +94,11 @@ void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, double range_m) {
   }
   probe_.grid = depth_.grid();
   probe_.nearest_m = static_cast<float>(margins_.nearest_m);
-  probe_.squared_range_m2 = static_cast<float>(range_m * range_m);
-  probe_.half_cell_m = static_cast<float>(0.5 * finest_m_);
+  const Extent& cell = extents_[0];
+  probe_.squared_range_m2 =
+      margins_.probes_whole_cells ? cell.squared_near : static_cast<float>(range_m * range_m);
+  probe_.half_cell_m =
+      margins_.probes_whole_cells ? cell.half.z() : static_cast<float>(0.5 * finest_m_);
   probe_.depth_m = depth_.depth_m();
 }
 

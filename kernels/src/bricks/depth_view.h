@@ -22,6 +22,9 @@ enum class Sight : std::uint8_t {
 struct SightMargins {
   double nearest_m{0.05};  ///< Nearer to the camera, a block's image has no bounds.
   double slack_m{0.0};     ///< Blocks are taken for wider by this to each side.
+  /// The probe says yes only where the ray through the pixel at a cell's middle leaves the cell
+  /// behind, and not already where it reaches the middle and half a cell more.
+  bool probes_whole_cells{false};
 };
 
 class DepthView {

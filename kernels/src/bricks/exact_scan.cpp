@@ -78,7 +78,7 @@ bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m)
   ways_.lay_ends(X_WC, view_.begin(image.camera), loops_);
   const double block_slack_m =
       slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
-  view_.look(X_WC, range_m, {block_slack_m, block_slack_m});
+  view_.look(X_WC, range_m, {block_slack_m, block_slack_m, true});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box_.half[axis] = static_cast<float>(0.5 * frame_.cell_m);
     box_.slack[axis] = static_cast<float>(slack_m(static_cast<int>(axis)));
@@ -95,7 +95,7 @@ bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m)
 }
 
 void ExactScan::aim_ends(const CellKey& own, double range_m) {
-  constexpr double share = 2.4e-7;  // of a place in W: what stock's floats may be off
+  constexpr double share = 1.2e-7;  // of a place in W: what stock's floats may be off, twice
   const Vec3 in_cell = eye_W_ - lattice_.cube(own, 0).min;
   ends_.range_m = static_cast<float>(range_m);
   ends_.cells_per_m = static_cast<float>(frame_.cells_per_m);
@@ -109,7 +109,7 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
     ends_.in_cell[axis] = static_cast<float>(in_cell(row));
     ends_.start[axis] = frame_.start[axis] - ends_.window.first[axis];
     ends_.doubt[axis] = static_cast<float>(
-        frame_.cells_per_m * (3.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
+        frame_.cells_per_m * (2.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
   }
 }
 
@@ -232,6 +232,9 @@ void ExactScan::free_inside(const Block& block) {
 void ExactScan::free_brick(const Block& brick) {
   const OctantSight sight = view_.sight_of_octants(brick.centre_C, brick_level);
   std::uint64_t free = 0;
+  if (sight.part != 0 && fills_pixels(brick)) {
+    free = loops_.seen_cells(view_.probe(), brick.centre_C.data());
+  }
   for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
     const auto octant = static_cast<unsigned>(lowest_bit(left));
     const Block eighth = octant_of(brick, octant, brick.place);
@@ -239,7 +242,7 @@ void ExactScan::free_brick(const Block& brick) {
     if ((sight.whole >> octant & 1U) != 0 && fills_pixels(eighth)) {
       free |= std::uint64_t{0x330033} << first_bit;
     } else {
-      free |= crossed_cells(eighth, first_bit);
+      free |= crossed_cells(eighth, first_bit, free | window_.hits(brick.place));
     }
   }
   if (free != 0) {
@@ -247,16 +250,22 @@ void ExactScan::free_brick(const Block& brick) {
   }
 }
 
-/// Of two by two by two cells, the first of which has this bit in its brick.
-std::uint64_t ExactScan::crossed_cells(const Block& eighth, unsigned first_bit) {
+/// Of two by two by two cells, the first of which has this bit in its brick, those that are not
+/// settled: known to be free, or hit. A hit is not freed, whoever crosses it.
+std::uint64_t ExactScan::crossed_cells(const Block& eighth,
+                                       unsigned first_bit,
+                                       std::uint64_t settled) {
+  if ((~settled >> first_bit & 0x330033) == 0) {
+    return 0;
+  }
   const OctantSight sight = view_.sight_of_octants(eighth.centre_C, 1);
   std::uint64_t crossed = 0;
   for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
     const auto octant = static_cast<unsigned>(lowest_bit(left));
     const unsigned step = (octant & 1U) + (octant >> 1U & 1U) * 4 + (octant >> 2U) * 16;
     const std::uint64_t bit = std::uint64_t{1} << (first_bit + step);
-    if ((window_.hits(eighth.place) & bit) != 0) {
-      continue;  // A hit is not freed, whoever crosses it.
+    if ((settled & bit) != 0) {
+      continue;
     }
     const Block cell = octant_of(eighth, octant, eighth.place);
     const bool is_whole = (sight.whole >> octant & 1U) != 0 && fills_pixels(cell);

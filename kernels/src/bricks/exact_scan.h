@@ -59,7 +59,9 @@ class ExactScan {
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   void free_inside(const Block& block);
   void free_brick(const Block& brick);
-  [[nodiscard]] std::uint64_t crossed_cells(const Block& eighth, unsigned first_bit);
+  [[nodiscard]] std::uint64_t crossed_cells(const Block& eighth,
+                                            unsigned first_bit,
+                                            std::uint64_t settled);
   [[nodiscard]] bool is_crossed(const Block& cell);
   [[nodiscard]] Block octant_of(const Block& block, unsigned octant, std::size_t place) const;
   [[nodiscard]] bool fills_pixels(const Block& block) const;

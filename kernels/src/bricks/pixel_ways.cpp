@@ -114,25 +114,11 @@ std::optional<PixelPoint> PixelWays::point(int pixel) const {
   return point_of_pixel(slope_x_[column], slope_y_[row], static_cast<double>(depth_m), reach_m_);
 }
 
-// Most cells that are crossed at all are crossed in the middle of their image.
 Crossing PixelWays::cross(const BoxOfCell& box,
                           const PixelBlock& pixels,
                           const InnerLoops& loops) const {
-  constexpr int few_rows = 3;
-  constexpr int stride = 8;
-  constexpr auto half_lanes = static_cast<int>(lanes / 2);
-  const int rows = pixels.v1 - pixels.v0 + 1;
-  if (rows > few_rows) {
-    const int v = (pixels.v0 + pixels.v1) / 2;
-    const int u = (pixels.u0 + pixels.u1) / 2;
-    const PixelBlock middle{std::max(pixels.u0, u - half_lanes + 1), v,
-                            std::min(pixels.u1, u + half_lanes), v};
-    const Crossing there = loops.cross_box(probe_, box, middle, 1);
-    if (there.is_sure) {
-      return there;
-    }
-  }
-  if (rows > 2 * stride) {
+  constexpr int stride = 8;  // of a large image, which is most often crossed by many
+  if (pixels.v1 - pixels.v0 >= 2 * stride) {
     const Crossing sample = loops.cross_box(probe_, box, pixels, stride);
     if (sample.is_sure) {
       return sample;
