@@ -2,8 +2,6 @@
 #include "overlap.h"
 
 #include <array>
-#include <cmath>
-#include <limits>
 
 namespace flyball {
 namespace {
@@ -79,16 +77,6 @@ bool SweepShape::overlaps(const Aabb& box) const {
                         (level.last - level.first) * step_.head<2>()};
   const double reach_m = body_.radius_m - touch_m;
   return squared_distance(segment, box) < reach_m * reach_m;
-}
-
-double NearestShape::distance_m(const Aabb& box) const {
-  const double low_m = std::max(box.min.z(), p_W_.z() - half_band_m_);
-  const double high_m = std::min(box.max.z(), p_W_.z() + half_band_m_);
-  if (high_m - low_m <= touch_m) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double dz = gap_m(low_m, high_m, p_W_.z());
-  return std::sqrt(squared_distance_xy(box, p_W_.x(), p_W_.y()) + dz * dz);
 }
 
 }  // namespace flyball

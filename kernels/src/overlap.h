@@ -12,6 +12,8 @@
 #include "flyball/runtime/geometry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace flyball {
 
@@ -104,7 +106,7 @@ class SweepShape {
 class NearestShape {
  public:
   NearestShape(const Vec3& p_W, double limit_m, double half_band_m)
-      : p_W_{p_W}, half_band_m_{half_band_m}, nearest_m_{limit_m} {}
+      : p_W_{p_W}, half_band_m_{half_band_m}, nearest_m_{limit_m}, squared_m2_{above(limit_m)} {}
 
   [[nodiscard]] Aabb bounds() const {
     const Vec3 half_W{nearest_m_, nearest_m_, std::min(nearest_m_, half_band_m_)};
@@ -112,15 +114,32 @@ class NearestShape {
   }
   [[nodiscard]] const Vec3& focus() const { return p_W_; }
   [[nodiscard]] double nearest_m() const { return nearest_m_; }
-  [[nodiscard]] bool overlaps(const Aabb& box) const { return distance_m(box) < nearest_m_; }
-  void shrink_to(const Aabb& box) { nearest_m_ = std::min(nearest_m_, distance_m(box)); }
+  [[nodiscard]] bool overlaps(const Aabb& box) const {
+    return squared_distance_m2(box) < squared_m2_;
+  }
+  void shrink_to(const Aabb& box) {
+    nearest_m_ = std::min(nearest_m_, std::sqrt(squared_distance_m2(box)));
+    squared_m2_ = above(nearest_m_);
+  }
 
  private:
+  /// Not less than the square of any number below it, whatever the rounding.
+  static double above(double length_m) { return length_m * length_m * (1.0 + 1e-15); }
   /// To the box's part in the band; beyond every limit when it has none.
-  [[nodiscard]] double distance_m(const Aabb& box) const;
+  [[nodiscard]] double squared_distance_m2(const Aabb& box) const {
+    const double low_m = std::max(box.min.z(), p_W_.z() - half_band_m_);
+    const double high_m = std::min(box.max.z(), p_W_.z() + half_band_m_);
+    if (high_m - low_m <= touch_m) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double dz = gap_m(low_m, high_m, p_W_.z());
+    return squared_distance_xy(box, p_W_.x(), p_W_.y()) + dz * dz;
+  }
+
   Vec3 p_W_;
   double half_band_m_;
   double nearest_m_;
+  double squared_m2_;
 };
 
 }  // namespace flyball

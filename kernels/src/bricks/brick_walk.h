@@ -110,7 +110,8 @@ class BrickWalk {
                                        const Scope<Shape>& scope,
                                        Visit& visit) const {
     const CellKey low{first[0], first[1], first[2]};
-    if (first == last) {
+    // Not `first == last`, which is a call.
+    if (first[0] == last[0] && first[1] == last[1] && first[2] == last[2]) {
       return visit(low, map_.find(low), scope);
     }
     const Aabb box{lattice_.cube(low, chunk_level).min,
