@@ -91,7 +91,9 @@ TEST_P(EveryCell, is_marked_and_counted_as_if_every_ray_had_been_walked) {
       // A knob may have changed since the points were made.
       const double reach_m = number % 7 == 0 ? 10.0 : range_m;
       const int width_px = number % 4 == 0 ? 90 : 96;
-      const View view = view_of(place, number, reach_m, number % 5 == 0 ? 900.0 : 20.0, width_px);
+      // Far from the map's centre floats are coarse, and move the ends of cut rays.
+      const double far_m = number % 5 == 0 ? 4000.0 : number % 5 == 1 ? 900.0 : 20.0;
+      const View view = view_of(place, number, reach_m, far_m, width_px);
       const PointCloud& cloud_C = view.frame.cloud_C.value();
       Scan scan;
       to_world(cloud_C, view.X_WC, scan);
@@ -105,6 +107,22 @@ TEST_P(EveryCell, is_marked_and_counted_as_if_every_ray_had_been_walked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ExactScan, EveryCell, testing::Values(0.15, 0.3, 0.6, 0.8, 1.2));
+
+// Floats are coarse there, and where a coordinate is rounded, a cut moves the end of a ray along
+// all of them.
+TEST(ExactScan, counts_as_stock_does_far_from_the_centre_of_the_map) {
+  constexpr double cell_m = 0.15;
+  constexpr double range_m = 7.0;
+  RayScan walked{cell_m, RayScan::Match::stock};
+  ExactScan exact{cell_m};
+  for (std::uint64_t number = 0; number < 60; ++number) {
+    const View view = view_of(kit::Place::outdoor, number, range_m, 4000.0, 128);
+    Scan scan;
+    to_world(view.frame.cloud_C.value(), view.X_WC, scan);
+    scan.range_m = range_m;
+    expect_same(exact.compute(view.frame, view.X_WC, range_m), walked.compute(scan));
+  }
+}
 
 }  // namespace
 }  // namespace flyball

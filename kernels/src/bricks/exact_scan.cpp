@@ -75,7 +75,7 @@ bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m)
   }
   const DepthImage& image = pixels.image.value();
   ways_.look(image, pixels.reach_m, range_m);
-  ways_.lay_ends(X_WC, view_.begin(image.camera), loops_);
+  ways_.lay_ends(X_WC, slack_m.maxCoeff(), view_.begin(image.camera), loops_);
   const double block_slack_m =
       slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
   view_.look(X_WC, range_m, {block_slack_m, block_slack_m, true});
@@ -101,6 +101,9 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
   ends_.cells_per_m = static_cast<float>(frame_.cells_per_m);
   ends_.range_doubt_m = static_cast<float>(3.0 * slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m));
   ends_.window = window_.chunks();
+  // A cut moves its end along the ray by what the farthest coordinate's float is off.
+  ends_.cut_doubt = static_cast<float>(frame_.cells_per_m * 2.0 * share *
+                                       (eye_W_.cwiseAbs().maxCoeff() + range_m));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto row = static_cast<int>(axis);
     for (std::size_t column = 0; column < 3; ++column) {

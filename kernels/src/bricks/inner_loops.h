@@ -130,7 +130,8 @@ struct EndFrame {
   float range_m;
   float cells_per_m;
   float range_doubt_m;         ///< Ends nearer to the range are not sure,
-  std::array<float, 3> doubt;  ///< nor those nearer to a border of cells along an axis, in cells.
+  std::array<float, 3> doubt;  ///< nor those nearer to a border of cells along an axis, in cells;
+  float cut_doubt;             ///< where they are cut, by so much more.
   std::array<std::int32_t, 3> start;  ///< Of the origin's cell in the window.
   WindowChunks window;
 };
@@ -166,6 +167,7 @@ struct PixelProbe {
   const float* depth_m;  ///< That was seen.
   const float* range_m;  ///< As a depth: where the ray is cut.
   std::int32_t width_px;
+  float range_share;  ///< Of its length, by which a ray that is cut may be longer or shorter.
 };
 
 /// Pixels from (u0, v0) to (u1, v1), both included.

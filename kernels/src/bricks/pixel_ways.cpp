@@ -65,7 +65,10 @@ void PixelWays::scale(double length_m, std::vector<float>& depths_m) const {
                  [&](double length) { return static_cast<float>(length_m / length); });
 }
 
-void PixelWays::lay_ends(const Pose& X_WC, float* ends_m, const InnerLoops& loops) {
+void PixelWays::lay_ends(const Pose& X_WC,
+                         double range_doubt_m,
+                         float* ends_m,
+                         const InnerLoops& loops) {
   const Eigen::Matrix3d& R_WC = X_WC.linear();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto row = static_cast<int>(axis);
@@ -81,7 +84,8 @@ void PixelWays::lay_ends(const Pose& X_WC, float* ends_m, const InnerLoops& loop
             {row_W_[0].data(), row_W_[1].data(), row_W_[2].data()},
             ends_m,
             range_depths_m_.data(),
-            width_px()};
+            width_px(),
+            static_cast<float>(range_doubt_m / range_m_)};
 }
 
 PixelDepths PixelWays::depths_from(std::size_t pixel) const {

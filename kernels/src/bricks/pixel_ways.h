@@ -22,8 +22,10 @@ class PixelWays {
   /// @param range_m  Rays are cut there.
   void look(const DepthImage& image, double reach_m, double range_m);
   /// Where the rays end, as a depth pyramid wants it: see InnerLoops::lay_depths.
-  /// @param ends_m  Room for all pixels and sixteen more; must outlive the questions about boxes.
-  void lay_ends(const Pose& X_WC, float* ends_m, const InnerLoops& loops);
+  /// @param ends_m         Room for all pixels and sixteen more; must outlive the questions about
+  ///                       boxes.
+  /// @param range_doubt_m  By which rays that are cut may be longer or shorter.
+  void lay_ends(const Pose& X_WC, double range_doubt_m, float* ends_m, const InnerLoops& loops);
 
   [[nodiscard]] int width_px() const { return static_cast<int>(slope_x_.size()); }
   [[nodiscard]] int height_px() const { return static_cast<int>(slope_y_.size()); }
