@@ -165,6 +165,9 @@ void MissionWay::limit_lattice(const Observation& seen,
   const bool waits = cruises && !(seen.speed_m_s > standing_m_s);
   around.coarsest_m = std::min(
       {around.coarsest_m, near || !cruises ? large_m_ : 1e9, waits ? in_force.resolution_m : 1e9});
+  if (needs_finest(seen, near, in_force)) {
+    around.coarsest_m = levels_m_.front();
+  }
   failed_.note(seen, in_force.resolution_m > large_m_);
   around.large_m = large_m_;
   around.large_j_m = failed_.per_m() * failed_plan_j;
@@ -173,6 +176,17 @@ void MissionWay::limit_lattice(const Observation& seen,
   around.most_response_s = patience_s_;  // Else it would be taken for stuck.
   // Only at the mission's own limit a second buys nothing: elsewhere a plan may be wanted.
   around.needs_top_clock |= !(seen.speed_m_s >= at_limit * around.speed_limit_m_s);
+}
+
+// What shuts the way to a narrow place are the cells, which may be larger than its door: after one
+// plan that failed it is looked for in the finest ones. And within, what seems clear for a moment
+// is no reason to leave them: larger ones shut the door that the path leads through, and at this
+// speed the finest ones cost no time.
+bool MissionWay::needs_finest(const Observation& seen, bool near, const MapSetting& in_force) {
+  seeks_door_ = near && (seeks_door_ || seen.planner_failures > 0);
+  const bool is_within =
+      near && seen.speed_m_s <= narrow_m_s_ && !(in_force.resolution_m > levels_m_.front());
+  return seeks_door_ || is_within;
 }
 
 void MissionWay::limit_two_levels(const Observation& seen,

@@ -74,6 +74,43 @@ TEST(MissionWay, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
   EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
 }
 
+constexpr MapSetting finest{0.15, 7.0, 2e9};
+constexpr MapSetting next_finest{0.30, 13.0, 2e9};
+
+// Nothing near says so: the mission's limit of speed does, 20 m ahead.
+TEST(MissionWay, leaves_finest_cells_only_where_the_mission_is_fast_again) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  Observation seen = cruising();
+  seen.speed_m_s = seen.speed_limit_m_s = 1.0;
+  EXPECT_GE(way->look(seen, next_finest).coarsest_m, 0.30);
+  EXPECT_EQ(way->look(seen, finest).coarsest_m, 0.15);
+  seen.speed_limit_m_s = 6.0;
+  EXPECT_GE(way->look(seen, finest).coarsest_m, 0.30);
+}
+
+TEST(MissionWay, leaves_finest_cells_again_on_its_way_to_a_slow_place) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  Observation seen = cruising();
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_GE(way->look(seen, finest).coarsest_m, 0.30);
+}
+
+TEST(MissionWay, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has_failed) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  Observation seen = cruising();
+  seen.planner_failures = 1;
+  EXPECT_GE(way->look(seen, next_finest).coarsest_m, 0.30) << "it may be far off in the open";
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_EQ(way->look(seen, next_finest).coarsest_m, 0.15);
+  seen.planner_failures = 0;
+  EXPECT_EQ(way->look(seen, next_finest).coarsest_m, 0.15);
+  seen.speed_limit_m_s = 6.0;
+  EXPECT_GE(way->look(seen, next_finest).coarsest_m, 0.30);
+}
+
 TEST(MissionWay, gives_plans_in_large_cells_little_and_those_in_fine_ones_more_each_time) {
   const auto way = made({{"coarse_budget", 200.0}});
   ASSERT_TRUE(way.ok());

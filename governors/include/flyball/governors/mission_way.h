@@ -72,6 +72,7 @@ class MissionWay {
                      bool near,
                      const MapSetting& in_force,
                      Surroundings& around);
+  [[nodiscard]] bool needs_finest(const Observation& seen, bool near, const MapSetting& in_force);
   void limit_two_levels(const Observation& seen,
                         bool near,
                         const MapSetting& in_force,
@@ -94,6 +95,7 @@ class MissionWay {
   Passability passability_;
   Sight sight_;
   FailedPlans failed_{};
+  bool seeks_door_{};  ///< A plan has failed before the narrow place that is near.
 };
 
 }  // namespace flyball
