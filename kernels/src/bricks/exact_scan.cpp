@@ -144,20 +144,16 @@ void ExactScan::settle_block(int u, int v) {
   PointBlock points;
   PixelKinds kinds;
   RayEnds settled;
-  const auto count = static_cast<std::size_t>(ways_.points_from(u, v, points, kinds, loops_));
-  loops_.settle_rays(points, ends_, settled);
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    if (kinds.is_ray[lane] == 0) {
-      continue;
-    }
-    ++measured_;
-    if ((settled.is_sure[lane] & kinds.is_sure[lane]) == 0) {
-      traversals_ += walk_pixel(v * ways_.width_px() + u + static_cast<int>(lane));
-      continue;
-    }
-    traversals_ += static_cast<std::size_t>(settled.steps[lane]);
-    if (kinds.is_hit[lane] != 0 && settled.cells[lane] >= 0) {
-      const auto cell = static_cast<std::size_t>(settled.cells[lane]);
+  ways_.points_from(u, v, points, kinds, loops_);
+  loops_.settle_rays(points, kinds, ends_, settled);
+  measured_ += count_bits(settled.rays);
+  traversals_ += static_cast<std::size_t>(settled.steps);
+  for (std::uint64_t left = settled.rays & ~settled.sure; left != 0; left &= left - 1) {
+    traversals_ += walk_pixel(v * ways_.width_px() + u + static_cast<int>(lowest_bit(left)));
+  }
+  for (const std::int32_t at : settled.cells) {
+    if (at >= 0) {
+      const auto cell = static_cast<std::size_t>(at);
       window_.add_hit(cell >> 6U, std::uint64_t{1} << (cell & 63U));
     }
   }

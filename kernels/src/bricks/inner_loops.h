@@ -145,18 +145,20 @@ struct PixelDepths {
   const float* range_m;  ///< Where rays are cut.
 };
 
-/// What sixteen pixels are.
+/// What sixteen pixels are. All bits of a number say yes, none no.
 struct alignas(64) PixelKinds {
   Lanes<std::int32_t> is_hit;
   Lanes<std::int32_t> is_ray;   ///< A hit, or clear: not broken.
-  Lanes<std::int32_t> is_sure;  ///< Not 0 where no rounding can make a hit of a clear ray.
+  Lanes<std::int32_t> is_sure;  ///< No rounding can make a hit of a clear ray.
 };
 
 /// What the ends of sixteen rays tell of them.
 struct alignas(64) RayEnds {
-  Lanes<std::int32_t> steps;    ///< Cells that the ray crosses before that of its end.
-  Lanes<std::int32_t> cells;    ///< Of hits, as `locate_hits` finds them; -1 beyond the range.
-  Lanes<std::int32_t> is_sure;  ///< Not 0 where no rounding can put the end elsewhere.
+  /// Of sure hits within the range, as `locate_hits` finds them; -1 for others.
+  Lanes<std::int32_t> cells;
+  std::int32_t steps;  ///< Cells that the sure ones cross before those of their ends, together.
+  std::uint32_t rays;  ///< A bit for each lane that is one,
+  std::uint32_t sure;  ///< and for those of which no rounding can put the end elsewhere.
 };
 
 /// The rays through the middles of an image's pixels, in W and of depth 1: the sum of what their
@@ -289,7 +291,11 @@ struct InnerLoops {
   void (*take_pixels)(
       const PixelDepths& pixels, const float* x, float y, PointBlock& points, PixelKinds& kinds);
   /// Counts what rays to points of C cross, by the cells of their ends.
-  void (*settle_rays)(const PointBlock& points_C, const EndFrame& frame, RayEnds& settled);
+  /// @param kinds  No ray beyond the last pixel.
+  void (*settle_rays)(const PointBlock& points_C,
+                      const PixelKinds& kinds,
+                      const EndFrame& frame,
+                      RayEnds& settled);
   /// Asks every `row_step`-th row of the pixels, until one is sure.
   Crossing (*cross_box)(const PixelProbe& probe,
                         const BoxOfCell& box,

@@ -93,22 +93,18 @@ PixelDepths PixelWays::depths_from(std::size_t pixel) const {
           clear_depths_m_.data() + pixel, range_depths_m_.data() + pixel};
 }
 
-int PixelWays::points_from(
+void PixelWays::points_from(
     int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const {
-  constexpr auto most = static_cast<int>(lanes);
-  const int count = std::min(most, width_px() - u);
   const auto column = static_cast<std::size_t>(u);
   const auto row = static_cast<std::size_t>(v);
-  const std::size_t first = row * slope_x_.size() + column;
-  PixelDepths depths = depths_from(first);
+  PixelDepths depths = depths_from(row * slope_x_.size() + column);
   std::array<float, lanes> last_m{};
-  if (first + lanes > image_->depth_m.size()) {  // The image has no room for a vector.
-    std::copy_n(depths.depth_m, count, last_m.begin());
+  if (column + lanes > slope_x_.size()) {
+    std::copy_n(depths.depth_m, slope_x_.size() - column, last_m.begin());
     depths.depth_m = last_m.data();
   }
   loops.take_pixels(depths, column_x_.data() + column, static_cast<float>(slope_y_[row]), points,
                     kinds);
-  return count;
 }
 
 std::optional<PixelPoint> PixelWays::point(int pixel) const {

@@ -29,8 +29,8 @@ class PixelWays {
 
   [[nodiscard]] int width_px() const { return static_cast<int>(slope_x_.size()); }
   [[nodiscard]] int height_px() const { return static_cast<int>(slope_y_.size()); }
-  /// Sixteen pixels of a row, or those that are left of it. Returns how many these are.
-  int points_from(
+  /// Sixteen pixels of a row; those beyond its end are no rays.
+  void points_from(
       int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const;
   /// As whoever makes points of images makes it.
   [[nodiscard]] std::optional<PixelPoint> point(int pixel) const;
