@@ -46,6 +46,16 @@ struct Vehicle::Body {
 
   void turn_rotors(double dt_s, const RotorSpeeds& command);
   void turn_camera(double dt_s);
+  /// Room for what a step computes, so that none allocates.
+  struct Steps {
+    SimTK::Vector before{};
+    SimTK::Vector udot{};
+    SimTK::Vector motors{};  ///< Of the gimbal.
+    SimTK::Vector mean{};
+    SimTK::Vector qdot{};
+  };
+  Steps steps{};
+
   void integrate(double dt_s);
   void read_state(const SimTK::Vec3& a_WB);
 };
@@ -91,30 +101,36 @@ void Vehicle::Body::turn_camera(double dt_s) {
 void Vehicle::Body::integrate(double dt_s) {
   SimTK::State& state = physics->state;
   physics->system.realize(state, SimTK::Stage::Acceleration);
-  const SimTK::Vector before = state.getU();
-  const SimTK::Vector udot = state.getUDot();
-  SimTK::Vector motors;  // Of the gimbal. Simbody's sign: against the motion.
+  Steps& step = steps;
+  step.before = state.getU();
+  step.udot = state.getUDot();
   if (made_of.gimbal) {
-    physics->matter.findMotionForces(state, motors);
+    physics->matter.findMotionForces(state, step.motors);
   }
-  state.updU() += dt_s * udot;
+  state.updU() += dt_s * step.udot;
   // Work at the mean speed of the step: with it a force's work is exactly the kinetic energy that
   // this scheme gives a mass.
-  const SimTK::Vector mean = 0.5 * (before + state.getU());
+  step.mean = 0.5 * (step.before + state.getU());
+  const SimTK::Vector& mean = step.mean;
   const SimTK::SpatialVec V_mean{SimTK::Vec3{mean[0], mean[1], mean[2]},
                                  SimTK::Vec3{mean[3], mean[4], mean[5]}};
   rotor_work_j += dt_s * (~loads.rotors * V_mean);
   drag_loss_j -= dt_s * (~loads.drag * V_mean);
   contact_loss_j -= dt_s * (~loads.contact * V_mean);
   if (made_of.gimbal) {
-    gimbal_work_j -= dt_s * (~motors * mean);
+    gimbal_work_j -= dt_s * (~step.motors * mean);  // Simbody's sign: against the motion.
   }
   // Not by realizing velocities: the next step does that once more.
-  SimTK::Vector qdot;
-  physics->matter.multiplyByN(state, false, state.getU(), qdot);
-  state.updQ() += dt_s * qdot;
-  physics->matter.normalizeQuaternions(state);
-  read_state(SimTK::Vec3{udot[3], udot[4], udot[5]});
+  physics->matter.multiplyByN(state, false, state.getU(), step.qdot);
+  SimTK::Vector& q = state.updQ();
+  q += dt_s * step.qdot;
+  // As SimbodyMatterSubsystem::normalizeQuaternions does it, which looks at every joint first.
+  SimTK::Vec4 attitude{q[0], q[1], q[2], q[3]};
+  attitude = attitude / attitude.norm();
+  for (int i = 0; i < 4; ++i) {
+    q[i] = attitude[i];
+  }
+  read_state(SimTK::Vec3{step.udot[3], step.udot[4], step.udot[5]});
 }
 
 void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
