@@ -35,6 +35,9 @@ const ScanMasks* Pipeline::masks_of(const Frame& frame) {
   if (variant_.front_end == "stock") {
     return nullptr;
   }
+  if (variant_.front_end == "exact") {
+    return &exact_.compute(frame.pixels, frame.X_WC, scene_range_m);
+  }
   const bool looks = variant_.front_end == "pyramid" || variant_.front_end == "knob";
   return looks ? &pyramid_.compute(frame.cloud_C, frame.X_WC, scene_range_m, level_)
                : &rays_.compute(frame.scan);

@@ -5,6 +5,7 @@
 /// What map_bench measures: ways of mapping the frames of a flight.
 
 #include "../../kernels/src/bricks/brick_map.h"
+#include "../../kernels/src/bricks/exact_scan.h"
 #include "../../kernels/src/bricks/octree_record.h"
 #include "../../kernels/src/bricks/pyramid_scan.h"
 #include "../../kernels/src/bricks/ray_scan.h"
@@ -45,8 +46,8 @@ class Pipeline {
       : variant_{variant},
         level_{variant.front_end == "knob" ? level : 0},
         cell_m_{variant.front_end == "knob" ? finest_m : finest_m * (1 << level)},
-        rays_{cell_m_, variant.front_end == "rays" ? RayScan::Match::close : RayScan::Match::stock,
-              variant.simd},
+        exact_{cell_m_, variant.simd},
+        rays_{cell_m_, RayScan::Match::close, variant.simd},
         pyramid_{cell_m_, variant.simd},
         map_{cell_m_, variant.simd},
         tree_{cell_m_} {
@@ -72,6 +73,7 @@ class Pipeline {
   Variant variant_;
   int level_;
   double cell_m_;
+  ExactScan exact_;
   RayScan rays_;
   PyramidScan pyramid_;
   BrickMap map_;

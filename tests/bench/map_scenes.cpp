@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_scenes.h"
 
+#include "flyball/kernels/pixel_point.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -106,23 +108,38 @@ Pose camera_at(Scene scene, int frame) {
   return X_WC;
 }
 
-PointCloud look(const Place& place, const Pose& X_WC, ImageSize size) {
+DepthImage look(const Place& place, const Pose& X_WC, ImageSize size) {
   constexpr double noise = 1e-3;
   std::mt19937 generator{123};
   std::normal_distribution<double> normal;
   const double half_px = 0.5 * size.width_px;
-  PointCloud cloud_C;
-  cloud_C.camera =
+  DepthImage image;
+  image.max_range_m = scene_range_m;
+  image.camera =
       Intrinsics{size.width_px, size.height_px, half_px, half_px - 0.5, 0.5 * size.height_px - 0.5};
   for (int pixel = 0; pixel < size.width_px * size.height_px; ++pixel) {
-    const Vec3 ray_C = Vec3{(pixel % size.width_px + 0.5 - half_px) / half_px,
-                            (pixel / size.width_px + 0.5 - 0.5 * size.height_px) / half_px, 1.0}
-                           .normalized();
-    const double d_m = place.distance_m(X_WC.translation(), X_WC.linear() * ray_C) *
+    const Vec3 ray_C{(pixel % size.width_px - image.camera.centre_x_px) / half_px,
+                     (pixel / size.width_px - image.camera.centre_y_px) / half_px, 1.0};
+    const double d_m = place.distance_m(X_WC.translation(), X_WC.linear() * ray_C.normalized()) *
                        (1.0 + noise * normal(generator));
-    const bool returns = d_m <= scene_range_m;
-    (returns ? cloud_C.hits_C : cloud_C.clear_C)
-        .emplace_back(((returns ? d_m : 1.001 * scene_range_m) * ray_C).cast<float>());
+    image.depth_m.push_back(static_cast<float>(d_m / ray_C.norm()));
+  }
+  return image;
+}
+
+PointCloud points_of(const DepthImage& image) {
+  const Intrinsics& camera = image.camera;
+  PointCloud cloud_C;
+  cloud_C.camera = camera;
+  for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+    const auto width = static_cast<std::size_t>(camera.width_px);
+    const auto point =
+        point_of_pixel((static_cast<double>(pixel % width) - camera.centre_x_px) / camera.focal_px,
+                       (static_cast<double>(pixel / width) - camera.centre_y_px) / camera.focal_px,
+                       static_cast<double>(image.depth_m[pixel]), scene_range_m);
+    if (point) {
+      (point->is_hit ? cloud_C.hits_C : cloud_C.clear_C).push_back(point->p_C);
+    }
   }
   return cloud_C;
 }
@@ -152,7 +169,10 @@ std::vector<Frame> frames_of(Scene scene, ImageSize size, int stride) {
   for (int i = 0; i < flight_frames; i += stride) {
     Frame frame;
     frame.X_WC = camera_at(scene, i);
-    frame.cloud_C = look(place, frame.X_WC, size);
+    const DepthImage image = look(place, frame.X_WC, size);
+    frame.cloud_C = points_of(image);
+    frame.pixels.cloud_C = Deferred<PointCloud>::of(frame.cloud_C);
+    frame.pixels.pixels = RangeImage{Deferred<DepthImage>::of(image), scene_range_m};
     to_world(frame);
     frames.push_back(std::move(frame));
   }

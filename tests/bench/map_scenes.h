@@ -24,6 +24,7 @@ struct ImageSize {
 /// One frame, as the kernels get it and as OctoMap gets it.
 struct Frame {
   PointCloud cloud_C;
+  PointCloudFrame pixels;  ///< The same as an image.
   Pose X_WC;
   Scan scan;
   octomap::Pointcloud points_W;

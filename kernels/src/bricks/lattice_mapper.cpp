@@ -229,7 +229,8 @@ class LatticeMapper final : public Mapper {
     }
     Work work = work_of(stock);
     const bool is_limited = most_traversals_ > 0.0;
-    if (is_limited || (!looks && front_end_ == FrontEnd::rays)) {
+    const bool is_exact = front_end_ == FrontEnd::exact;
+    if (is_limited || !(looks || is_exact)) {
       to_world(cloud_C, X_WC, scan_);
       scan_.range_m = range_m_;
     }
@@ -237,7 +238,6 @@ class LatticeMapper final : public Mapper {
       range_m_ = range_within(scan_, map_.lattice().cell_m(0), most_traversals_);
       scan_.range_m = range_m_;
     }
-    const bool is_exact = front_end_ == FrontEnd::exact;
     const bool is_done = stock != nullptr && !looks && level == 0 && is_exact && !is_limited;
     pending_ = is_done    ? stock
                : looks    ? &pyramid_->compute(cloud_C, X_WC, range_m_, level)
