@@ -4,6 +4,7 @@
 
 #include "children.h"
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace flyball {
@@ -39,6 +40,24 @@ void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown)
                         : std::max(flown.exit_code, exit_mission_failed);
 }
 
+/// The setting by which a comparison steps its physics otherwise than a single flight: nothing
+/// where the scenario does not say, or where the step was chosen.
+std::optional<std::string> comparison_step(
+    const std::variant<LoadedScenario, std::vector<Error>>& loaded) {
+  const auto* found = std::get_if<LoadedScenario>(&loaded);
+  if (found == nullptr || !(found->scenario.vehicle.comparison_step_s > 0.0)) {
+    return std::nullopt;
+  }
+  const auto entry_of = [&](const char* key) {
+    return std::find_if(found->entries.begin(), found->entries.end(),
+                        [&](const ConfigEntry& entry) { return entry.key == key; });
+  };
+  if (entry_of("vehicle.physics_step_s")->origin != "default") {
+    return std::nullopt;
+  }
+  return "vehicle.physics_step_s=" + entry_of("vehicle.comparison_step_s")->value;
+}
+
 }  // namespace
 
 std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions& options,
@@ -48,6 +67,12 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
   std::vector<std::string> settings = options.settings;
   settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
   auto loaded = load_scenario(options.scenario, settings);
+  std::vector<std::string> shared = options.settings;
+  if (const std::optional<std::string> step = comparison_step(loaded)) {
+    shared.push_back(*step);
+    settings.push_back(*step);
+    loaded = load_scenario(options.scenario, settings);
+  }
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }
@@ -59,7 +84,7 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
       "run",        options.scenario,     "--policy", flight.scenario.governor.policy,
       "--seed",     std::to_string(seed), "--json",   "--out",
       flight.folder};
-  for (const std::string& setting : options.settings) {
+  for (const std::string& setting : shared) {
     flight.arguments.insert(flight.arguments.end(), {"--set", setting});
   }
   return flight;

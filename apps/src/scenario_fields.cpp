@@ -46,6 +46,8 @@ Fields vehicle_fields() {
       {"vehicle.airframe", &at<in, &V::airframe>, 0, 0, "a shipped airframe or a .toml file"},
       {"vehicle.payload_kg", &at<in, &V::payload_kg>, 0, 20, "mass that is carried to the goal"},
       {"vehicle.physics_step_s", &at<in, &V::physics_step_s>, 1e-4, 1e-2, "of the multibody model"},
+      {"vehicle.comparison_step_s", &at<in, &V::comparison_step_s>, 0, 1e-2,
+       "physics_step_s of comparisons and tournaments, where that is not given; 0: the same"},
       {"vehicle.battery_charge", &at<in, &V::battery_charge>, 0.01, 1,
        "share of the full charge at the start"},
       {"vehicle.rotor_power",

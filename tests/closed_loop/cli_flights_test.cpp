@@ -42,6 +42,22 @@ TEST(CliFlights, a_failed_mission_is_a_result) {
   EXPECT_EQ(nlohmann::json::parse(outcome.output)["failure"], "time_limit");
 }
 
+TEST(CliFlights, a_comparison_takes_the_scenarios_step_for_it_unless_one_is_given) {
+  const FlyballProgram flyball;
+  const std::string line = std::string{"compare "} + short_flight +
+                           "--set vehicle.comparison_step_s=0.004 --policies fixed_fine --jobs 1 ";
+  const auto step_of = [&](const char* folder) {
+    const std::string mission =
+        flyball.place.content(std::string{folder} + "/runs/fixed_fine/seed_1/mission.toml");
+    const std::size_t at = mission.find("physics_step_s");
+    return mission.substr(at, mission.find('\n', at) - at);
+  };
+  EXPECT_EQ(flyball.run(line + "--out its").exit_code, 0);
+  EXPECT_EQ(step_of("its"), "physics_step_s = 0.004");
+  EXPECT_EQ(flyball.run(line + "--out given --set vehicle.physics_step_s=0.002").exit_code, 0);
+  EXPECT_EQ(step_of("given"), "physics_step_s = 0.002");
+}
+
 TEST(CliFlights, a_comparison_flies_each_mission_once) {
   const FlyballProgram flyball;
   const std::string line = std::string{"compare "} + short_flight +

@@ -98,7 +98,7 @@ TEST_P(EveryCell, is_marked_and_counted_as_if_every_ray_had_been_walked) {
       Scan scan;
       to_world(cloud_C, view.X_WC, scan);
       scan.range_m = range_m;
-      expect_same(exact.compute(view.frame, view.X_WC, range_m), walked.compute(scan));
+      expect_same(exact.descend(view.frame, view.X_WC, range_m), walked.compute(scan));
       rays += cloud_C.hits_C.size() + cloud_C.clear_C.size();
       walks += exact.walked_rays();
     }
@@ -120,7 +120,22 @@ TEST(ExactScan, counts_as_stock_does_far_from_the_centre_of_the_map) {
     Scan scan;
     to_world(view.frame.cloud_C.value(), view.X_WC, scan);
     scan.range_m = range_m;
+    expect_same(exact.descend(view.frame, view.X_WC, range_m), walked.compute(scan));
+  }
+}
+
+TEST(ExactScan, walks_every_ray_where_cells_are_no_wider_than_pixels) {
+  RayScan walked{0.15, RayScan::Match::stock};
+  ExactScan exact{0.15};
+  for (const double range_m : {2.0, 20.0}) {
+    const View view = view_of(kit::Place::indoor, 3, range_m, 20.0, 96);
+    const PointCloud& cloud_C = view.frame.cloud_C.value();
+    Scan scan;
+    to_world(cloud_C, view.X_WC, scan);
+    scan.range_m = range_m;
     expect_same(exact.compute(view.frame, view.X_WC, range_m), walked.compute(scan));
+    const std::size_t rays = cloud_C.hits_C.size() + cloud_C.clear_C.size();
+    EXPECT_EQ(exact.walked_rays() == rays, range_m > 10.0);
   }
 }
 

@@ -29,11 +29,16 @@ class ExactScan {
  public:
   explicit ExactScan(double cell_m, Simd simd = widest_simd());
 
+  /// By whatever is faster: a walk of every ray where a cell at the range is hardly a pixel wide.
+  ///
   /// @pre As RayScan's, and the frame has an image.
   /// @return Valid until the next call.
+  const ScanMasks& compute(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
+  /// The same, block by block.
+  ///
   /// @cost Points are made only where the eye is on an edge of cells, or where so many rays end on
   ///       a border that all are walked.
-  const ScanMasks& compute(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
+  const ScanMasks& descend(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
   /// The same of points: every ray is walked.
   const ScanMasks& walk(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
   /// Of the last scan: rays that were walked.

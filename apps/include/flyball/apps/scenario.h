@@ -40,6 +40,7 @@ struct VehicleSettings {
   std::string airframe{"matrice_100"};
   double payload_kg{0.5};
   double physics_step_s{0.001};
+  double comparison_step_s{};  ///< Instead, where many flights are compared; 0: the same.
   double battery_charge{1.0};             ///< At the start, 0..1.
   std::string rotor_power{"regression"};  ///< `regression` (eq. 1) or `thrust`.
   double drive_efficiency{
