@@ -41,7 +41,7 @@ struct VehicleSettings {
   double payload_kg{0.5};
   double physics_step_s{0.001};
   double comparison_step_s{};  ///< Instead, where many flights are compared; 0: the same.
-  double battery_charge{1.0};             ///< At the start, 0..1.
+  double battery_charge{1.0};  ///< At the start, 0..1.
   std::string rotor_power{"regression"};  ///< `regression` (eq. 1) or `thrust`.
   double drive_efficiency{
       0.70};  ///< Of the thrust model: 176 W shaft / 251.7 W electrical at hover.
