@@ -108,6 +108,29 @@ TEST_P(EveryCell, is_marked_and_counted_as_if_every_ray_had_been_walked) {
 
 INSTANTIATE_TEST_SUITE_P(ExactScan, EveryCell, testing::Values(0.15, 0.3, 0.6, 0.8, 1.2));
 
+// Rays that begin on an edge of cells touch some of the cells around it without any length.
+TEST(ExactScan, marks_what_stock_does_from_edges_and_corners_of_cells) {
+  constexpr double cell_m = 0.6;
+  constexpr double range_m = 7.0;
+  RayScan walked{cell_m, RayScan::Match::stock};
+  ExactScan exact{cell_m};
+  std::size_t walks = 0;
+  std::size_t rays = 0;
+  for (std::uint64_t number = 0; number < 64; ++number) {
+    View view = view_of(kit::Place::outdoor, number, range_m, 20.0, 96);
+    const auto tiny = [&](unsigned bit) { return (number >> bit & 1U) != 0 ? 1e-17 : -3e-21; };
+    view.X_WC.translation() = Vec3{tiny(0), tiny(1), (number & 4U) != 0 ? tiny(3) : 0.3};
+    const PointCloud& cloud_C = view.frame.cloud_C.value();
+    Scan scan;
+    to_world(cloud_C, view.X_WC, scan);
+    scan.range_m = range_m;
+    expect_same(exact.descend(view.frame, view.X_WC, range_m), walked.compute(scan));
+    walks += exact.walked_rays();
+    rays += cloud_C.hits_C.size() + cloud_C.clear_C.size();
+  }
+  EXPECT_LT(walks, rays / 2);
+}
+
 // Floats are coarse there, and where a coordinate is rounded, a cut moves the end of a ray along
 // all of them.
 TEST(ExactScan, counts_as_stock_does_far_from_the_centre_of_the_map) {

@@ -51,14 +51,13 @@ const ScanMasks& ExactScan::descend(const PointCloudFrame& frame,
   measured_ = 0;
   traversals_ = 0;
   masks_.bricks.clear();
-  if (!look(*frame.pixels, X_WC, range_m)) {
-    return walk(frame.cloud_C.value(), X_WC, range_m);
-  }
+  look(*frame.pixels, X_WC, range_m);
   settle();
-  const bool is_settled = walked_ <= measured_ / few;
+  bool is_settled = walked_ <= measured_ / few;
   if (is_settled) {
     free_seen(X_WC.inverse());
     walk_doubtful();
+    is_settled = knows_corner();
   }
   masks_.updates = static_cast<double>(window_.collect(masks_.bricks));
   masks_.rays = static_cast<double>(measured_);
@@ -73,15 +72,13 @@ const ScanMasks& ExactScan::walk(const PointCloud& cloud_C, const Pose& X_WC, do
   return rays_.compute(scan_);
 }
 
-/// False where the rays begin on an edge of cells.
-bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m) {
+void ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m) {
   const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
   eye_W_ = origin_W.cast<double>();
   const CellKey cell = lattice_.cell(eye_W_);
   const Vec3 slack_m = eye_W_.cwiseAbs().unaryExpr([&](double m) { return slack_at(m + range_m); });
-  if (borders_near(eye_W_, cell, 3.0 * slack_m) > 1) {
-    return false;
-  }
+  beside_ = borders_near(eye_W_, cell, 3.0 * slack_m);
+  corner_m_ = 4.0 * slack_m.maxCoeff();
   const DepthImage& image = pixels.image.value();
   ways_.look(image, pixels.reach_m, range_m);
   ways_.lay_ends(X_WC, slack_m.maxCoeff(), view_.begin(image.camera), loops_);
@@ -100,7 +97,6 @@ bool ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m)
   rows_ = rows_of(X_WC);
   span_window(X_WC);
   aim_ends(cell, range_m);
-  return true;
 }
 
 void ExactScan::aim_ends(const CellKey& own, double range_m) {
@@ -125,11 +121,47 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
   }
 }
 
-/// Along how many axes a point of a cell is as near as that to one of its sides.
-int ExactScan::borders_near(const Vec3& p_W, const CellKey& cell, const Vec3& near_m) const {
+/// Along each axis, to which neighbour of a cell a point in it is as near as that: -1, 0 or 1.
+std::array<int, 3> ExactScan::borders_near(const Vec3& p_W,
+                                           const CellKey& cell,
+                                           const Vec3& near_m) const {
   const Aabb cube = lattice_.cube(cell, 0);
-  return static_cast<int>(
-      ((p_W - cube.min).cwiseMin(cube.max - p_W).array() < near_m.array()).count());
+  std::array<int, 3> beside{};
+  for (int axis = 0; axis < 3; ++axis) {
+    beside[static_cast<std::size_t>(axis)] = p_W(axis) - cube.min(axis) < near_m(axis)   ? -1
+                                             : cube.max(axis) - p_W(axis) < near_m(axis) ? 1
+                                                                                         : 0;
+  }
+  return beside;
+}
+
+/// Where the rays begin on a border of cells they may touch cells around it without any length, as
+/// stock's ties decide: a few rays are walked. False if a cell there, towards which some ray
+/// points, is still not known to be free: few rays cannot tell that.
+bool ExactScan::knows_corner() {
+  if (beside_ == std::array<int, 3>{}) {
+    return true;
+  }
+  constexpr int apart_px = 16;
+  for (int v = 0; v < ways_.height_px(); v += apart_px) {
+    for (int u = 0; u < ways_.width_px(); u += apart_px) {
+      (void)walk_pixel(v * ways_.width_px() + u);
+    }
+  }
+  for (unsigned which = 1; which < 8; ++which) {
+    std::array<int, 3> key = frame_.start;
+    bool is_beside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool turns = (which >> axis & 1U) != 0;
+      key[axis] += turns ? beside_[axis] : 0;
+      is_beside = is_beside && (!turns || ways_.any_towards(axis, beside_[axis]));
+    }
+    const CellKey cell{key[0], key[1], key[2]};
+    if (is_beside && (window_.marks(place_of(cell)) >> bit_in_brick(cell) & 1U) == 0) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void ExactScan::span_window(const Pose& X_WC) {

@@ -36,8 +36,7 @@ class ExactScan {
   const ScanMasks& compute(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
   /// The same, block by block.
   ///
-  /// @cost Points are made only where the eye is on an edge of cells, or where so many rays end on
-  ///       a border that all are walked.
+  /// @cost Points are made only where so many rays begin or end on a border that all are walked.
   const ScanMasks& descend(const PointCloudFrame& frame, const Pose& X_WC, double range_m);
   /// The same of points: every ray is walked.
   const ScanMasks& walk(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
@@ -52,8 +51,12 @@ class ExactScan {
     int level;
   };
 
-  [[nodiscard]] bool look(const RangeImage& pixels, const Pose& X_WC, double range_m);
-  [[nodiscard]] int borders_near(const Vec3& p_W, const CellKey& cell, const Vec3& near_m) const;
+  void look(const RangeImage& pixels, const Pose& X_WC, double range_m);
+  [[nodiscard]] std::array<int, 3> borders_near(const Vec3& p_W,
+                                                const CellKey& cell,
+                                                const Vec3& near_m) const;
+  [[nodiscard]] bool knows_corner();
+  [[nodiscard]] bool touches_eye(const Block& cell) const;
   void span_window(const Pose& X_WC);
   void aim_ends(const CellKey& own, double range_m);
   void settle();
@@ -81,7 +84,9 @@ class ExactScan {
   PixelWays ways_{};
   MaskWindow window_{};
   RayFrame frame_{};
-  Vec3 eye_W_{Vec3::Zero()};  ///< As the rays begin: rounded to floats.
+  Vec3 eye_W_{Vec3::Zero()};     ///< As the rays begin: rounded to floats.
+  std::array<int, 3> beside_{};  ///< The eye is as good as on these borders of its cell.
+  double corner_m_{};            ///< So near to them, at most.
   PoseRows rows_{};
   EndFrame ends_{};
   BoxOfCell box_{};  ///< The cell in question.

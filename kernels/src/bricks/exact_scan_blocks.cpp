@@ -115,6 +115,15 @@ std::uint64_t ExactScan::crossed_cells(const Block& eighth,
   return crossed;
 }
 
+/// Such cells are left to `knows_corner`.
+bool ExactScan::touches_eye(const Block& cell) const {
+  if (beside_ == std::array<int, 3>{}) {
+    return false;
+  }
+  const double reach_m = 0.5 * frame_.cell_m + corner_m_;
+  return (cell.centre_W.array().abs() < reach_m).all();
+}
+
 /// Where only the slack could tell, remembers the pixels in question.
 bool ExactScan::is_crossed(const Block& cell) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -123,7 +132,7 @@ bool ExactScan::is_crossed(const Block& cell) {
   box_.depth = view_.nearest_depth_m(cell.centre_C, 0);
   const PixelBlock pixels = view_.pixels_around(cell.centre_C, 0);
   const Crossing crossing = ways_.cross(box_, pixels, loops_);
-  if (!crossing.is_sure && crossing.is_possible) {
+  if (!crossing.is_sure && crossing.is_possible && !touches_eye(cell)) {
     ways_.append_doubtful(box_, pixels, loops_, doubtful_px_);
   }
   return crossing.is_sure;

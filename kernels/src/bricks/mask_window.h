@@ -25,6 +25,9 @@ class MaskWindow {
   [[nodiscard]] std::size_t place(const CellKey& chunk) const;
 
   [[nodiscard]] std::uint64_t hits(std::size_t place) const { return masks_[place].hit; }
+  [[nodiscard]] std::uint64_t marks(std::size_t place) const {
+    return masks_[place].free | masks_[place].hit;
+  }
   void add_free(std::size_t place, std::uint64_t cells) {
     masks_[place].free |= cells;
     touch(place);

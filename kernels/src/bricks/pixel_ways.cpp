@@ -114,6 +114,21 @@ std::optional<PixelPoint> PixelWays::point(int pixel) const {
   return point_of_pixel(slope_x_[column], slope_y_[row], static_cast<double>(depth_m), reach_m_);
 }
 
+// Ways are sums of what columns and rows say, and these go up or down: a corner is farthest.
+bool PixelWays::any_towards(std::size_t axis, int side) const {
+  const auto& columns = column_W_[axis];
+  const auto& rows = row_W_[axis];
+  const auto to_side = static_cast<float>(side);
+  for (const float column : {columns.front(), columns[slope_x_.size() - 1]}) {
+    for (const float row : {rows.front(), rows.back()}) {
+      if (to_side * (column + row) > 0.0F) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 Crossing PixelWays::cross(const BoxOfCell& box,
                           const PixelBlock& pixels,
                           const InnerLoops& loops) const {

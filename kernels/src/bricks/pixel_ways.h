@@ -35,6 +35,8 @@ class PixelWays {
   /// As whoever makes points of images makes it.
   [[nodiscard]] std::optional<PixelPoint> point(int pixel) const;
 
+  /// Does any pixel look that way, -1 or 1, along an axis of W? 0: none.
+  [[nodiscard]] bool any_towards(std::size_t axis, int side) const;
   /// @param box  From the eye, in W.
   [[nodiscard]] Crossing cross(const BoxOfCell& box,
                                const PixelBlock& pixels,
