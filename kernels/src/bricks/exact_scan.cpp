@@ -145,7 +145,7 @@ bool ExactScan::knows_corner() {
   constexpr int apart_px = 16;
   for (int v = 0; v < ways_.height_px(); v += apart_px) {
     for (int u = 0; u < ways_.width_px(); u += apart_px) {
-      (void)walk_pixel(v * ways_.width_px() + u);
+      free_pixel(v * ways_.width_px() + u);
     }
   }
   for (unsigned which = 1; which < 8; ++which) {
@@ -190,7 +190,7 @@ void ExactScan::settle_block(int u, int v) {
   measured_ += count_bits(settled.rays);
   traversals_ += static_cast<std::size_t>(settled.steps);
   for (std::uint64_t left = settled.rays & ~settled.sure; left != 0; left &= left - 1) {
-    traversals_ += walk_pixel(v * ways_.width_px() + u + static_cast<int>(lowest_bit(left)));
+    traversals_ += count_pixel(v * ways_.width_px() + u + static_cast<int>(lowest_bit(left)));
   }
   for (const std::int32_t at : settled.cells) {
     if (at >= 0) {
@@ -213,17 +213,16 @@ void ExactScan::walk_doubtful() {
   std::sort(doubtful_px_.begin(), doubtful_px_.end());
   doubtful_px_.erase(std::unique(doubtful_px_.begin(), doubtful_px_.end()), doubtful_px_.end());
   for (const int pixel : doubtful_px_) {
-    (void)walk_pixel(pixel);
+    free_pixel(pixel);
   }
   doubtful_px_.clear();
 }
 
-/// Frees what a ray crosses in OctoMap's arithmetic, marks its hit, and returns how many cells it
-/// crosses.
-std::size_t ExactScan::walk_pixel(int pixel) {
+/// The ray of a pixel in OctoMap's arithmetic. Nothing where nothing was measured.
+std::optional<ExactScan::StockRay> ExactScan::stock_ray(int pixel) {
   const auto end_C = ways_.point(pixel);
   if (!end_C) {
-    return 0;
+    return std::nullopt;
   }
   ++walked_;
   PointBlock point;
@@ -234,15 +233,32 @@ std::size_t ExactScan::walk_pixel(int pixel) {
   const octomap::point3d uncut_W{end_W[0], end_W[1], end_W[2]};
   end.take(&uncut_W, 1);
   loops_.cut_rays(end, frame_);
-  if (end_C->is_hit && end.reaches[0] != 0) {
-    const CellKey cell{end.key[0][0], end.key[1][0], end.key[2][0]};
-    window_.add_hit(place_of(cell), std::uint64_t{1} << bit_in_brick(cell));
-  }
   const octomap::point3d from{frame_.origin_W[0], frame_.origin_W[1], frame_.origin_W[2]};
   const octomap::point3d to{end.p[0][0], end.p[1][0], end.p[2][0]};
-  return RayWalk{stock_lattice_, from, to}.visit_free([this](const RayWalk::Cell& at) {
-    free_cell({at[0], at[1], at[2]});
-  });
+  return StockRay{RayWalk{stock_lattice_, from, to},
+                  {end.key[0][0], end.key[1][0], end.key[2][0]},
+                  end_C->is_hit && end.reaches[0] != 0};
+}
+
+/// How many cells it crosses. Marks its hit; what it frees is found with all others.
+std::size_t ExactScan::count_pixel(int pixel) {
+  const auto ray = stock_ray(pixel);
+  if (!ray) {
+    return 0;
+  }
+  if (ray->hits) {
+    window_.add_hit(place_of(ray->end), std::uint64_t{1} << bit_in_brick(ray->end));
+  }
+  return ray->walk.visit_free([](const RayWalk::Cell&) {});
+}
+
+/// Frees what it crosses.
+void ExactScan::free_pixel(int pixel) {
+  if (const auto ray = stock_ray(pixel)) {
+    (void)ray->walk.visit_free([this](const RayWalk::Cell& at) {
+      free_cell({at[0], at[1], at[2]});
+    });
+  }
 }
 
 }  // namespace flyball

@@ -18,10 +18,12 @@
 /// apart.
 
 #include "../octomap_tree.h"
+#include "../ray_walk.h"
 #include "depth_view.h"
 #include "mask_window.h"
 #include "pixel_ways.h"
 #include "ray_scan.h"
+#include <optional>
 
 namespace flyball {
 
@@ -50,6 +52,11 @@ class ExactScan {
     std::size_t place;  ///< Of its first brick in the window.
     int level;
   };
+  struct StockRay {
+    RayWalk walk;
+    CellKey end;
+    bool hits;  ///< Its end is a hit.
+  };
 
   void look(const RangeImage& pixels, const Pose& X_WC, double range_m);
   [[nodiscard]] std::array<int, 3> borders_near(const Vec3& p_W,
@@ -74,7 +81,9 @@ class ExactScan {
   [[nodiscard]] Block octant_of(const Block& block, unsigned octant, std::size_t place) const;
   [[nodiscard]] bool fills_pixels(const Block& block) const;
   void walk_doubtful();
-  std::size_t walk_pixel(int pixel);
+  [[nodiscard]] std::optional<StockRay> stock_ray(int pixel);
+  [[nodiscard]] std::size_t count_pixel(int pixel);
+  void free_pixel(int pixel);
 
   Lattice lattice_;
   octomap::OcTree stock_lattice_;  ///< Empty: it only lends its arithmetic.
