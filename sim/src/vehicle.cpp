@@ -48,7 +48,6 @@ struct Vehicle::Body {
   void turn_camera(double dt_s);
   /// Room for what a step computes, so that none allocates.
   struct Steps {
-    SimTK::Vector before{};
     SimTK::Vector udot{};
     SimTK::Vector motors{};  ///< Of the gimbal.
     SimTK::Vector mean{};
@@ -57,6 +56,7 @@ struct Vehicle::Body {
   Steps steps{};
 
   void integrate(double dt_s);
+  void turn_and_move(double dt_s);
   void read_state(const SimTK::Vec3& a_WB);
 };
 
@@ -102,16 +102,20 @@ void Vehicle::Body::integrate(double dt_s) {
   SimTK::State& state = physics->state;
   physics->system.realize(state, SimTK::Stage::Acceleration);
   Steps& step = steps;
-  step.before = state.getU();
   step.udot = state.getUDot();
   if (made_of.gimbal) {
     physics->matter.findMotionForces(state, step.motors);
   }
-  state.updU() += dt_s * step.udot;
   // Work at the mean speed of the step: with it a force's work is exactly the kinetic energy that
   // this scheme gives a mass.
-  step.mean = 0.5 * (step.before + state.getU());
-  const SimTK::Vector& mean = step.mean;
+  SimTK::Vector& mean = step.mean;
+  SimTK::Vector& u = state.updU();
+  mean.resize(u.size());
+  for (int i = 0; i < u.size(); ++i) {
+    const double before = u[i];
+    u[i] += dt_s * step.udot[i];
+    mean[i] = 0.5 * (before + u[i]);
+  }
   const SimTK::SpatialVec V_mean{SimTK::Vec3{mean[0], mean[1], mean[2]},
                                  SimTK::Vec3{mean[3], mean[4], mean[5]}};
   rotor_work_j += dt_s * (~loads.rotors * V_mean);
@@ -120,17 +124,33 @@ void Vehicle::Body::integrate(double dt_s) {
   if (made_of.gimbal) {
     gimbal_work_j -= dt_s * (~step.motors * mean);  // Simbody's sign: against the motion.
   }
-  // Not by realizing velocities: the next step does that once more.
-  physics->matter.multiplyByN(state, false, state.getU(), step.qdot);
+  turn_and_move(dt_s);
+  read_state(SimTK::Vec3{step.udot[3], step.udot[4], step.udot[5]});
+}
+
+/// With the speeds that the step ends with. What Simbody's matter does for all joints is done here
+/// for the free one alone: there it looks up every cache of the state, at each call.
+void Vehicle::Body::turn_and_move(double dt_s) {
+  SimTK::State& state = physics->state;
+  if (made_of.gimbal) {
+    physics->matter.multiplyByN(state, false, state.getU(), steps.qdot);
+    state.updQ() += dt_s * steps.qdot;
+    physics->matter.normalizeQuaternions(state);
+    return;
+  }
+  const SimTK::Vector& u = state.getU();
   SimTK::Vector& q = state.updQ();
-  q += dt_s * step.qdot;
-  // As SimbodyMatterSubsystem::normalizeQuaternions does it, which looks at every joint first.
   SimTK::Vec4 attitude{q[0], q[1], q[2], q[3]};
+  const SimTK::Vec4 turn =
+      SimTK::Rotation::calcUnnormalizedNForQuaternion(attitude) * SimTK::Vec3{u[0], u[1], u[2]};
+  attitude += dt_s * turn;
   attitude = attitude / attitude.norm();
   for (int i = 0; i < 4; ++i) {
     q[i] = attitude[i];
   }
-  read_state(SimTK::Vec3{step.udot[3], step.udot[4], step.udot[5]});
+  for (int i = 0; i < 3; ++i) {
+    q[4 + i] += dt_s * u[3 + i];
+  }
 }
 
 void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
