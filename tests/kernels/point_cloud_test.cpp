@@ -2,6 +2,7 @@
 #include "flyball/kernels/point_cloud.h"
 
 #include "flyball/kernels/kernels.h"
+#include "flyball/kernels/pixel_point.h"
 #include "flyball/runtime/registry.h"
 
 #include <limits>
@@ -35,6 +36,34 @@ PointCloud points_of(const DepthImage& image, double range_m, Work& work) {
                          image.camera.width_px * image.camera.height_px,
                          Deferred<DepthImage>::of(image)};
   return make_builder()->build(frame, range_m, work).cloud_C.value();
+}
+
+TEST(DepthToPoints, makes_the_point_of_each_pixel_to_the_bit) {
+  DepthImage image = image_of(1.0F);
+  for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+    image.depth_m[pixel] = 0.37F * static_cast<float>(pixel) - 1.0F;  // also behind the camera
+  }
+  constexpr double reach_m = 9.0;
+  std::vector<Eigen::Vector3f> hits_C;
+  std::vector<Eigen::Vector3f> clear_C;
+  for (int pixel = 0; pixel < 45; ++pixel) {
+    const double x = (pixel % 9 - image.camera.centre_x_px) / image.camera.focal_px;
+    const double y = (pixel / 9 - image.camera.centre_y_px) / image.camera.focal_px;
+    const float depth_m = image.depth_m[static_cast<std::size_t>(pixel)];
+    if (const auto point = point_of_pixel(x, y, static_cast<double>(depth_m), reach_m)) {
+      (point->is_hit ? hits_C : clear_C).push_back(point->p_C);
+    }
+  }
+  DepthFrame frame;
+  frame.image = Deferred<DepthImage>::of(image);
+  Work work;
+  const PointCloudFrame made = make_builder()->build(frame, reach_m, work);
+  EXPECT_EQ(made.cloud_C.value().hits_C, hits_C);
+  EXPECT_EQ(made.cloud_C.value().clear_C, clear_C);
+  EXPECT_GT(hits_C.size(), 5U);
+  EXPECT_GT(clear_C.size(), 5U);
+  ASSERT_TRUE(made.pixels);
+  EXPECT_EQ(made.pixels->reach_m, reach_m);
 }
 
 TEST(DepthToPoints, puts_each_pixel_on_its_ray_at_its_depth) {
