@@ -40,22 +40,16 @@ void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown)
                         : std::max(flown.exit_code, exit_mission_failed);
 }
 
-/// The setting by which a comparison steps its physics otherwise than a single flight: nothing
-/// where the scenario does not say, or where the step was chosen.
-std::optional<std::string> comparison_step(
-    const std::variant<LoadedScenario, std::vector<Error>>& loaded) {
-  const auto* found = std::get_if<LoadedScenario>(&loaded);
-  if (found == nullptr || !(found->scenario.vehicle.comparison_step_s > 0.0)) {
-    return std::nullopt;
-  }
-  const auto entry_of = [&](const char* key) {
-    return std::find_if(found->entries.begin(), found->entries.end(),
-                        [&](const ConfigEntry& entry) { return entry.key == key; });
+/// By how much comparisons step the physics, where otherwise than a single flight: nothing where
+/// the scenario does not say so, or where the step was chosen.
+std::optional<std::string> comparison_step(const LoadedScenario& loaded) {
+  const auto entry = [&](const char* key) {
+    return *std::find_if(loaded.entries.begin(), loaded.entries.end(),
+                         [&](const ConfigEntry& each) { return each.key == key; });
   };
-  if (entry_of("vehicle.physics_step_s")->origin != "default") {
-    return std::nullopt;
-  }
-  return "vehicle.physics_step_s=" + entry_of("vehicle.comparison_step_s")->value;
+  const bool has_step = loaded.scenario.vehicle.comparison_step_s > 0.0 &&
+                        entry("vehicle.physics_step_s").origin == "default";
+  return has_step ? std::optional{entry("vehicle.comparison_step_s").value} : std::nullopt;
 }
 
 }  // namespace
@@ -67,16 +61,11 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
   std::vector<std::string> settings = options.settings;
   settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
   auto loaded = load_scenario(options.scenario, settings);
-  std::vector<std::string> shared = options.settings;
-  if (const std::optional<std::string> step = comparison_step(loaded)) {
-    shared.push_back(*step);
-    settings.push_back(*step);
-    loaded = load_scenario(options.scenario, settings);
-  }
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }
   PlannedFlight flight;
+  const auto step_s = comparison_step(std::get<LoadedScenario>(loaded));
   flight.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
   flight.folder = run_folder(folder.empty() ? comparison_folder(options, flight.scenario) : folder,
                              policy, seed);
@@ -84,8 +73,12 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
       "run",        options.scenario,     "--policy", flight.scenario.governor.policy,
       "--seed",     std::to_string(seed), "--json",   "--out",
       flight.folder};
-  for (const std::string& setting : shared) {
+  for (const std::string& setting : options.settings) {
     flight.arguments.insert(flight.arguments.end(), {"--set", setting});
+  }
+  if (step_s) {
+    flight.scenario.vehicle.physics_step_s = flight.scenario.vehicle.comparison_step_s;
+    flight.arguments.insert(flight.arguments.end(), {"--set", "vehicle.physics_step_s=" + *step_s});
   }
   return flight;
 }

@@ -55,18 +55,12 @@ class FlyballMapper final : public flyball::Mapper {
   Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
                                 const flyball::Pose& X_WC,
                                 const flyball::MapperSettings& settings) override {
-    if (!refusal_.empty()) {
-      return Error{ErrorCode::invalid_input, refusal_};
-    }
-    return map_->prepare(cloud_C, X_WC, settings);
+    return refused_or([&] { return map_->prepare(cloud_C, X_WC, settings); });
   }
   Result<flyball::Work> prepare_frame(const flyball::PointCloudFrame& frame,
                                       const flyball::Pose& X_WC,
                                       const flyball::MapperSettings& settings) override {
-    if (!refusal_.empty()) {
-      return Error{ErrorCode::invalid_input, refusal_};
-    }
-    return map_->prepare_frame(frame, X_WC, settings);
+    return refused_or([&] { return map_->prepare_frame(frame, X_WC, settings); });
   }
   void commit() override { map_->commit(); }
 
@@ -88,6 +82,14 @@ class FlyballMapper final : public flyball::Mapper {
   [[nodiscard]] Status read(const std::string& path) override { return map_->read(path); }
 
  private:
+  template <class Prepare>
+  Result<flyball::Work> refused_or(Prepare&& prepare) const {
+    if (!refusal_.empty()) {
+      return Error{ErrorCode::invalid_input, refusal_};
+    }
+    return prepare();
+  }
+
   std::unique_ptr<flyball::Mapper> map_{flyball::make_lattice_mapper()};
   std::string refusal_{};
 };

@@ -3,6 +3,8 @@
 
 #include "flyball/governors/policy_conformance.h"
 
+#include "cruising.h"
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -20,18 +22,6 @@ std::string refusal(const std::map<std::string, ParameterValue>& given,
                     const KnobSettings& knobs = conformance_knobs()) {
   const auto way = made(given, knobs);
   return way ? "" : way.error().message;
-}
-
-Observation cruising() {
-  Observation seen;
-  seen.phase = MissionPhase::cruise;
-  seen.speed_m_s = seen.speed_limit_m_s = 6.0;
-  seen.max_deceleration_m_s2 = 3.0;
-  seen.known_free_m = 25.0;
-  seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = 24.0;
-  seen.nearest_obstacle_m = 20.0;
-  seen.map_resolution_m = 0.30;
-  return seen;
 }
 
 TEST(MissionWay, has_all_cells_of_a_lattice_between_its_ends) {
@@ -58,7 +48,7 @@ TEST(MissionWay, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) 
   auto way = made();
   ASSERT_TRUE(way.ok());
   const MapSetting coarse{0.80, 7.0, 2e9};
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   EXPECT_FALSE(way->look(seen, coarse).needs_top_clock);
   seen.now += 250ms;
   seen.speed_m_s = 4.0;
@@ -68,7 +58,7 @@ TEST(MissionWay, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) 
 TEST(MissionWay, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
   auto way = made();
   ASSERT_TRUE(way.ok());
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 1.20);
   seen.speed_m_s = 0.0;
   EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
@@ -81,7 +71,7 @@ constexpr MapSetting next_finest{0.30, 13.0, 2e9};
 TEST(MissionWay, leaves_finest_cells_only_where_the_mission_is_fast_again) {
   auto way = made();
   ASSERT_TRUE(way.ok());
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   seen.speed_m_s = seen.speed_limit_m_s = 1.0;
   EXPECT_GE(way->look(seen, next_finest).coarsest_m, 0.30);
   EXPECT_EQ(way->look(seen, finest).coarsest_m, 0.15);
@@ -92,7 +82,7 @@ TEST(MissionWay, leaves_finest_cells_only_where_the_mission_is_fast_again) {
 TEST(MissionWay, leaves_finest_cells_again_on_its_way_to_a_slow_place) {
   auto way = made();
   ASSERT_TRUE(way.ok());
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   seen.speed_limit_m_s = 1.0;
   EXPECT_GE(way->look(seen, finest).coarsest_m, 0.30);
 }
@@ -100,7 +90,7 @@ TEST(MissionWay, leaves_finest_cells_again_on_its_way_to_a_slow_place) {
 TEST(MissionWay, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has_failed) {
   auto way = made();
   ASSERT_TRUE(way.ok());
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   seen.planner_failures = 1;
   EXPECT_GE(way->look(seen, next_finest).coarsest_m, 0.30) << "it may be far off in the open";
   seen.speed_limit_m_s = 1.0;
@@ -114,7 +104,7 @@ TEST(MissionWay, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has
 TEST(MissionWay, gives_plans_in_large_cells_little_and_those_in_fine_ones_more_each_time) {
   const auto way = made({{"coarse_budget", 200.0}});
   ASSERT_TRUE(way.ok());
-  Observation seen = cruising();
+  Observation seen = kit::cruising();
   EXPECT_EQ(way->plan_budget(seen, 0.80), 200.0);
   EXPECT_EQ(way->plan_budget(seen, 0.15), 10000.0);
   seen.planner_failures = 1;

@@ -4,7 +4,6 @@
 /// @file
 /// The point that a pixel of a depth image stands for.
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
