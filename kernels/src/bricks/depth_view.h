@@ -22,8 +22,8 @@ enum class Sight : std::uint8_t {
 struct SightMargins {
   double nearest_m{0.05};  ///< Nearer to the camera, a block's image has no bounds.
   double slack_m{0.0};     ///< Blocks are taken for wider by this to each side.
-  /// The probe says yes only where the ray through the pixel at a cell's middle leaves the cell
-  /// behind, and not already where it reaches the middle and half a cell more.
+  /// The probe says yes only where the ray through the pixel at a cell's middle ends behind the
+  /// whole cell.
   bool probes_whole_cells{false};
 };
 
@@ -59,7 +59,6 @@ class DepthView {
   [[nodiscard]] float nearest_depth_m(const Eigen::Vector3f& centre_C, int level) const {
     return centre_C.z() - extents_[static_cast<std::size_t>(level)].half.z();
   }
-  [[nodiscard]] const DepthPyramid& depths() const { return depth_; }
   /// For the single cells of a brick; see InnerLoops::seen_cells.
   [[nodiscard]] const CellProbe& probe() const { return probe_; }
 

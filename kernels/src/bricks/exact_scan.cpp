@@ -157,7 +157,7 @@ bool ExactScan::knows_corner() {
       is_beside = is_beside && (!turns || ways_.any_towards(axis, beside_[axis]));
     }
     const CellKey cell{key[0], key[1], key[2]};
-    if (is_beside && (window_.marks(place_of(cell)) >> bit_in_brick(cell) & 1U) == 0) {
+    if (is_beside && (window_.marks(window_.place_of_cell(cell)) >> bit_in_brick(cell) & 1U) == 0) {
       return false;
     }
   }
@@ -200,12 +200,8 @@ void ExactScan::settle_block(int u, int v) {
   }
 }
 
-std::size_t ExactScan::place_of(const CellKey& cell) const {
-  return window_.place(cell.above(chunk_level)) + brick_number(cell.above(brick_level));
-}
-
 void ExactScan::free_cell(const CellKey& cell) {
-  window_.add_free(place_of(cell), std::uint64_t{1} << bit_in_brick(cell));
+  window_.add_free(window_.place_of_cell(cell), std::uint64_t{1} << bit_in_brick(cell));
 }
 
 /// The rays of the pixels in question. What they cross is counted already.
@@ -247,7 +243,7 @@ std::size_t ExactScan::count_pixel(int pixel) {
     return 0;
   }
   if (ray->hits) {
-    window_.add_hit(place_of(ray->end), std::uint64_t{1} << bit_in_brick(ray->end));
+    window_.add_hit(window_.place_of_cell(ray->end), std::uint64_t{1} << bit_in_brick(ray->end));
   }
   return ray->walk.visit_free([](const RayWalk::Cell&) {});
 }

@@ -13,7 +13,7 @@
 ///   - a single cell between the two: its pixels are asked, until one's ray crosses it.
 /// Each answer keeps clear of its borders by a slack that is far more than what floats and
 /// OctoMap's arithmetic may be off. Where the slack decides, and for rays that end on a border of
-/// cells, the ray is walked in that arithmetic (`RayScan`). So the masks are stock's, bit for bit,
+/// cells, the ray is walked in that arithmetic (`RayWalk`). So the masks are stock's, bit for bit,
 /// and so are the counts: a ray that ends inside a cell has crossed as many cells as their keys are
 /// apart.
 
@@ -69,7 +69,6 @@ class ExactScan {
   void settle();
   void settle_block(int u, int v);
   void free_seen(const Pose& X_CW);
-  [[nodiscard]] std::size_t place_of(const CellKey& cell) const;
   void free_cell(const CellKey& cell);
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   void free_inside(const Block& block);

@@ -23,6 +23,10 @@ class MaskWindow {
   [[nodiscard]] WindowChunks chunks() const;
   /// Of a chunk's first brick. @pre `chunk` lies in the window.
   [[nodiscard]] std::size_t place(const CellKey& chunk) const;
+  /// Of the brick that a cell is in. @pre Its chunk lies in the window.
+  [[nodiscard]] std::size_t place_of_cell(const CellKey& cell) const {
+    return place(cell.above(chunk_level)) + brick_number(cell.above(brick_level));
+  }
 
   [[nodiscard]] std::uint64_t hits(std::size_t place) const { return masks_[place].hit; }
   [[nodiscard]] std::uint64_t marks(std::size_t place) const {

@@ -91,8 +91,7 @@ void PyramidScan::mark_hits_of(std::size_t brick, std::uint64_t hit) {
 /// The cell that the camera is in is too near to be looked at, and free.
 void PyramidScan::mark_origin(const Vec3& p_WC) {
   const CellKey cell = lattice_.cell(p_WC.cast<float>().cast<double>());
-  window_.add_free(window_.place(cell.above(chunk_level)) + brick_number(cell.above(brick_level)),
-                   std::uint64_t{1} << bit_in_brick(cell));
+  window_.add_free(window_.place_of_cell(cell), std::uint64_t{1} << bit_in_brick(cell));
 }
 
 void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
