@@ -192,7 +192,8 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
 // more time than another search might; in rooms they do.
 bool Navigator::is_worth_joining(const std::vector<Vec3>& way_W) const {
   const double limit_m_s = context_.speed_limit_m_s(follower_.position_W());
-  return way_W.size() >= 2 && detour_m(way_W) <= lead_.lead_s() * limit_m_s;
+  const double search_s = std::max(lead_.lead_s(), searched_s_);
+  return way_W.size() >= 2 && detour_m(way_W) <= search_s * limit_m_s;
 }
 
 // A way that was found after seconds of search is not lost because the vehicle has flown on, or is
@@ -213,7 +214,8 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   }
   pending_id_ = 0;
   if (!joins_) {
-    lead_.took(to_seconds(now - asked_at_));
+    searched_s_ = to_seconds(now - asked_at_);
+    lead_.took(searched_s_);
   }
   if (!planned.failure.empty()) {
     plan_failed(now, planned);

@@ -101,6 +101,7 @@ class Navigator {
   int stalls_{};  ///< Plans in a row that have led nowhere: they count as failed ones.
   MissionTime asked_at_{};
   PlanLead lead_{};
+  double searched_s_{};  ///< The last search for a way took so long.
   bool wants_plan_{};
   bool is_searching_{};  ///< For the place where it is.
   MissionTime not_before_{};
