@@ -103,6 +103,7 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
   planned.id = answer.id;
   planned.failure = answer.failure;
   planned.way = {answer.waypoints_W, answer.body};
+  planned.iterations = answer.iterations;
   if (!planned.failure.empty()) {
     return planned;
   }

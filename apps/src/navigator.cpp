@@ -14,6 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto retry_after = 500ms;     // The same map would fail again: wait for frames.
+constexpr auto finer_patience = 3s;     // For a map of smaller cells that is on its way.
 constexpr auto stall_patience = 6s;     // Looking left and right has not helped: plan anew.
 constexpr int most_refusals = 3;        // Of one way: then another one is looked for.
 constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
@@ -22,6 +23,7 @@ constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
 constexpr double least_lead_in_m = 0.3;
 constexpr double straight = 0.999;  // Chord over arc.
+constexpr double rounding_m = 1e-6;
 
 }  // namespace
 
@@ -99,13 +101,20 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
     context_.counters.planner_failures_in_row = ++stalls_;
     want_plan(now, "stalled before unknown space");
   }
-  if (!wants_plan_ || now < not_before_) {
+  if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
   asked_at_ = now;
   wants_plan_ = false;
   ++context_.counters.replans;
   return query();
+}
+
+// What has failed in large cells fails in them again, and takes its whole budget: where smaller
+// ones are on their way, the search waits for their first frame.
+bool Navigator::awaits_finer_map(MissionTime now) const {
+  return context_.counters.planner_failures_in_row > 0 && now < not_before_ + finer_patience &&
+         context_.knobs.value("map.resolution_m") < context_.map().resolution_m() - rounding_m;
 }
 
 PlanQuery Navigator::query() {
@@ -122,6 +131,7 @@ PlanQuery Navigator::query() {
   // Where the narrow tube has found no way twice, a wide one will not.
   query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0 ||
                        context_.counters.planner_failures_in_row > 1;
+  query.iteration_s = lead_.iteration_s();
   return query;
 }
 
@@ -215,7 +225,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   pending_id_ = 0;
   if (!joins_) {
     searched_s_ = to_seconds(now - asked_at_);
-    lead_.took(searched_s_);
+    lead_.took(searched_s_, planned.iterations);
   }
   if (!planned.failure.empty()) {
     plan_failed(now, planned);

@@ -21,6 +21,7 @@ struct PlanQuery {
   std::optional<Vec3> lead_in_W{};
   Vec3 goal_W{Vec3::Zero()};
   bool may_be_tight{};              ///< Only the slow tube is asked for.
+  double iteration_s{};             ///< Of a search, as the last ones took; 0: not known.
   std::optional<KnownWay> known{};  ///< Was found before: nothing is sought, it begins elsewhere.
 };
 
@@ -40,6 +41,7 @@ struct PlannedPath {
   std::string failure{};
   bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
   KnownWay way{};       ///< That the trajectory follows.
+  double iterations{};  ///< That it took to find it.
 };
 
 /// Where the vehicle is, seen from its reference.
@@ -82,6 +84,7 @@ class Navigator {
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& way_W) const;
   void plan_refused(MissionTime now, const PlannedPath& planned);
+  [[nodiscard]] bool awaits_finer_map(MissionTime now) const;
   [[nodiscard]] PlanQuery query();
   [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);

@@ -4,6 +4,8 @@
 #include "flight_recorder.h"
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace flyball {
 namespace {
@@ -12,19 +14,34 @@ constexpr double lead_over_usual = 1.5;
 constexpr double usual_share = 0.8;
 constexpr std::size_t plans_remembered = 5;
 constexpr double most_lead_s = 3.0;
+constexpr double least_iterations = 100.0;  // Else their fixed part would be counted.
 
 }  // namespace
 
-void PlanLead::took(double plan_s) {
-  taken_s_.push_back(plan_s);
-  if (taken_s_.size() > plans_remembered) {
-    taken_s_.pop_front();
+void PlanLead::took(double plan_s, double iterations) {
+  taken_.push_back({plan_s, iterations});
+  if (taken_.size() > plans_remembered) {
+    taken_.pop_front();
   }
 }
 
 double PlanLead::lead_s() const {
-  const double usual_s = quantile({taken_s_.begin(), taken_s_.end()}, usual_share);
+  std::vector<double> taken_s;
+  taken_s.reserve(taken_.size());
+  for (const Taken& plan : taken_) {
+    taken_s.push_back(plan.s);
+  }
+  const double usual_s = quantile(std::move(taken_s), usual_share);
   return std::clamp(lead_over_usual * usual_s, least_plan_lead_s, most_lead_s);
+}
+
+double PlanLead::iteration_s() const {
+  Taken all;
+  for (const Taken& plan : taken_) {
+    all.s += plan.s;
+    all.iterations += plan.iterations;
+  }
+  return all.iterations < least_iterations ? 0.0 : all.s / all.iterations;
 }
 
 }  // namespace flyball

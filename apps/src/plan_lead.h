@@ -14,12 +14,18 @@ inline constexpr double least_plan_lead_s = 0.1;
 /// What four of five of the last few plans took, and half as much again.
 class PlanLead {
  public:
-  void took(double plan_s);
+  void took(double plan_s, double iterations);
   /// Within .1 and 3 s.
   [[nodiscard]] double lead_s() const;
+  /// Of these plans' searches together; 0: they searched too little to tell.
+  [[nodiscard]] double iteration_s() const;
 
  private:
-  std::deque<double> taken_s_{};
+  struct Taken {
+    double s{};
+    double iterations{};
+  };
+  std::deque<Taken> taken_{};
 };
 
 }  // namespace flyball
