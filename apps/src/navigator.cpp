@@ -243,15 +243,6 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   follower_.refresh_known_free(context_.map());
 }
 
-TrackingError Navigator::measured(const Vec3& error_W) const {
-  Vec3 tangent_W = Vec3::Zero();
-  if (follower_.has_path()) {
-    tangent_W = follower_.path().at(follower_.s_m()).tangent_W;
-  }
-  const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
-  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
-}
-
 /// While the vehicle does not know where it is, no path is flown; afterwards, from where it then
 /// is.
 std::optional<Setpoint> Navigator::search_place(MissionTime now, const PoseEstimate& where) {
@@ -274,7 +265,7 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   }
   map_latency_.note_terms(now, terms_of(context_.knobs));
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
-  tracking_error_ = measured(error_W);
+  tracking_error_ = follower_.tracking_error(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
   const bool rests = reference.speed_m_s <= rests_below_m_s;
   at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};

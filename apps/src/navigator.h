@@ -44,13 +44,6 @@ struct PlannedPath {
   double iterations{};  ///< That it took to find it.
 };
 
-/// Where the vehicle is, seen from its reference.
-struct TrackingError {
-  double size_m{};
-  double across_m{};  ///< Level and square to the path.
-  double height_m{};  ///< Upwards.
-};
-
 class Navigator {
  public:
   explicit Navigator(MissionContext& context);
@@ -88,7 +81,6 @@ class Navigator {
   [[nodiscard]] PlanQuery query();
   [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);
-  [[nodiscard]] TrackingError measured(const Vec3& error_W) const;
   void want_plan(MissionTime now, const std::string& why);
 
   MissionContext& context_;

@@ -247,6 +247,12 @@ Vec3 PathFollower::position_W() const {
   return has_path() ? path_.at(s_m_).p_W : hover_W_;
 }
 
+TrackingError PathFollower::tracking_error(const Vec3& error_W) const {
+  const Vec3 tangent_W = has_path() ? path_.at(s_m_).tangent_W : Vec3{Vec3::Zero()};
+  const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
+  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
+}
+
 double PathFollower::stop_point_m(double deceleration_m_s2) const {
   const double v = speed_m_s_;
   return s_m_ + v * to_seconds(guard_.settings().tick) + v * v / (2.0 * deceleration_m_s2);

@@ -14,6 +14,13 @@
 
 namespace flyball {
 
+/// Where the vehicle is, seen from its reference.
+struct TrackingError {
+  double size_m{};
+  double across_m{};  ///< Level and square to the path.
+  double height_m{};  ///< Upwards.
+};
+
 /// Distance is used twice and never mixed (latency counts once): the cruise set-point measures it
 /// from the capture pose of the newest frame and reacts within delta; the guard measures it from
 /// here, now, and reacts within t_b.
@@ -52,6 +59,8 @@ class PathFollower {
   [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
   [[nodiscard]] Vec3 position_W() const;
   [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
+  /// Of a vehicle that is `error_W` away from its reference.
+  [[nodiscard]] TrackingError tracking_error(const Vec3& error_W) const;
   /// From the reference to the first place that is not known free, for the body at a crawl.
   [[nodiscard]] double known_free_m() const { return std::max(0.0, free_until_m_.front() - s_m_); }
   /// Where a stop with this deceleration would end from here.
