@@ -194,7 +194,9 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     }
     trust_own_place();
   }
-  not_before_ = now + (planned.map_moved_on ? Duration{0} : Duration{retry_after});
+  // The governor looks at a failure first: its settings may be why.
+  const Duration look = from_seconds(context_.scenario.governor.period_s);
+  not_before_ = now + (planned.map_moved_on ? look : std::max<Duration>(look, retry_after));
   want_plan(now, planned.failure);
 }
 
