@@ -145,8 +145,12 @@ double PathFollower::safe_cruise() const {
   return safe;
 }
 
+double PathFollower::stopping() const {
+  return std::min(stopping_m_s2, guard_.settings().max_deceleration_m_s2);
+}
+
 double PathFollower::speed_limit() const {
-  const double stop = safe_speed(stopping_m_s2, SpeedProfileLimits{}.lag_s, stop_at_m_ - s_m_);
+  const double stop = safe_speed(stopping(), SpeedProfileLimits{}.lag_s, stop_at_m_ - s_m_);
   return std::min(profile_.at(s_m_), stop);
 }
 
@@ -262,8 +266,7 @@ double PathFollower::stop_point_m(double deceleration_m_s2) const {
 // but not nearer than full braking reaches.
 double PathFollower::planned_stop_m() const {
   const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
-  const double wished =
-      stop_point_m(std::min(stopping_m_s2, limit_m_s2)) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
+  const double wished = stop_point_m(stopping()) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
   const double wide = free_until_m_.back() - stop_margin_m;
   const double reach = wide > s_m_ ? wide : free_until_m_.front();
   return std::max(std::min(wished, reach), stop_point_m(limit_m_s2));

@@ -86,6 +86,8 @@ class PathFollower {
   [[nodiscard]] double room_m(std::size_t tier) const;
   [[nodiscard]] double cruise_speed(std::size_t tier) const;
   [[nodiscard]] double safe_cruise() const;
+  /// Deceleration of a planned stop, m/s^2.
+  [[nodiscard]] double stopping() const;
   [[nodiscard]] double speed_limit() const;
   [[nodiscard]] double next_speed(double dt_s, const Vec3& error_W);
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
