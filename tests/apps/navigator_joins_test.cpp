@@ -35,6 +35,26 @@ TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks
   EXPECT_GE(trip.navigator.follower().speed_m_s(), speed_m_s);
 }
 
+// Else a search that takes longer than the vehicle takes to stop is made again and again.
+TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
+  for (const int ticks : {300, 1500}) {  // 6 and 30 s.
+    Trip trip;
+    const auto late = trip.fly_until_blocked();
+    trip.tick(ticks);
+    PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
+    const Vec3 aside_W = 0.5 * (late->start_W + late->goal_W) + Vec3{0, 60, 0};
+    planned.way = {{late->start_W, aside_W, late->goal_W}, {0.4, 0.2}};
+    const double cost_s = detour_m(planned.way.waypoints_W) /
+                          trip.rig.context->speed_limit_m_s(trip.navigator.follower().position_W());
+    ASSERT_GT(cost_s, 6.0);
+    ASSERT_LT(cost_s, 30.0);
+    trip.navigator.path_planned(trip.now, planned);
+    const auto again = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(again->known.has_value(), ticks == 1500);
+  }
+}
+
 TEST(NavigatorJoins, plans_anew_where_a_known_way_does_not_join_and_counts_no_failure) {
   Trip trip;
   const auto late = trip.fly_until_blocked();

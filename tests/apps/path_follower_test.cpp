@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 using kit::GridMap;
 
 struct Ride {
-  explicit Ride(double known_to_m)
-      : map{kit::corridor(known_to_m)}, rig{map}, follower{*rig.context} {
+  explicit Ride(double known_to_m, const Scenario& scenario = kit::MissionRig::one_core())
+      : map{kit::corridor(known_to_m)}, rig{map, scenario}, follower{*rig.context} {
     follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
     follower.set_latency_bound(200ms);
     EXPECT_TRUE(follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0));
@@ -95,6 +95,25 @@ TEST(PathFollower, stops_at_a_committed_stop_and_goes_on_with_the_next_plan) {
   ride.follower.refresh_known_free(ride.map);
   ride.tick(2000);
   EXPECT_NEAR((ride.follower.position_W() - Vec3{40, 2, 1.5}).norm(), 0.0, 0.02);
+}
+
+TEST(PathFollower, brakes_for_a_committed_stop_no_harder_than_the_mission_may) {
+  constexpr double limit_m_s2 = 3.0;
+  Scenario gentle = kit::MissionRig::one_core();
+  gentle.mission.max_acceleration_m_s2 = limit_m_s2;
+  Ride ride{60.0, gentle};
+  ride.tick(100);
+  ride.follower.commit_stop(ride.follower.planned_stop_m());
+  double hardest_m_s2 = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const double before_m_s = ride.follower.speed_m_s();
+    ride.tick(1);
+    hardest_m_s2 =
+        std::max(hardest_m_s2, (before_m_s - ride.follower.speed_m_s()) / to_seconds(20ms));
+  }
+  EXPECT_LT(ride.follower.speed_m_s(), 0.01);
+  EXPECT_GT(hardest_m_s2, 0.5 * limit_m_s2);
+  EXPECT_LT(hardest_m_s2, 1.05 * limit_m_s2);
 }
 
 TEST(PathFollower, refuses_a_path_whose_start_it_has_passed) {

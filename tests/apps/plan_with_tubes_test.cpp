@@ -112,6 +112,25 @@ TEST(PlanWithTubes, prefers_a_door_to_a_detour) {
   }
 }
 
+// A tenth of these searches find one: a slow computer flies the detour sooner than it looks on.
+TEST(PlanWithTubes, looks_for_a_shorter_way_no_longer_than_that_may_save) {
+  kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{9, 10, 3}}, 0.15, CellState::free};
+  map.fill({Vec3{3, -9, 0}, Vec3{3.15, 9.3, 3}}, CellState::occupied);
+  Planning planning{map};
+  planning.fly_within({Vec3{-2.5, -9.9, 1.0}, Vec3{8.5, 9.9, 1.6}});
+  const auto iterations = [&](double iteration_s) {
+    planning.query.iteration_s = iteration_s;
+    Cylinder body;
+    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+    return plan.work.count("iterations");
+  };
+  const double bare = iterations(10.0);
+  EXPECT_EQ(iterations(1e-9), bare + 400.0);
+  EXPECT_GT(iterations(1e-3), bare);
+  EXPECT_LT(iterations(1e-3), bare + 400.0);
+}
+
 TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
