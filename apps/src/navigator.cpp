@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 
 constexpr auto retry_after = 500ms;     // The same map would fail again: wait for frames.
 constexpr auto finer_patience = 3s;     // For a map of smaller cells that is on its way.
-constexpr auto stall_patience = 6s;     // Looking left and right has not helped: plan anew.
 constexpr int most_refusals = 3;        // Of one way: then another one is looked for.
 constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
 constexpr double arrival_m = 0.3;
@@ -31,6 +30,7 @@ Navigator::Navigator(MissionContext& context) : context_{context}, follower_{con
 
 void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
+  back_.forget();
   blocked_at_m_.reset();
   ++path_number_;
 }
@@ -65,7 +65,7 @@ void Navigator::map_published(MissionTime now,
     ++context_.counters.bound_overruns;
   }
   context_.counters.budget_use.push_back(map_latency_.budget_use());
-  unused_capture_ = revision.captured;
+  unused_capture_ = newest_capture_ = revision.captured;
   follower_.map_published(revision);
   follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
   follower_.refresh_known_free(context_.map());
@@ -90,17 +90,13 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
-  if (!goal_W_ || pending_id_ != 0) {
+  if (!goal_W_ || pending_id_ != 0 || back_.is_active()) {
     return std::nullopt;
   }
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
     want_plan(now, "path ends short of the goal");
   }
-  if (follower_.stalled(now) > stall_patience && !wants_plan_) {
-    trust_own_place();
-    context_.counters.planner_failures_in_row = ++stalls_;
-    want_plan(now, "stalled before unknown space");
-  }
+  note_stall(now);
   if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
@@ -174,12 +170,6 @@ void Navigator::start_from_path(PlanQuery& query) {
   query.start_W = refusals_ == 0 ? moving_W : stop_W;
   query.start_direction_W =
       follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
-}
-
-// Noise, or part of an obstacle, may fill a cell that body or tube reach into. Yet the place is
-// free.
-void Navigator::trust_own_place() {
-  context_.kernels.mapper->declare_clear(follower_.position_W(), context_.narrow_body());
 }
 
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
@@ -269,6 +259,11 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
+  if (back_.is_active()) {
+    go_back(now, dt, error_W.norm());
+  } else if (follower_.has_path()) {
+    back_.flew(follower_.position_W());
+  }
   const bool rests = reference.speed_m_s <= rests_below_m_s;
   at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};
   if (stalls_ > 0 && reference.speed_m_s > moves_above_m_s) {

@@ -9,6 +9,7 @@
 #include "map_latency.h"
 #include "path_follower.h"
 #include "plan_lead.h"
+#include "step_back.h"
 #include <string>
 
 namespace flyball {
@@ -74,6 +75,9 @@ class Navigator {
   [[nodiscard]] bool is_leg_ending() const;
   [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
+  void note_stall(MissionTime now);
+  [[nodiscard]] bool steps_back(MissionTime now);
+  void go_back(MissionTime now, Duration dt, double error_m);
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& way_W) const;
   void plan_refused(MissionTime now, const PlannedPath& planned);
@@ -94,6 +98,7 @@ class Navigator {
   std::optional<KnownWay> known_{};  ///< The way of the last one of these.
   bool joins_{};                     ///< The pending plan is that way, from elsewhere.
   int stalls_{};  ///< Plans in a row that have led nowhere: they count as failed ones.
+  StepBack back_{};
   MissionTime asked_at_{};
   PlanLead lead_{};
   double searched_s_{};  ///< The last search for a way took so long.
@@ -106,6 +111,7 @@ class Navigator {
   MapLatency map_latency_{};
   Duration newest_latency_{};
   std::uint64_t map_revision_{};
+  MissionTime newest_capture_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
   TrackingError tracking_error_{};
 };

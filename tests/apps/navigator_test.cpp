@@ -248,6 +248,29 @@ TEST(Navigator, counts_a_plan_that_led_nowhere_as_failed_until_it_moves) {
   EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 0);
 }
 
+TEST(Navigator, goes_back_from_the_unknown_that_it_stands_too_near_to_see_and_then_plans_anew) {
+  Trip trip;
+  trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  double nearest_m = 0.0;
+  int plans = 0;
+  for (int i = 0; i < 1500; ++i) {
+    if (const auto query = trip.navigator.next_query(trip.now)) {
+      ++plans;
+      trip.navigator.path_planned(trip.now,
+                                  {query->id, straight(query->start_W, {40, 0, 1.5}), ""});
+    }
+    trip.tick(1);
+    const double x_m = trip.navigator.follower().position_W().x();
+    nearest_m = std::max(nearest_m, x_m);
+    if (x_m < nearest_m - 0.2) {  // From here the camera sees more.
+      trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::free);
+    }
+  }
+  EXPECT_GT(trip.navigator.follower().position_W().x(), 6.0);
+  EXPECT_LE(plans, 3) << "one from the start, one from where it stood, one from farther back";
+}
+
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
   Trip trip;
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
