@@ -2,113 +2,52 @@
 // flyball-link: NLopt::nlopt
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// RoboRun (Boroujerdian et al., DAC 2021, arXiv 2108.13354). The vehicle flies with its largest
-// speed; what that leaves is a time budget, and the budget is filled:
+// RoboRun (Boroujerdian et al., DAC 2021, arXiv 2108.13354):
 //
-//   budget    t = share (d - stop(v)) / v, at most the cap; d to the closest unknown
+//   budget    t = share (d - stop(v)) / v, rolled along the planned speeds, at most the cap; d to
+//             the closest unknown. Less the stages that no knob changes; where they are not paid
+//             for the settings stay, and the vehicle has no budget to keep
 //   stage     latency = (q0 / r^3 + q1 / r^2 + q2 / r) V, q fitted once: mapping with r0 and V0,
-//   the
-//             map for the planner and two planner stages with r1 and V1, V2
+//             the map for the planner and two planner stages with r1 and V1, V2
 //   solver    min (t - sum of latencies)^2 - w V0 over r0 <= r1, V0 <= .3 V1, V1 <= 3 V2, by SLSQP
-//   r         one of finest 2^k, k = 0..5; not above gaps and the nearest obstacle; at most 1.2 m
-//             near the goal, the finest after two failed plans
+//   r         one of finest 2^k, k = 0..5, at most the one below gaps and the nearest obstacle
+//             (the least of the last maps), 1.2 m near the goal; what is solved is rounded to the
+//             next coarser one. The finest after two failed plans
+//
+// In its published code (branch roborun_improved of MAVBench's applications, August 2020) r0 is no
+// finer than half of the mean gap either: rounded up that is the ceiling itself, so space alone
+// sets the precision; and w is 1 s^2 for each cubic metre, so V0 is all there is to see. Its logs
+// show both: medians of V0 at each precision are the same for budgets above and below the median.
+// `gap_share` and `volume_weight_s2` choose between that and a rule that fills its budget.
 //
 // The precision r0 is the map's resolution, the volume V0 that of the camera's view, hence its
-// range. Our planner has neither, so r1, V1 and V2 only bind the others. v is the speed that is
-// commanded, not the one that is flown: at rest the budget would be endless, be filled, and hold
-// the vehicle there.
+// range. Our planner has neither, so r1, V1 and V2 only bind the others. Promises: each map is
+// held against the budget that was in force when its frame began, as in RoboRun's logs.
 
+#include "flyball/governors/budget_ledger.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/time_budget.h"
 #include "flyball/runtime/registry.h"
 
+#include "roborun_solver.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 
-#include <nlopt.h>
-
 namespace {
 
 using flyball::Observation;
 
-constexpr int levels = 6;                 // r = finest 2^k, k = 0..5.
-constexpr double sensor_over_map = 0.3;   // V0 <= .3 V1.
-constexpr double map_over_planner = 3.0;  // V1 <= 3 V2.
+constexpr std::size_t most_levels = 6;  // r = finest 2^k, k = 0..5.
 constexpr double near_goal_m = 40.0;
 constexpr double near_goal_resolution_m = 1.2;
 constexpr std::uint32_t failures_to_finest = 2;
+constexpr std::size_t ceilings_kept = 5;  // Of the last maps.
+constexpr std::size_t budgets_kept = 256;
+constexpr double at_rest_m_s = 0.2;
 // The view of 90 by 59 degrees is a pyramid of volume 4/3 tan(45) tan(29.4) R^3.
 constexpr double view_volume = 0.75;
-
-/// Seconds for a precision r [m] and a volume V [m3].
-struct StageLatency {
-  double q0_s{};  ///< Times r^-3.
-  double q1_s{};  ///< Times r^-2.
-  double q2_s{};  ///< Times r^-1.
-  [[nodiscard]] double per_m3_s(double r_m) const {
-    return ((q0_s / r_m + q1_s) / r_m + q2_s) / r_m;
-  }
-  /// Of `per_m3_s` over ln r.
-  [[nodiscard]] double slope_s(double r_m) const {
-    return -((3.0 * q0_s / r_m + 2.0 * q1_s) / r_m + q2_s) / r_m;
-  }
-};
-
-/// What the solver minimises: x = ln r0, ln r1, and V0, V1, V2 as shares of their largest.
-struct Problem {
-  StageLatency map{};
-  StageLatency planner{};
-  double fixed_s{};   ///< Stages that no knob changes.
-  double budget_s{};  ///< Less `fixed_s`, for the stages that knobs change; not below zero.
-  double volume_weight_s2{};
-  std::array<double, 3> most_m3{};
-
-  [[nodiscard]] double latency_s(const double* x) const {
-    return map.per_m3_s(std::exp(x[0])) * x[2] * most_m3[0] +
-           planner.per_m3_s(std::exp(x[1])) * (x[3] * most_m3[1] + 2.0 * x[4] * most_m3[2]);
-  }
-  void latency_gradient_s(const double* x, double* slope) const {
-    const double r0_m = std::exp(x[0]);
-    const double r1_m = std::exp(x[1]);
-    const double planned_m3 = x[3] * most_m3[1] + 2.0 * x[4] * most_m3[2];
-    slope[0] = map.slope_s(r0_m) * x[2] * most_m3[0];
-    slope[1] = planner.slope_s(r1_m) * planned_m3;
-    slope[2] = map.per_m3_s(r0_m) * most_m3[0];
-    slope[3] = planner.per_m3_s(r1_m) * most_m3[1];
-    slope[4] = 2.0 * planner.per_m3_s(r1_m) * most_m3[2];
-  }
-};
-
-double objective(unsigned n, const double* x, double* gradient, void* context) {
-  const auto& problem = *static_cast<const Problem*>(context);
-  const double missing_s = problem.budget_s - problem.latency_s(x);
-  if (gradient != nullptr) {
-    problem.latency_gradient_s(x, gradient);
-    std::transform(gradient, gradient + n, gradient,
-                   [missing_s](double slope) { return -2.0 * missing_s * slope; });
-    gradient[2] -= problem.volume_weight_s2;
-  }
-  return missing_s * missing_s - problem.volume_weight_s2 * x[2];
-}
-
-/// x[less] - x[more] <= 0, in the variables of `Problem`, whose largest volumes keep the ratios.
-struct Order {
-  std::size_t less;
-  std::size_t more;
-};
-constexpr std::array<Order, 3> orders{{{0, 1}, {2, 3}, {3, 4}}};
-
-double keeps_order(unsigned n, const double* x, double* gradient, void* context) {
-  const auto& [less, more] = *static_cast<const Order*>(context);
-  if (gradient != nullptr) {
-    std::fill(gradient, gradient + n, 0.0);
-    gradient[less] = 1.0;
-    gradient[more] = -1.0;
-  }
-  return x[less] - x[more];
-}
 
 class Roborun final : public flyball::Policy {
  public:
@@ -122,10 +61,12 @@ class Roborun final : public flyball::Policy {
         {"least_range_m", 5.0, 0.5, 100.0, "Range of the smallest."},
         {"v_max_m_s", 0.0, 0.0, 50.0, "Commanded; 0: as the scenario says."},
         {"share", 0.5, 0.01, 1.0, "Of the budget that is filled."},
+        {"gap_share", 0.0, 0.0, 1.0,
+         "No finer than this share of the mean gap; 0: as is paid for."},
         {"cap_s", 15.0, 0.1, 100.0, "Largest budget."},
         {"deceleration_m_s2", 3.0, 0.0, 20.0, "Of a stop; 0: the fit of RoboRun's own vehicle."},
         {"overhead_s", 0.19, 0.0, 10.0, "Its own decision, off the budget."},
-        {"fixed_s", 0.59, 0.0, 10.0, "Stages that no knob changes, off the budget."},
+        {"fixed_s", 0.44, 0.0, 10.0, "Other stages that no knob changes, off the budget."},
         {"volume_weight_s2", 0.01, 0.0, 1e6, "w, for the whole of the largest V0."},
         {"map_q0_s", 2.24e-6, 0.0, 1.0, "q0 of mapping, times m^3 / m^3."},
         {"map_q1_s", 3.05e-6, 0.0, 1.0, "q1 of mapping."},
@@ -154,114 +95,139 @@ class Roborun final : public flyball::Policy {
         a > 0.0 ? flyball::StoppingDistance::braking(a) : flyball::StoppingDistance::roborun();
     budget_.share = given.number("share");
     budget_.cap_s = given.number("cap_s");
+    gap_share_ = given.number("gap_share");
+    set_levels(*knobs.spec("map.resolution_m"));
     set_problem(given);
-    set_solver();
     wish_ = {};
     remember(knobs.value("map.resolution_m"), knobs.value("map.range_m"));
     return flyball::Done{};
   }
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
-    const double room_m = std::clamp(finite(seen.known_free_m - seen.tracking_error_m), 0.0, 1e3);
-    // Stages that no knob changes must not count among those that are squeezed: where they alone
-    // are over the budget the volume would go to its least, the vehicle would see no farther, and
-    // the next budget would be no larger.
-    problem_.budget_s = std::max(0.0, budget_.budget_s(v_max_m_s_, room_m) - problem_.fixed_s);
-    const double coarsest_m = coarsest(seen);
-    std::array<double, 5> x{};
+    const double limit_m = coarsest(seen);
+    if (seen.map_revision != map_revision_) {
+      map_revision_ = seen.map_revision;
+      ledger_.came(seen.now, seen.latency);
+      ceilings_m_[next_ceiling_] = limit_m;
+      next_ceiling_ = (next_ceiling_ + 1) % ceilings_kept;
+    }
+    const double coarsest_m =
+        std::min(limit_m, *std::min_element(ceilings_m_.begin(), ceilings_m_.end()));
+    const double whole_s = whole_budget_s(seen);
+    const bool is_paid = whole_s >= fixed_s_;
+    solver_.problem().budget_s = whole_s - fixed_s_;
     if (seen.planner_failures >= failures_to_finest) {
       remember(finest_m_, range_m_);
-    } else if (solve(coarsest_m, x)) {
-      const double r0_m = rounded(std::exp(x[0]), coarsest_m);
-      remember(r0_m, fitting_range_m(std::exp(x[0]), r0_m, x[2]));
+    } else if (is_paid) {
+      if (const auto found = solver_.solve(finest(seen, coarsest_m), coarsest_m)) {
+        remember(rounded_up(found->precision_m, coarsest_m),
+                 most_range_m_ * std::cbrt(found->volume_share));
+      }
     }  // Else the knobs stay.
+    ledger_.set(seen.now, level_, is_paid ? whole_s : 0.0);
     return wish_;
   }
 
- private:
-  struct Destroy {
-    void operator()(nlopt_opt solver) const { nlopt_destroy(solver); }
-  };
+  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
+    const flyball::BudgetLedger::Count all = ledger_.all();
+    return flyball::PromiseCount{all.results, all.late, 1.0};
+  }
+  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
+    std::vector<flyball::LevelPromises> all;
+    for (std::size_t k = 0; k < levels_; ++k) {
+      const flyball::BudgetLedger::Count& one = ledger_.levels()[k];
+      all.push_back({level_m(k), one.results, one.late, std::nullopt});
+    }
+    return all;
+  }
 
+ private:
   static flyball::Error refused(const std::string& why) {
     return {flyball::ErrorCode::invalid_input, "policy \"roborun\": " + why};
   }
   static double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
   void set_problem(const flyball::Parameters& given) {
-    problem_ = {};
-    problem_.map = {given.number("map_q0_s"), given.number("map_q1_s"), given.number("map_q2_s")};
+    flyball::RoborunProblem& problem = solver_.problem();
+    problem = {};
+    problem.map = {given.number("map_q0_s"), given.number("map_q1_s"), given.number("map_q2_s")};
     const double share = given.number("planner_share");
-    problem_.planner = {share * problem_.map.q0_s, share * problem_.map.q1_s,
-                        share * problem_.map.q2_s};
-    problem_.fixed_s = given.number("fixed_s") + given.number("overhead_s");
-    problem_.volume_weight_s2 = given.number("volume_weight_s2");
-    const double view_m3 = view_volume * std::pow(most_range_m_, 3.0);
-    problem_.most_m3 = {view_m3, view_m3 / sensor_over_map,
-                        view_m3 / sensor_over_map / map_over_planner};
+    problem.planner = {share * problem.map.q0_s, share * problem.map.q1_s,
+                       share * problem.map.q2_s};
+    problem.volume_weight_s2 = given.number("volume_weight_s2");
+    problem.least_share = std::pow(least_range_m_ / most_range_m_, 3.0);
+    problem.set_view(view_volume * std::pow(most_range_m_, 3.0));
+    fixed_s_ = given.number("fixed_s") + given.number("overhead_s");
   }
 
-  void set_solver() {
-    solver_.reset(nlopt_create(NLOPT_LD_SLSQP, 5));
-    nlopt_set_min_objective(solver_.get(), objective, &problem_);
-    orders_ = orders;
-    for (Order& order : orders_) {
-      nlopt_add_inequality_constraint(solver_.get(), keeps_order, &order, 1e-9);
+  /// The mapper may know no cells as coarse: what is solved for must be what is mapped.
+  void set_levels(const flyball::KnobSpec& resolution) {
+    levels_ = 1;
+    const auto is_known = [&resolution](double r_m) {
+      return std::abs(resolution.nearest(r_m) - r_m) < 1e-6 * r_m;
+    };
+    while (levels_ < most_levels && is_known(level_m(levels_))) {
+      ++levels_;
     }
-    nlopt_set_ftol_rel(solver_.get(), 1e-6);
-    nlopt_set_maxeval(solver_.get(), 200);
+    ledger_ = flyball::BudgetLedger{levels_, budgets_kept};
+    ceilings_m_.fill(level_m(levels_ - 1));
+  }
+  [[nodiscard]] double level_m(std::size_t k) const noexcept {
+    return std::ldexp(finest_m_, static_cast<int>(k));
   }
 
-  bool solve(double coarsest_m, std::array<double, 5>& x) noexcept {
-    const double least_share = std::pow(least_range_m_ / most_range_m_, 3.0);
-    const double low = std::log(finest_m_);
-    const double high = std::log(coarsest_m);
-    const std::array<double, 5> least{low, low, least_share, least_share, least_share};
-    const std::array<double, 5> most{high, high, 1.0, 1.0, 1.0};
-    nlopt_set_lower_bounds(solver_.get(), least.data());
-    nlopt_set_upper_bounds(solver_.get(), most.data());
-    // From the coarse side: on the fine one latencies are so long that the first step leads far
-    // off.
-    const double start = low + 0.75 * (high - low);
-    const double share = std::max(0.5, least_share);
-    x = {start, start, share, share, share};
-    double found = 0.0;
-    const nlopt_result result = nlopt_optimize(solver_.get(), x.data(), &found);
-    return (result > 0 || result == NLOPT_ROUNDOFF_LIMITED) && std::isfinite(found) &&
-           std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
+  /// A vehicle that stands has all the time there is when its way does not say otherwise: without
+  /// a path, before unknown space, after a failed plan.
+  [[nodiscard]] double whole_budget_s(const Observation& seen) const noexcept {
+    const double room_m = std::clamp(finite(seen.known_free_m - seen.tracking_error_m), 0.0, 1e3);
+    const double speed_m_s = std::clamp(finite(seen.speed_m_s), 0.0, v_max_m_s_);
+    const double ahead_s = budget_ahead_s(
+        budget_, {speed_m_s, v_max_m_s_, std::max(0.0, finite(seen.max_deceleration_m_s2))},
+        room_m);
+    return ahead_s >= fixed_s_ || speed_m_s > at_rest_m_s ? ahead_s : budget_.cap_s;
   }
 
-  /// Gaps and obstacles, and the goal's neighbourhood.
+  /// Gaps and obstacles, and the goal's neighbourhood: the precision that is not above them.
   [[nodiscard]] double coarsest(const Observation& seen) const noexcept {
     double limit_m = std::min(finite(seen.nearest_obstacle_m), finite(seen.mean_gap_m));
     if (!(finite(seen.distance_to_goal_m) > near_goal_m)) {
       limit_m = std::min(limit_m, near_goal_resolution_m);
     }
-    return std::clamp(limit_m, finest_m_, finest_m_ * (1 << (levels - 1)));
+    std::size_t k = levels_ - 1;
+    while (k > 0 && level_m(k) > limit_m * (1.0 + 1e-9)) {
+      --k;
+    }
+    return level_m(k);
   }
 
-  /// The nearest precision there is, in proportion, that is not above the limit.
-  [[nodiscard]] double rounded(double r_m, double coarsest_m) const noexcept {
-    const double steps = std::log2(r_m / finest_m_);
-    const double most = std::floor(std::log2(coarsest_m / finest_m_) + 1e-9);
-    const double k = std::clamp(std::round(steps), 0.0, std::min(most, levels - 1.0));
-    return finest_m_ * std::exp2(k);
+  /// What it may be refined to.
+  [[nodiscard]] double finest(const Observation& seen, double coarsest_m) const noexcept {
+    const double worth_m = gap_share_ > 0.0 ? std::min(gap_share_ * finite(seen.mean_gap_m),
+                                                       finite(seen.nearest_obstacle_m))
+                                            : finest_m_;
+    return std::clamp(worth_m, finest_m_, coarsest_m);
   }
 
-  /// Rounding to a finer precision costs more than was solved for: the volume pays.
-  [[nodiscard]] double fitting_range_m(double solved_m, double r_m, double share) const noexcept {
-    const double dearer = problem_.map.per_m3_s(r_m) / problem_.map.per_m3_s(solved_m);
-    const double range_m = most_range_m_ * std::cbrt(std::min(share, share / dearer));
-    return std::clamp(std::isfinite(range_m) ? range_m : most_range_m_, least_range_m_,
-                      most_range_m_);
+  /// The next coarser precision there is, as in RoboRun's code.
+  [[nodiscard]] double rounded_up(double r_m, double coarsest_m) const noexcept {
+    std::size_t k = 0;
+    while (level_m(k) < r_m * (1.0 - 1e-3)) {
+      ++k;
+    }
+    return std::min(level_m(k), coarsest_m);
   }
 
   void remember(double resolution_m, double range_m) noexcept {
-    range_m_ = range_m;
+    range_m_ =
+        std::clamp(std::isfinite(range_m) ? range_m : most_range_m_, least_range_m_, most_range_m_);
+    level_ = 0;
+    while (level_ + 1 < levels_ && level_m(level_ + 1) < resolution_m * (1.0 + 1e-9)) {
+      ++level_;
+    }
     wish_ = {};
     wish_.reason = flyball::Reason::deadline;
     wish_.set("map.resolution_m", resolution_m);
-    wish_.set("map.range_m", range_m);
+    wish_.set("map.range_m", range_m_);
     wish_.set("mission.max_speed_m_s", v_max_m_s_);
   }
 
@@ -269,11 +235,17 @@ class Roborun final : public flyball::Policy {
   double least_range_m_{};
   double most_range_m_{};
   double v_max_m_s_{};
-  double range_m_{};  ///< Wished last.
+  double gap_share_{};
+  double range_m_{};     ///< Wished last.
+  std::size_t level_{};  ///< Of the resolution that is wished.
+  std::uint64_t map_revision_{};
+  std::array<double, ceilings_kept> ceilings_m_{};  ///< A ring.
+  std::size_t next_ceiling_{};
+  std::size_t levels_{1};
+  flyball::BudgetLedger ledger_{1, budgets_kept};
   flyball::TimeBudget budget_{};
-  Problem problem_{};
-  std::array<Order, 3> orders_{};
-  std::unique_ptr<nlopt_opt_s, Destroy> solver_{};
+  double fixed_s_{};
+  flyball::RoborunSolver solver_{};
   flyball::Decision wish_{};
 };
 

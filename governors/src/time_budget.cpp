@@ -4,6 +4,7 @@
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flyball {
@@ -60,6 +61,25 @@ double rolled_budget_s(const double* local_s, std::size_t count, double step_s) 
     left_s = std::min(left_s - step_s, std::max(0.0, local_s[i]));
   }
   return flown_s + left_s;
+}
+
+double budget_ahead_s(const TimeBudget& budget, const SpeedingUp& trajectory, double known_free_m) {
+  constexpr double step_s = 0.2;  // Of RoboRun's trajectories.
+  std::array<double, 512> local_s{};
+  TimeBudget whole = budget;
+  whole.share = 1.0;
+  double ahead_m = 0.0;
+  std::size_t count = 0;
+  while (count < local_s.size() && ahead_m <= known_free_m) {
+    const double reached_m_s = trajectory.acceleration_m_s2 > 0.0
+                                   ? trajectory.speed_m_s + trajectory.acceleration_m_s2 * step_s *
+                                                                static_cast<double>(count)
+                                   : trajectory.commanded_m_s;
+    const double speed_m_s = std::min(reached_m_s, trajectory.commanded_m_s);
+    local_s[count++] = whole.budget_s(speed_m_s, known_free_m - ahead_m);
+    ahead_m += speed_m_s * step_s;
+  }
+  return budget.share * std::min(budget.cap_s, rolled_budget_s(local_s.data(), count, step_s));
 }
 
 }  // namespace flyball

@@ -45,4 +45,19 @@ struct TimeBudget {
 /// @return 0 for no way-points.
 [[nodiscard]] double rolled_budget_s(const double* local_s, std::size_t count, double step_s);
 
+/// A trajectory that speeds up from here to what is commanded.
+struct SpeedingUp {
+  double speed_m_s{};          ///< Flown now.
+  double commanded_m_s{};      ///< Reached at last; at once where `acceleration_m_s2` is zero.
+  double acceleration_m_s2{};  ///< Not negative.
+};
+
+/// `rolled_budget_s` along such a trajectory, straight to the first cell that is not known free:
+/// RoboRun's budget takes the speeds that are planned, not those of the moment, so a vehicle that
+/// starts has no endless budget, nor one that flies slowly that of its largest speed. The cap and
+/// the share hold for the sum.
+[[nodiscard]] double budget_ahead_s(const TimeBudget& budget,
+                                    const SpeedingUp& trajectory,
+                                    double known_free_m);
+
 }  // namespace flyball
