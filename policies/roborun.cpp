@@ -6,7 +6,7 @@
 //
 //   budget    t = share (d - stop(v)) / v, rolled along the planned speeds, at most the cap; d to
 //             the closest unknown. Less the stages that no knob changes; where they are not paid
-//             for the settings stay, and the vehicle has no budget to keep
+//             for nothing is left to fill, and the vehicle has no budget to keep
 //   stage     latency = (q0 / r^3 + q1 / r^2 + q2 / r) V, q fitted once: mapping with r0 and V0,
 //             the map for the planner and two planner stages with r1 and V1, V2
 //   solver    min (t - sum of latencies)^2 - w V0 over r0 <= r1, V0 <= .3 V1, V1 <= 3 V2, by SLSQP
@@ -115,14 +115,15 @@ class Roborun final : public flyball::Policy {
         std::min(limit_m, *std::min_element(ceilings_m_.begin(), ceilings_m_.end()));
     const double whole_s = whole_budget_s(seen);
     const bool is_paid = whole_s >= fixed_s_;
-    solver_.problem().budget_s = whole_s - fixed_s_;
+    // Its code keeps the old settings where nothing is left, and stops the vehicle. Here the guard
+    // slows it down; with the old settings, if they are a short range, the next budget would be no
+    // larger, and the vehicle would crawl for good.
+    solver_.problem().budget_s = std::max(0.0, whole_s - fixed_s_);
     if (seen.planner_failures >= failures_to_finest) {
       remember(finest_m_, range_m_);
-    } else if (is_paid) {
-      if (const auto found = solver_.solve(finest(seen, coarsest_m), coarsest_m)) {
-        remember(rounded_up(found->precision_m, coarsest_m),
-                 most_range_m_ * std::cbrt(found->volume_share));
-      }
+    } else if (const auto found = solver_.solve(finest(seen, coarsest_m), coarsest_m)) {
+      remember(rounded_up(found->precision_m, coarsest_m),
+               most_range_m_ * std::cbrt(found->volume_share));
     }  // Else the knobs stay.
     ledger_.set(seen.now, level_, is_paid ? whole_s : 0.0);
     return wish_;
