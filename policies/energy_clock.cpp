@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The clock alone, by mission_energy's reckoning, for an application that sets its map itself: the
-// clock with the least joules per metre for the cells in force. Where the vehicle waits, or flies
+// clock with the least joules per metre for the cells in force, where that saves more than the
+// mission could lose by waiting longer for what else it computes. Where the vehicle waits, or flies
 // without a map, the lowest clock that is soon enough.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/resting.h"
 #include "flyball/governors/search_space.h"
+#include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -61,6 +63,7 @@ class EnergyClock final : public flyball::Policy {
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
     search_->learn(seen);
+    waiting_.note(seen);
     flyball::Decision wish;
     wish.reason = flyball::Reason::energy;
     wish.set("cpu.frequency_hz", clock_hz(seen));
@@ -84,8 +87,12 @@ class EnergyClock final : public flyball::Policy {
     constexpr double standing_m_s = 0.5;
     const bool waits = !(seen.speed_m_s > standing_m_s) || seen.planner_failures > 0;
     flyball::Surroundings around = flyball::limits_of(seen);
+    // Indoors ways are short and views end at walls: there latency limits the speed long before
+    // the map's range would say so.
+    around.sight_m = flyball::shown_free_m(seen);
     around.coarsest_m = around.finest_m = cells_m;
     around.needs_top_clock = waits || seen.phase != MissionPhase::cruise;
+    around.waits = waiting_;
     return search_->choose(around, seen.now).setting.clock_hz;
   }
 
@@ -103,6 +110,7 @@ class EnergyClock final : public flyball::Policy {
   double range_m_{};
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::Resting> resting_{};
+  flyball::WaitingShare waiting_{};
 };
 
 }  // namespace

@@ -15,7 +15,8 @@
 
 namespace flyball {
 
-/// Nothing on board is told: governors see the granted clock, latencies and the load.
+/// Nothing on board is told of events: governors see the granted clock, latencies, the load, and
+/// the temperature.
 class ComputerDrift {
  public:
   /// All arguments outlive the drift; `executor` runs on `platform`.
@@ -31,6 +32,9 @@ class ComputerDrift {
   /// How often a trip took clocks away.
   [[nodiscard]] std::uint64_t throttle_events() const { return throttle_events_; }
   [[nodiscard]] std::optional<double> hottest_c() const;
+  /// What a board's own sensor and its list of trips say; null for a computer that never gets too
+  /// hot.
+  [[nodiscard]] const ThermalState* heat() const { return heat_ ? &*heat_ : nullptr; }
 
  private:
   void schedule(const ComputerEvent& event);

@@ -91,7 +91,8 @@ void GovernorLoop::record(bool is_whole) {
   std::vector<Field> row;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double value = fields[i].get(seen_);
-    if (is_whole || !have_same_bits(value, told_[i])) {
+    const bool is_new = !have_same_bits(value, told_[i]);
+    if (is_new || (is_whole && !fields[i].is_optional)) {
       row.push_back({fields[i].name, value});
       told_[i] = value;
     }
@@ -191,6 +192,10 @@ void GovernorLoop::observe_computer(MissionTime now) {
   seen_.computer_power = Watts{loop_.log().computer_w};
   seen_.rotor_power = Watts{loop_.log().rotor_w};
   seen_.battery_percent = loop_.battery().percent();
+  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
+    seen_.temperature_c = heat->temperature_c();
+    seen_.trip_c = heat->first_trip_c().value_or(0.0);
+  }
 }
 
 /// Once for each knob whose wished value this mission does not have: a mapper may know no cells of

@@ -8,6 +8,7 @@
 
 #include "choice_text.h"
 #include "closed_loop.h"
+#include "computer_drift.h"
 #include "future_frames.h"
 #include "navigator.h"
 #include <set>
@@ -23,6 +24,9 @@ class GovernorLoop {
                VirtualExecutor& executor,
                const ClosedLoop& loop,
                const Navigator* navigator);
+  /// From now on decisions know the computer's temperature and its first trip; `drift` outlives the
+  /// loop.
+  void watch_heat(const ComputerDrift& drift) { drift_ = &drift; }
 
   /// One decision at `now`. The surroundings are looked at once per the scenario's period, the
   /// computer each time.
@@ -61,6 +65,7 @@ class GovernorLoop {
   VirtualExecutor& executor_;
   const ClosedLoop& loop_;
   const Navigator* navigator_;
+  const ComputerDrift* drift_{};
   OperatingPoint asked_;
   std::unique_ptr<FutureFrames> future_{};  ///< Null for a policy that does not ask.
   Observation seen_{};

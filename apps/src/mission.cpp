@@ -49,6 +49,7 @@ struct Flight {
     drift = std::make_unique<ComputerDrift>(context, computer, *executor, queue, *loop);
     governor = std::make_unique<GovernorLoop>(context, *setup.governor, *executor, *loop,
                                               workload->navigator());
+    governor->watch_heat(*drift);
     recorder = std::make_unique<FlightRecorder>(context, graph, *loop, workload->navigator());
   }
 

@@ -80,6 +80,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
     prior.sigma = 0.5;
     models_.add(std::to_string(level.resolution_m), prior);
   }
+  most_clock_hz_ = points_.axes()[clock_axis].values.back();
 }
 
 MapSetting EnergySearch::setting(std::size_t point) const {
@@ -115,6 +116,8 @@ Watts EnergySearch::computer_power(const MapSetting& setting, double map_s) cons
 
 void EnergySearch::learn(const Observation& seen) {
   learn_latency(seen);
+  thermal_.learn(seen);
+  most_clock_hz_ = thermal_.most_clock_hz(points_.axes()[clock_axis].values);
   if (seen.phase == MissionPhase::cruise) {
     rotors_.learn(seen.speed_m_s, seen.rotor_power);
   }
@@ -225,8 +228,8 @@ bool EnergySearch::is_allowed(const MapSetting& candidate,
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
   return candidate.resolution_m <= coarsest_m && candidate.resolution_m >= around.finest_m &&
          candidate.range_m <= most_range_m && !(candidate.range_m < least_range_m) &&
-         (!around.needs_top_clock ||
-          candidate.clock_hz == points_.axes()[clock_axis].values.back());
+         candidate.clock_hz <= most_clock_hz_ &&
+         (!around.needs_top_clock || candidate.clock_hz == most_clock_hz_);
 }
 
 EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) {
@@ -239,6 +242,7 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
       continue;
     }
     estimated = estimate(candidate, around);
+    estimated.joules_per_m *= around.waits.delay(candidate.clock_hz, most_clock_hz_);
     if (std::max(estimated.response_s, expected_s_[point]) > around.most_response_s) {
       estimated.joules_per_m *= too_slow;
     }
@@ -279,7 +283,7 @@ MapSetting EnergySearch::rest(
   for (EnergyEstimate& none : estimates_) {
     none.joules_per_m = std::numeric_limits<double>::infinity();  // No metre is made.
   }
-  put_in_force({resolution_m, range_m, clocks_hz[chosen]}, now);
+  put_in_force({resolution_m, range_m, std::min(clocks_hz[chosen], most_clock_hz_)}, now);
   return in_force_;
 }
 

@@ -88,6 +88,8 @@ FlyballObservation observation_of(const Observation& seen) {
   told.narrowest_gap_m = seen.narrowest_gap_m;
   told.gap_distance_m = seen.gap_distance_m;
   told.mean_gap_m = seen.mean_gap_m;
+  told.temperature_c = seen.temperature_c;
+  told.trip_c = seen.trip_c;
   return told;
 }
 

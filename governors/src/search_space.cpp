@@ -63,6 +63,13 @@ Surroundings limits_of(const Observation& seen) {
   return around;
 }
 
+double shown_free_m(const Observation& seen) {
+  constexpr double farthest_m = 1e6;
+  const double flown_m = seen.speed_m_s * std::max(0.0, to_seconds(seen.latency));
+  const double shown_m = seen.known_free_m + std::max(0.0, flown_m);
+  return std::isfinite(shown_m) ? std::clamp(shown_m, 0.0, farthest_m) : 0.0;
+}
+
 std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed) {
   std::vector<PolicyOption> all;
   for (const EnergyEstimate& one : weighed) {

@@ -58,6 +58,11 @@ ObservationField scalar(const char* name) {
           }};
 }
 
+ObservationField optional(ObservationField one) {
+  one.is_optional = true;
+  return one;
+}
+
 ObservationField phase_field() {
   return {"phase", [](const Observation& seen) { return static_cast<double>(seen.phase); },
           [](Observation& seen, double value) {
@@ -68,7 +73,7 @@ ObservationField phase_field() {
 }  // namespace
 
 // A member that is missing below is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 208, "a new member belongs into observation_fields() too");
+static_assert(sizeof(Observation) == 224, "a new member belongs into observation_fields() too");
 
 const std::vector<ObservationField>& observation_fields() {
   using O = Observation;
@@ -100,6 +105,8 @@ const std::vector<ObservationField>& observation_fields() {
       field<&O::narrowest_gap_m>("narrowest_gap_m"),
       field<&O::gap_distance_m>("gap_distance_m"),
       field<&O::mean_gap_m>("mean_gap_m"),
+      optional(field<&O::temperature_c>("temperature_c")),
+      optional(field<&O::trip_c>("trip_c")),
   };
   return all;
 }

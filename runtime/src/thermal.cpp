@@ -58,4 +58,8 @@ std::optional<Hertz> ThermalState::cap() const {
   return lowest;
 }
 
+std::optional<double> ThermalState::first_trip_c() const {
+  return model_.trips.empty() ? std::nullopt : std::optional{model_.trips.front().at_c};
+}
+
 }  // namespace flyball

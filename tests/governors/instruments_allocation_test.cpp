@@ -3,6 +3,7 @@
 #include "flyball/governors/latency_model.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
+#include "flyball/governors/thermal_limit.h"
 #include "flyball/governors/time_budget.h"
 
 #include "counting_new.h"
@@ -18,6 +19,11 @@ TEST(Instruments, allocate_nothing_after_construction) {
   LatencyBound bound{3, 4, {}};
   RotorPower rotors;
   const SpeedLimit limit;
+  ThermalLimit heat;
+  Observation warm;
+  warm.trip_c = 80.0;
+  warm.frequency = Hertz{2e9};
+  const std::vector<double> clocks_hz{1e9, 2e9};
   const TimeBudget budget{StoppingDistance::roborun()};
   double sum = 0.0;
   const std::size_t before = allocation_count();
@@ -31,6 +37,10 @@ TEST(Instruments, allocate_nothing_after_construction) {
     }
     models.learn(0, at, 2 * predicted);
     rotors.learn(0.1 * i, Watts{300.0});
+    warm.now = now;
+    warm.temperature_c = 60.0 + 0.2 * i;
+    heat.learn(warm);
+    sum += 1e-9 * heat.most_clock_hz(clocks_hz);
     sum += limit.watts_per_second(rotors.power(3.0).value(), to_seconds(predicted), 7.0) +
            budget.budget_s(3.0, 7.0);
   }

@@ -48,6 +48,25 @@ TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
   }
 }
 
+TEST(SearchSpace, what_was_shown_free_counts_from_where_the_frame_was_taken) {
+  Observation seen;
+  seen.known_free_m = 3.0;
+  seen.speed_m_s = 2.0;
+  seen.latency = from_seconds(0.25);
+  EXPECT_NEAR(shown_free_m(seen), 3.5, 1e-9);
+  seen.known_free_m = 0.0;
+  seen.speed_m_s = 0.0;
+  EXPECT_EQ(shown_free_m(seen), 0.0);
+}
+
+TEST(SearchSpace, nonsense_shows_nothing_free) {
+  Observation seen;
+  for (const double nonsense : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    seen.known_free_m = nonsense;
+    EXPECT_EQ(shown_free_m(seen), 0.0) << nonsense;
+  }
+}
+
 TEST(SearchSpace, options_are_what_is_allowed_the_cheapest_first) {
   EnergyEstimate dear;
   dear.setting = {0.15, 7.0, 2e9};

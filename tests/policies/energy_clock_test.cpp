@@ -27,6 +27,8 @@ Observation cruising(double t_s, double resolution_m, double rotor_w) {
   seen.phase = MissionPhase::cruise;
   seen.speed_m_s = 3.0;
   seen.speed_limit_m_s = 10.0;
+  seen.known_free_m = 7.0;
+  seen.map_revision = 1;
   seen.max_deceleration_m_s2 = 6.0;
   seen.map_resolution_m = resolution_m;
   seen.frequency = Hertz{top_hz};
@@ -43,6 +45,35 @@ TEST(EnergyClock, at_the_missions_own_limit_of_speed_it_drops) {
   Observation seen = cruising(1.0, 0.80, 20.0);
   seen.speed_limit_m_s = 1.0;
   EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
+}
+
+TEST(EnergyClock, not_where_the_next_way_is_so_short_that_latency_limits_the_speed_after_all) {
+  Observation seen = cruising(1.0, 0.15, 300.0);
+  seen.speed_limit_m_s = seen.speed_m_s = 1.0;
+  EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
+  seen.known_free_m = 1.0;  // A view in the next room, or a wall.
+  EXPECT_EQ(clock_hz(energy_clock()->decide(seen)), top_hz);
+}
+
+TEST(EnergyClock, nor_where_the_mission_mostly_waits_for_the_computer) {
+  const auto policy = energy_clock();
+  Observation seen = cruising(0.0, 0.15, 300.0);
+  seen.speed_limit_m_s = seen.speed_m_s = 1.0;
+  const auto clock_at = [&](double t_s, double speed_m_s) {
+    seen.now = MissionTime{from_seconds(t_s)};
+    seen.speed_m_s = speed_m_s;
+    return clock_hz(policy->decide(seen));
+  };
+  EXPECT_LT(clock_at(0.0, 1.0), top_hz);
+  double t_s = 0.0;
+  for (; t_s < 10.0; t_s += 0.25) {
+    EXPECT_EQ(clock_at(t_s + 0.25, 0.0), top_hz);
+  }
+  EXPECT_EQ(clock_at(t_s + 0.25, 1.0), top_hz) << "it has stood for 10 s of the last minute";
+  for (; t_s < 400.0; t_s += 0.25) {
+    (void)clock_at(t_s + 0.5, 1.0);
+  }
+  EXPECT_LT(clock_at(t_s + 0.5, 1.0), top_hz) << "that was long ago";
 }
 
 TEST(EnergyClock, who_stands_and_waits_for_a_plan_has_the_highest) {
@@ -69,6 +100,7 @@ TEST(EnergyClock, while_the_vehicle_waits_it_is_as_low_as_the_news_allows) {
 TEST(EnergyClock, without_a_map_it_is_the_lowest) {
   const auto policy = energy_clock();
   Observation seen = cruising(0.0, 0.15, 250.0);
+  seen.map_revision = 0;
   seen.known_free_m = 100.0;
   (void)policy->decide(seen);
   seen.now = MissionTime{from_seconds(2.0)};

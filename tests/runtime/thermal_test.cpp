@@ -55,6 +55,16 @@ TEST(ThermalState, a_trip_caps_the_clock_until_it_is_cooler_by_the_hysteresis) {
   EXPECT_FALSE(state.cap());
 }
 
+TEST(ThermalState, says_where_clocks_are_lost_first_whether_or_not_they_are) {
+  ThermalState state{sink(), Watts{0.0}};
+  EXPECT_EQ(state.first_trip_c(), 80.0);
+  state.set_temperature(81.0);
+  EXPECT_EQ(state.first_trip_c(), 80.0);
+  ThermalModel endless = sink();
+  endless.trips.clear();
+  EXPECT_FALSE(ThermalState(endless, Watts{0.0}).first_trip_c());
+}
+
 TEST(ThermalState, the_lowest_cap_of_the_active_trips_counts) {
   ThermalState state{sink(), Watts{0.0}};
   state.set_temperature(84.0);

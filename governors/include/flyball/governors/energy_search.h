@@ -11,6 +11,8 @@
 #include "flyball/governors/policy.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
+#include "flyball/governors/thermal_limit.h"
+#include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/observation.h"
 
 #include <vector>
@@ -56,6 +58,7 @@ struct Surroundings {
   double large_m{1e9};     ///< Cells beyond this may shut what turns up next, and have a price:
   double large_j_m{};      ///< failed plans per metre times what one costs.
   double finest_m{};       ///< No smaller one: somebody else chooses the cells, or 0.
+  WaitingShare waits{};    ///< Makes lower clocks dearer.
   bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
 };
 
@@ -79,7 +82,8 @@ struct EnergyEstimate {
 ///
 /// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that take
 /// less than a thousandth more than the best, the one that responds soonest. Latency and rotor
-/// power are learned from observations. Nothing allocates after `make`.
+/// power are learned from observations, and so is what the computer may take before it gets too
+/// hot (`ThermalLimit`): clocks beyond that are not chosen. Nothing allocates after `make`.
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
@@ -89,7 +93,8 @@ class EnergySearch {
                                    const std::vector<double>& ranges_m,
                                    const KnobSettings& knobs);
 
-  /// What the newest map, the rotors and the cores show of the setting that is in force.
+  /// What the newest map, the rotors, the cores and the thermometer show of the setting that is in
+  /// force.
   void learn(const Observation& seen);
   /// The best setting there is; it is taken to be in force from now on.
   [[nodiscard]] EnergyEstimate choose(const Surroundings& around, MissionTime now);
@@ -113,6 +118,8 @@ class EnergySearch {
   /// What the last `choose` expected of each setting; infinite joules where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
+  /// The highest that leaves the computer below its first trip; the top one where there is none.
+  [[nodiscard]] double most_clock_hz() const { return most_clock_hz_; }
   /// Of all levels; the factor is that of the level in force.
   [[nodiscard]] PromiseCount promises() const;
   /// `most_late` where no map takes more than four times as long as predicted.
@@ -141,6 +148,8 @@ class EnergySearch {
   LatencyBound bound_;
   RotorPower rotors_{};
   ComputerPower computer_{};
+  ThermalLimit thermal_{};
+  double most_clock_hz_{};
   std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
   std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.
   MapSetting in_force_{};

@@ -24,7 +24,7 @@ extern "C" {
 #endif
 
 enum {
-  flyball_abi_version = 1,   /* Goes up when a structure grows. */
+  flyball_abi_version = 2,   /* Goes up when a structure grows. */
   flyball_wish_capacity = 16 /* For good: the array stands inside a structure. */
 };
 
@@ -125,6 +125,10 @@ typedef struct FlyballObservation {
   double narrowest_gap_m;
   double gap_distance_m;
   double mean_gap_m;
+  /* Version 1 ends here. */
+
+  double temperature_c;
+  double trip_c;
 } FlyballObservation;
 
 typedef struct FlyballWish {

@@ -80,6 +80,8 @@ struct PolicyCandidate {
     seen.narrowest_gap_m = draw.uniform(0.0, 24.0);
     seen.gap_distance_m = draw.uniform(0.0, 24.0);
     seen.mean_gap_m = draw.uniform(seen.narrowest_gap_m, 24.0);
+    seen.temperature_c = draw.uniform(20.0, 90.0);
+    seen.trip_c = draw.uniform(0.0, 1.0) < 0.5 ? 0.0 : draw.uniform(60.0, 95.0);
   }
   return all;
 }
@@ -99,6 +101,7 @@ struct PolicyCandidate {
     seen.density_ahead = seen.speed_limit_m_s = x;
     seen.max_deceleration_m_s2 = x;
     seen.narrowest_gap_m = seen.gap_distance_m = seen.mean_gap_m = x;
+    seen.temperature_c = seen.trip_c = x;
     seen.map_revision = all.size();
     seen.frequency = Hertz{x};
     seen.computer_power = seen.rotor_power = Watts{x};

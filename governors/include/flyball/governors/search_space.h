@@ -32,6 +32,11 @@ namespace flyball {
 /// as `Surroundings` has it, with a world that lets see to any distance.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);
 
+/// What the newest map showed free along the committed path, from where its frame was taken [m]: d
+/// of eq. 2, but for body and tube. It ends with the path, too: before a place where the vehicle
+/// will stop anyway, latency makes it slower still. 0 where an observation says nothing of sense.
+[[nodiscard]] double shown_free_m(const Observation& seen);
+
 /// What a search weighed and would allow, as a policy shows it: least joules per metre first.
 [[nodiscard]] std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed);
 

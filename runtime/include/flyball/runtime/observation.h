@@ -46,6 +46,9 @@ struct Observation {
                              ///< and twice the room on the nearer side of the path's next 8 m.
   double gap_distance_m{};   ///< How far ahead that is.
   double mean_gap_m{};       ///< Mean of the widest openings over the same stretch.
+  double temperature_c{};    ///< Of the computer, where its clocks' limit is measured.
+  double trip_c{};  ///< The lowest temperature at which it loses clocks; 0: nobody says, and the
+                    ///< temperature says nothing either.
 };
 
 }  // namespace flyball

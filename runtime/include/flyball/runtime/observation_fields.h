@@ -16,6 +16,7 @@ struct ObservationField {
   const char* name{};  ///< With its unit: `latency_s`.
   double (*get)(const Observation& seen){};
   void (*set)(Observation& seen, double value){};
+  bool is_optional{};  ///< Some computers never say it: then it is 0, and no record mentions it.
 };
 
 /// Every member but `now`, in the order of `Observation`; `phase` as its number.

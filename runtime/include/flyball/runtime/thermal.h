@@ -46,6 +46,8 @@ class ThermalState {
   [[nodiscard]] double hottest_c() const { return hottest_c_; }
   /// The lowest cap of the active trips; empty while none is.
   [[nodiscard]] std::optional<Hertz> cap() const;
+  /// Where clocks are lost first [degrees Celsius]; empty: nowhere.
+  [[nodiscard]] std::optional<double> first_trip_c() const;
   [[nodiscard]] const ThermalModel& model() const { return model_; }
 
  private:

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How much a computer may take without getting too hot: learned from its own thermometer.
+
+#include "flyball/governors/power_model.h"
+#include "flyball/governors/recursive_least_squares.h"
+#include "flyball/runtime/observation.h"
+
+#include <optional>
+#include <vector>
+
+namespace flyball {
+
+struct ThermalLimitSettings {
+  double guard_k{0.5};  ///< Kept below the trip: one step of a usual sensor (TMP451: .5 K by
+                        ///< NVIDIA's driver).
+  double horizon_s{60.0};  ///< Within so long the limit may be reached: well below time constants
+                           ///< of minutes, well above the seconds in which loads change.
+  double window_s{10.0};  ///< One sample of the model.
+};
+
+/// One heat capacity behind one resistance, as `ThermalModel`, with x = T - trip:
+///
+///     dx/dt = q + g P - k x,    q = (T_air - trip) / tau,  g = 1 / C,  k = 1 / tau
+///
+/// q, g and k are learned by least squares over the integrals of one window after another,
+///
+///     x(t + w) - x(t) = q w + g int P dt - k int x dt,
+///
+/// which a sensor's steps spoil less than they would spoil a derivative. P is what the power model
+/// says of the granted clock and the busy cores: a single look at a rail may meet a detector's
+/// every frame or none, and what the model gets wrong by a factor or by watts goes into g and q.
+///
+/// The power that brings the computer from x to -guard in one horizon h, drawn for so long, is
+///
+///     P = (k (-guard - x e^{-k h}) / (1 - e^{-k h}) - q) / g,
+///
+/// and for h -> infinity the one that it can take for ever. Without a trip there is no limit.
+/// Nothing allocates.
+class ThermalLimit {
+ public:
+  explicit ThermalLimit(const ThermalLimitSettings& settings = {},
+                        const ComputerPower& computer = {});
+
+  /// Once per decision.
+  void learn(const Observation& seen);
+
+  /// By the power model; empty where nobody tells a trip.
+  [[nodiscard]] std::optional<Watts> most_power() const;
+  [[nodiscard]] std::optional<Watts> sustainable_power() const;
+  /// After this power for so long. @pre A trip was told.
+  [[nodiscard]] double temperature_after_c(Watts power, double seconds) const;
+  /// The highest of these, ascending, that takes no more than `most_power` with the load as it was
+  /// lately; the lowest where none does. @pre Not empty.
+  [[nodiscard]] double most_clock_hz(const std::vector<double>& clocks_hz) const;
+
+ private:
+  struct Fit {
+    double q_k_s{};
+    double g_k_j{};
+    double k_1_s{};
+  };
+  void begin_window(const Observation& seen);
+  [[nodiscard]] Fit fit() const;
+  [[nodiscard]] Watts power_for(double end_k, double start_k, double seconds) const;
+
+  ThermalLimitSettings settings_;
+  ComputerPower computer_;
+  RecursiveLeastSquares<3> solver_;
+  std::optional<double> trip_c_{};
+  double temperature_c_{};
+  double busy_cores_{};  ///< Mean of some seconds.
+  MissionTime last_{};
+  MissionTime begun_{};
+  double begun_c_{};
+  double energy_j_{};  ///< Of the window so far.
+  double excess_k_s_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/governors/thermal_limit.h"
+
+#include "flyball/runtime/thermal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double trip_c = 80.0;
+constexpr double guard_k = ThermalLimitSettings{}.guard_k;
+const std::vector<double> clocks_hz{0.3456e9, 0.8064e9, 1.2672e9, 1.4208e9,
+                                    1.5744e9, 1.728e9,  1.8816e9, 2.0352e9};
+
+ThermalModel sink() {
+  return {40.0, 8.0, 540.0, {{trip_c, 2.0, Hertz{1.4208e9}}}};
+}
+
+/// A computer with the power that the instrument believes in, and a thermometer with steps.
+struct Bench {
+  explicit Bench(double start_c, double step_k = 0.0) : sensor_step_k{step_k} {
+    state.set_temperature(start_c);
+  }
+
+  Observation seen() const {
+    Observation one;
+    one.now = now;
+    one.frequency = Hertz{clock_hz};
+    one.busy_cores = busy_cores;
+    one.trip_c = trip_c;
+    const double t_c = state.temperature_c();
+    one.temperature_c = sensor_step_k > 0.0 ? sensor_step_k * std::floor(t_c / sensor_step_k) : t_c;
+    return one;
+  }
+  [[nodiscard]] Watts power() const { return ComputerPower{}.power(Hertz{clock_hz}, busy_cores); }
+  void draw(double seconds, ThermalLimit& limit, bool obeys) {
+    constexpr double dt_s = 0.25;
+    for (double t_s = 0.0; t_s < seconds; t_s += dt_s) {
+      limit.learn(seen());
+      clock_hz = obeys ? limit.most_clock_hz(clocks_hz) : clock_hz;
+      state.step(power(), dt_s);
+      now += from_seconds(dt_s);
+    }
+  }
+
+  ThermalState state{sink(), Watts{0.0}};
+  MissionTime now{};
+  double clock_hz{2.0352e9};
+  double busy_cores{2.9};  // 5.3 W: 82 C in the long run.
+  double sensor_step_k{};
+};
+
+/// Some load of every kind, so that each of the three numbers shows.
+void teach(Bench& bench, ThermalLimit& limit) {
+  for (int i = 0; i < 12; ++i) {
+    bench.clock_hz = clocks_hz[static_cast<std::size_t>(5 * i) % clocks_hz.size()];
+    bench.draw(60.0, limit, false);
+  }
+}
+
+TEST(ThermalLimit, is_none_where_nobody_tells_a_trip) {
+  ThermalLimit limit;
+  Observation silent;
+  silent.temperature_c = 120.0;
+  silent.frequency = Hertz{2e9};
+  limit.learn(silent);
+  EXPECT_FALSE(limit.most_power());
+  EXPECT_FALSE(limit.sustainable_power());
+  EXPECT_EQ(limit.most_clock_hz(clocks_hz), clocks_hz.back());
+}
+
+TEST(ThermalLimit, the_power_for_ever_is_what_holds_the_guard_below_the_trip) {
+  Bench bench{60.0};
+  ThermalLimit limit;
+  teach(bench, limit);
+  const double expected_w = (trip_c - guard_k - 40.0) / 8.0;  // T = T_air + R P.
+  ASSERT_TRUE(limit.sustainable_power());
+  EXPECT_NEAR(limit.sustainable_power()->value(), expected_w, 0.02 * expected_w);
+}
+
+TEST(ThermalLimit, foretells_the_closed_form) {
+  Bench bench{50.0};
+  ThermalLimit limit;
+  teach(bench, limit);
+  limit.learn(bench.seen());
+  const double start_c = bench.state.temperature_c();
+  for (const double seconds : {30.0, 300.0, 3000.0}) {
+    for (const double watts : {2.0, 6.0}) {
+      const double rest_c = 40.0 + 8.0 * watts;
+      const double expected_c = rest_c + (start_c - rest_c) * std::exp(-seconds / 540.0);
+      EXPECT_NEAR(limit.temperature_after_c(Watts{watts}, seconds), expected_c,
+                  0.02 * std::abs(rest_c - start_c) + 0.02)
+          << seconds << " s of " << watts << " W";
+    }
+  }
+}
+
+TEST(ThermalLimit, the_power_of_one_horizon_ends_at_the_limit) {
+  Bench bench{70.0};
+  ThermalLimit limit;
+  teach(bench, limit);
+  bench.state.set_temperature(78.0);
+  limit.learn(bench.seen());
+  const auto most = limit.most_power();
+  ASSERT_TRUE(most);
+  EXPECT_NEAR(limit.temperature_after_c(*most, ThermalLimitSettings{}.horizon_s), trip_c - guard_k,
+              1e-6);
+  EXPECT_GT(most->value(), limit.sustainable_power()->value()) << "there is still some way to warm";
+}
+
+TEST(ThermalLimit, who_obeys_never_trips_and_ends_close_to_the_limit) {
+  for (const double start_c : {40.0, 70.0, 79.0, 79.7}) {
+    Bench bench{start_c};
+    ThermalLimit limit;
+    bench.draw(3600.0, limit, true);
+    EXPECT_LT(bench.state.hottest_c(), trip_c) << start_c;
+    EXPECT_GT(bench.state.temperature_c(), trip_c - guard_k - 0.5) << start_c;
+    EXPECT_GT(bench.clock_hz, 1.4208e9) << "the trip itself would leave less";
+  }
+}
+
+TEST(ThermalLimit, nor_with_a_thermometer_of_half_degrees) {
+  for (const double start_c : {40.0, 70.0, 79.0}) {
+    Bench bench{start_c, 0.5};
+    ThermalLimit limit;
+    bench.draw(3600.0, limit, true);
+    EXPECT_LT(bench.state.hottest_c(), trip_c) << start_c;
+    EXPECT_GT(bench.state.temperature_c(), trip_c - guard_k - 1.5) << start_c;
+  }
+}
+
+TEST(ThermalLimit, a_cold_computer_may_have_its_top_clock) {
+  Bench bench{40.0};
+  ThermalLimit limit;
+  bench.draw(60.0, limit, true);
+  EXPECT_EQ(bench.clock_hz, clocks_hz.back());
+}
+
+TEST(ThermalLimit, learns_that_the_sink_got_worse) {
+  Bench bench{70.0};
+  ThermalLimit limit;
+  bench.draw(600.0, limit, true);
+  bench.state.set_cooling(45.0, 8.0);
+  bench.draw(3600.0, limit, true);
+  EXPECT_LT(bench.state.temperature_c(), trip_c);
+  EXPECT_LT(bench.clock_hz, 1.8816e9) << "4.3 W for ever instead of 4.9";
+}
+
+TEST(ThermalLimit, nonsense_is_as_if_nobody_told) {
+  for (const double x : {std::nan(""), 1e300, -1.0}) {
+    ThermalLimit limit;
+    Observation seen = Bench{79.0}.seen();
+    seen.trip_c = x;
+    limit.learn(seen);
+    EXPECT_FALSE(limit.most_power()) << x;
+    seen = Bench{79.0}.seen();
+    seen.temperature_c = x == -1.0 ? -1e300 : x;
+    limit.learn(seen);
+    EXPECT_FALSE(limit.most_power()) << x;
+  }
+}
+
+}  // namespace
+}  // namespace flyball
