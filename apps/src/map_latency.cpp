@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_latency.h"
 
+#include "scenario_parameters.h"
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +22,43 @@ Duration times(Duration share, Duration expected) {
 MapTerms terms_of(const KnobSettings& knobs) {
   return {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
           Hertz{knobs.value("cpu.frequency_hz")}};
+}
+
+Duration expected_latency(const MissionContext& context, const MapTerms& terms) {
+  const DepthCameraSpec& camera = context.scenario.camera;
+  const Intrinsics lens = camera.intrinsics();
+  const double rays = static_cast<double>(camera.count) * lens.width_px * lens.height_px;
+  const double tan_x = 0.5 * lens.width_px / lens.focal_px;
+  const double tan_y = 0.5 * lens.height_px / lens.focal_px;
+  const double range_m = terms.range_m;
+  const double resolution_m = terms.resolution_m;
+  const double volume_m3 = camera.count * 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
+  Work work;
+  work.add("frame", 1.0);
+  work.add("rays", rays);
+  work.add("traversals", 1.5 * rays * range_m / resolution_m);
+  work.add("updates", volume_m3 / (resolution_m * resolution_m * resolution_m));
+  return context.platform.job_time(mapper_cost(context.scenario.kernels), work, terms.clock);
+}
+
+bool MapLatency::note_knobs(MissionTime now, const MissionContext& context) {
+  const MapTerms before = terms_;
+  note_terms(now, terms_of(context.knobs));
+  const bool is_same_map =
+      terms_.resolution_m == before.resolution_m && terms_.range_m == before.range_m;
+  if (!is_same_map || !(terms_.clock < before.clock)) {
+    return false;
+  }
+  const Duration was = expected_latency(context, before);
+  if (was > Duration::zero()) {
+    stretch(ratio(expected_latency(context, terms_), was));
+  }
+  return was > Duration::zero();
+}
+
+void MapLatency::stretch(double factor) {
+  latency_bound_ = from_seconds(factor * to_seconds(latency_bound_));
+  interval_bound_ = from_seconds(factor * to_seconds(interval_bound_));
 }
 
 void MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
@@ -62,8 +100,10 @@ void MapLatency::published(const MapRevision& revision, MissionTime now, Duratio
   const Duration latency = now - revision.captured;
   const bool is_of_these_terms = revision.resolution_m == terms_.resolution_m;
   const bool knows_no_other = latency_bound_ == Duration{0};
-  const Duration promised =
-      is_of_these_terms || knows_no_other ? times(here.latency.bound(), expected) : latency_bound_;
+  const Duration under_these = times(here.latency.bound(), expected);
+  const Duration promised = knows_no_other      ? under_these
+                            : is_of_these_terms ? std::max(under_these, latency_bound_)
+                                                : latency_bound_;
   budget_use_ = ratio(latency, promised);
   if (is_of_these_terms && revision.captured >= since_) {
     here.latency.add(over(latency, expected));

@@ -12,26 +12,6 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
 
-// What the next frame's way through the graph takes by the platform's own price list, before one
-// has been measured: the frustum's volume over the cell's volume bounds the updates, the rays'
-// length over the cell's edge the traversals.
-Work expected_map_work(const MissionContext& context) {
-  const Intrinsics camera = context.scenario.camera.intrinsics();
-  const double resolution_m = context.knobs.value("map.resolution_m");
-  const double range_m = context.knobs.value("map.range_m");
-  const int cameras = context.scenario.camera.count;
-  const double rays = static_cast<double>(cameras) * camera.width_px * camera.height_px;
-  const double tan_x = 0.5 * camera.width_px / camera.focal_px;
-  const double tan_y = 0.5 * camera.height_px / camera.focal_px;
-  const double volume_m3 = cameras * 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
-  Work work;
-  work.add("frame", 1.0);
-  work.add("rays", rays);
-  work.add("traversals", 1.5 * rays * range_m / resolution_m);
-  work.add("updates", volume_m3 / (resolution_m * resolution_m * resolution_m));
-  return work;
-}
-
 void add_check(Graph& graph,
                const PerceptionTopics& perception,
                MissionContext& context,
@@ -47,10 +27,8 @@ void add_check(Graph& graph,
     if (!revision) {
       return work;
     }
-    const Hertz clock{context.knobs.value("cpu.frequency_hz")};
-    const Duration expected = context.platform.job_time(mapper_cost(context.scenario.kernels),
-                                                        expected_map_work(context), clock);
-    navigator.map_published(job.now(), *revision, expected);
+    navigator.map_published(job.now(), *revision,
+                            expected_latency(context, terms_of(context.knobs)));
     const PathFollower& follower = navigator.follower();
     if (!follower.has_path()) {
       return work;

@@ -57,7 +57,7 @@ bool Navigator::has_arrived() const {
 void Navigator::map_published(MissionTime now,
                               const MapRevision& revision,
                               Duration expected_latency) {
-  map_latency_.note_terms(now, terms_of(context_.knobs));
+  (void)map_latency_.note_knobs(now, context_);
   map_latency_.published(revision, now, expected_latency);
   newest_latency_ = now - revision.captured;
   map_revision_ = revision.number;
@@ -255,7 +255,9 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   if (const auto search = search_place(now, where)) {
     return *search;
   }
-  map_latency_.note_terms(now, terms_of(context_.knobs));
+  if (map_latency_.note_knobs(now, context_)) {
+    follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
+  }
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);

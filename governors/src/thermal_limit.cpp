@@ -11,11 +11,13 @@ namespace {
 
 using Row = Eigen::Vector3d;
 
-// Before anything is learned: an embedded module behind its sink, 100 J/K and 5 K/W, in air 45 K
-// below the trip. Each may be wrong by as much as it is.
-constexpr double prior_q_k_s = -45.0 / 500.0;
+// Before anything is learned: an embedded module, 100 J/K, behind a bad sink, 10 K/W, in air 45 K
+// below the trip: 4.5 W for ever. Who begins close to the trip has no time to learn that it is so
+// bad, and a better one shows in ten seconds. Each number may be wrong by three times what it is.
+constexpr double prior_q_k_s = -45.0 / 1000.0;
 constexpr double prior_g_k_j = 1.0 / 100.0;
-constexpr double prior_k_1_s = 1.0 / 500.0;
+constexpr double prior_k_1_s = 1.0 / 1000.0;
+constexpr double prior_sigmas = 3.0;
 
 // Of a difference of two readings in steps of .5 K: .5 sqrt(2 / 12).
 constexpr double noise_k = 0.2;
@@ -27,6 +29,8 @@ constexpr double least_g_k_j = 1e-4;
 constexpr double most_g_k_j = 0.1;
 constexpr double least_k_1_s = 1e-5;
 constexpr double most_k_1_s = 0.05;
+
+constexpr double first_window = 0.125;  // Of the whole; each next one is twice as long.
 
 constexpr double load_s =
     10.0;  // Over which the load is averaged: detectors and planners come and go.
@@ -44,7 +48,8 @@ ThermalLimit::ThermalLimit(const ThermalLimitSettings& settings, const ComputerP
     : settings_{settings},
       computer_{computer},
       solver_{Row{prior_q_k_s, prior_g_k_j, prior_k_1_s},
-              Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} / noise_k, forgetting} {
+              Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} * (prior_sigmas / noise_k), forgetting},
+      window_s_{first_window * settings.window_s} {
   FLYBALL_ASSERT(settings.guard_k >= 0.0 && settings.horizon_s > 0.0 && settings.window_s > 0.0,
                  "guard_k=%g, horizon_s=%g, window_s=%g", settings.guard_k, settings.horizon_s,
                  settings.window_s);
@@ -77,7 +82,8 @@ void ThermalLimit::learn(const Observation& seen) {
   energy_j_ += dt_s * computer_.power(seen.frequency, seen.busy_cores).value();
   excess_k_s_ += dt_s * (mean_c - seen.trip_c);
   const double elapsed_s = to_seconds(seen.now - begun_);
-  if (elapsed_s >= settings_.window_s) {
+  if (elapsed_s >= window_s_) {
+    window_s_ = std::min(2.0 * window_s_, settings_.window_s);
     solver_.learn({elapsed_s, energy_j_, -excess_k_s_}, seen.temperature_c - begun_c_);
     begin_window(seen);
   }

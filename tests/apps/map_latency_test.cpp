@@ -87,6 +87,26 @@ TEST(MapLatency, scales_with_the_clock_that_the_platform_prices) {
   EXPECT_NEAR(to_seconds(stream.maps.latency_bound()), 0.88, 1e-6);  // 1.1 x .4 of 2 s
 }
 
+TEST(MapLatency, a_map_that_was_begun_at_a_lower_clock_has_the_time_that_it_had_then) {
+  const MapTerms slow{0.15, 7.0, Hertz{1e9}};
+  Stream stream;
+  stream.make(slow, 5, 800ms, 2s);
+  const MissionTime captured = stream.now;
+  stream.now += 700ms;
+  stream.maps.note_terms(stream.now, fine);  // Twice as fast, shortly before it is there.
+  stream.publish(captured, 0.15, 1s);
+  EXPECT_NEAR(stream.maps.budget_use(), 0.7 / 0.88, 1e-6);
+  EXPECT_NEAR(to_seconds(stream.maps.latency_bound()), 0.44, 1e-6);
+}
+
+TEST(MapLatency, a_lowered_clock_stretches_what_is_in_force) {
+  Stream stream;
+  stream.make(fine, 5, 400ms, 1s);
+  stream.maps.stretch(1.5);
+  EXPECT_NEAR(to_seconds(stream.maps.latency_bound()), 0.66, 1e-6);
+  EXPECT_NEAR(to_seconds(stream.maps.interval_bound()), 0.66, 1e-6);
+}
+
 TEST(MapLatency, expects_of_a_new_range_what_the_nearest_one_showed) {
   Stream stream;
   stream.make(fine, 5, 400ms, 1s);

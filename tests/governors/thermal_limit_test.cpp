@@ -113,7 +113,7 @@ TEST(ThermalLimit, the_power_of_one_horizon_ends_at_the_limit) {
 }
 
 TEST(ThermalLimit, who_obeys_never_trips_and_ends_close_to_the_limit) {
-  for (const double start_c : {40.0, 70.0, 79.0, 79.7}) {
+  for (const double start_c : {40.0, 70.0, 79.0, 79.7, 79.9}) {
     Bench bench{start_c};
     ThermalLimit limit;
     bench.draw(3600.0, limit, true);
@@ -131,6 +131,17 @@ TEST(ThermalLimit, nor_with_a_thermometer_of_half_degrees) {
     EXPECT_LT(bench.state.hottest_c(), trip_c) << start_c;
     EXPECT_GT(bench.state.temperature_c(), trip_c - guard_k - 1.5) << start_c;
   }
+}
+
+TEST(ThermalLimit, before_it_has_learned_it_is_careful_close_to_the_trip_only) {
+  const auto first_hz = [](double start_c) {
+    Bench bench{start_c};
+    ThermalLimit limit;
+    limit.learn(bench.seen());
+    return limit.most_clock_hz(clocks_hz);
+  };
+  EXPECT_EQ(first_hz(60.0), clocks_hz.back());
+  EXPECT_LT(first_hz(79.9), 1.8816e9);
 }
 
 TEST(ThermalLimit, a_cold_computer_may_have_its_top_clock) {

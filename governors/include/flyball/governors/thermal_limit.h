@@ -14,11 +14,11 @@
 namespace flyball {
 
 struct ThermalLimitSettings {
-  double guard_k{0.5};  ///< Kept below the trip: one step of a usual sensor (TMP451: .5 K by
-                        ///< NVIDIA's driver).
+  double guard_k{0.5};     ///< Kept below the trip: one step of a usual sensor (TMP451: .5 K by
+                           ///< NVIDIA's driver).
   double horizon_s{60.0};  ///< Within so long the limit may be reached: well below time constants
                            ///< of minutes, well above the seconds in which loads change.
-  double window_s{10.0};  ///< One sample of the model.
+  double window_s{10.0};   ///< One sample of the model; the first ones are shorter.
 };
 
 /// One heat capacity behind one resistance, as `ThermalModel`, with x = T - trip:
@@ -69,6 +69,7 @@ class ThermalLimit {
   ThermalLimitSettings settings_;
   ComputerPower computer_;
   RecursiveLeastSquares<3> solver_;
+  double window_s_;
   std::optional<double> trip_c_{};
   double temperature_c_{};
   double busy_cores_{};  ///< Mean of some seconds.
