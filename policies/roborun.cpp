@@ -171,6 +171,8 @@ class Roborun final : public flyball::Policy {
       ++levels_;
     }
     ledger_ = flyball::BudgetLedger{levels_, budgets_kept};
+    map_revision_ = 0;
+    next_ceiling_ = 0;
     ceilings_m_.fill(level_m(levels_ - 1));
   }
   [[nodiscard]] double level_m(std::size_t k) const noexcept {
