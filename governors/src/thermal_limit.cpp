@@ -123,19 +123,29 @@ double ThermalLimit::temperature_after_c(Watts power, double seconds) const {
   return *trip_c_ + rest_k + (start_k - rest_k) * std::exp(-k * seconds);
 }
 
-double ThermalLimit::most_clock_hz(const std::vector<double>& clocks_hz) const {
-  FLYBALL_ASSERT(!clocks_hz.empty(), "%zu clocks", clocks_hz.size());
-  const std::optional<Watts> most = most_power();
-  if (!most) {
-    return clocks_hz.back();
-  }
+double ThermalLimit::clock_for(Watts most, const std::vector<double>& clocks_hz) const {
   double best_hz = clocks_hz.front();
   for (const double one_hz : clocks_hz) {
-    if (!(*most < computer_.power(Hertz{one_hz}, busy_cores_))) {
+    if (!(most < computer_.power(Hertz{one_hz}, busy_cores_))) {
       best_hz = one_hz;
     }
   }
   return best_hz;
+}
+
+double ThermalLimit::most_clock_hz(const std::vector<double>& clocks_hz) {
+  FLYBALL_ASSERT(!clocks_hz.empty(), "%zu clocks", clocks_hz.size());
+  if (!trip_c_) {
+    return clocks_hz.back();
+  }
+  const double start_k = temperature_c_ - *trip_c_;
+  const auto clock = [&](double below_k) {
+    return clock_for(power_for(-settings_.guard_k - below_k, start_k, settings_.horizon_s),
+                     clocks_hz);
+  };
+  // Down at once, up with a reserve, and where even that reserve is less, it stays.
+  last_hz_ = std::min(clock(0.0), std::max(last_hz_, clock(settings_.raise_k)));
+  return last_hz_;
 }
 
 }  // namespace flyball

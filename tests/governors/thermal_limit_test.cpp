@@ -144,6 +144,21 @@ TEST(ThermalLimit, before_it_has_learned_it_is_careful_close_to_the_trip_only) {
   EXPECT_LT(first_hz(79.9), 1.8816e9);
 }
 
+TEST(ThermalLimit, a_clock_that_was_lowered_stays_so_for_a_while) {
+  Bench bench{79.0};
+  ThermalLimit limit;
+  int changes = 0;
+  double last_hz = bench.clock_hz;
+  for (int i = 0; i < 600; ++i) {
+    bench.busy_cores = i % 2 == 0 ? 2.6 : 3.2;  // A detector comes and goes.
+    bench.draw(1.0, limit, true);
+    changes += bench.clock_hz != last_hz ? 1 : 0;
+    last_hz = bench.clock_hz;
+  }
+  EXPECT_LE(changes, 600 / 20) << "every 20 s at most";
+  EXPECT_LT(bench.state.hottest_c(), trip_c);
+}
+
 TEST(ThermalLimit, a_cold_computer_may_have_its_top_clock) {
   Bench bench{40.0};
   ThermalLimit limit;

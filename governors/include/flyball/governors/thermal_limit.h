@@ -8,6 +8,7 @@
 #include "flyball/governors/recursive_least_squares.h"
 #include "flyball/runtime/observation.h"
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ThermalLimitSettings {
                            ///< NVIDIA's driver).
   double horizon_s{60.0};  ///< Within so long the limit may be reached: well below time constants
                            ///< of minutes, well above the seconds in which loads change.
+  double raise_k{0.25};    ///< Half a guard: a step of the clock changes .4 W, .35 K in a horizon.
   double window_s{10.0};   ///< One sample of the model; the first ones are shorter.
 };
 
@@ -53,8 +55,10 @@ class ThermalLimit {
   /// After this power for so long. @pre A trip was told.
   [[nodiscard]] double temperature_after_c(Watts power, double seconds) const;
   /// The highest of these, ascending, that takes no more than `most_power` with the load as it was
-  /// lately; the lowest where none does. @pre Not empty.
-  [[nodiscard]] double most_clock_hz(const std::vector<double>& clocks_hz) const;
+  /// lately; the lowest where none does. A higher one than the last answer must leave `raise_k`
+  /// more: latencies are learned, and maps bounded, at a clock that stays for a while. @pre Not
+  /// empty.
+  [[nodiscard]] double most_clock_hz(const std::vector<double>& clocks_hz);
 
  private:
   struct Fit {
@@ -64,6 +68,7 @@ class ThermalLimit {
   };
   void begin_window(const Observation& seen);
   [[nodiscard]] Fit fit() const;
+  [[nodiscard]] double clock_for(Watts most, const std::vector<double>& clocks_hz) const;
   [[nodiscard]] Watts power_for(double end_k, double start_k, double seconds) const;
 
   ThermalLimitSettings settings_;
@@ -72,7 +77,8 @@ class ThermalLimit {
   double window_s_;
   std::optional<double> trip_c_{};
   double temperature_c_{};
-  double busy_cores_{};  ///< Mean of some seconds.
+  double last_hz_{std::numeric_limits<double>::infinity()};  ///< The last answer.
+  double busy_cores_{};                                      ///< Mean of some seconds.
   MissionTime last_{};
   MissionTime begun_{};
   double begun_c_{};
