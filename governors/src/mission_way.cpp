@@ -168,6 +168,9 @@ void MissionWay::limit_lattice(const Observation& seen,
   if (needs_finest(seen, near, in_force)) {
     around.coarsest_m = levels_m_.front();
   }
+  // Ways among finest cells pass obstacles closer, bend more sharply and take longer to find: where
+  // a computer is so quick that they cost no time, they still do no good that nothing asks for.
+  around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
   failed_.note(seen, in_force.resolution_m > large_m_);
   around.large_m = large_m_;
   around.large_j_m = failed_.per_m() * failed_plan_j;

@@ -64,6 +64,19 @@ TEST(MissionWay, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
   EXPECT_EQ(way->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
 }
 
+// Even where they cost no time.
+TEST(MissionWay, takes_finest_cells_only_where_something_asks_for_them) {
+  auto way = made();
+  ASSERT_TRUE(way.ok());
+  Observation seen = kit::cruising();
+  EXPECT_EQ(way->look(seen, {0.60, 7.0, 2e9}).finest_m, 0.30);
+  seen.now += 250ms;
+  seen.planner_failures = 2;
+  const Surroundings stuck = way->look(seen, {0.60, 7.0, 2e9});
+  EXPECT_EQ(stuck.coarsest_m, 0.15);
+  EXPECT_LE(stuck.finest_m, 0.15);
+}
+
 constexpr MapSetting finest{0.15, 7.0, 2e9};
 constexpr MapSetting next_finest{0.30, 13.0, 2e9};
 
