@@ -60,10 +60,21 @@ Watts PowerCost::core_power(Hertz clock) const {
   return Watts{core_linear_w * f + core_cubic_w * f * f * f};
 }
 
+Hertz PowerCost::memory_clock(Hertz clock) const {
+  Hertz memory{};
+  for (const MemoryClock& step : memory_clocks) {
+    if (!(clock < step.from)) {
+      memory = step.memory;
+    }
+  }
+  return memory;
+}
+
 Watts PowerCost::power(Hertz clock, double busy_cores) const {
   const double cpu_w =
       cpu_constant_w + cpu_linear_w * in_ghz(clock) + busy_cores * core_power(clock).value();
-  return Watts{board_w + converter * (soc_w + memory_w + cpu_w)};
+  const double ram_w = memory_w + memory_linear_w * in_ghz(memory_clock(clock));
+  return Watts{board_w + converter * (soc_w + ram_w + cpu_w)};
 }
 
 }  // namespace flyball

@@ -12,7 +12,23 @@
 namespace flyball {
 namespace {
 
-PowerCost read_power(TableReader& reader) {
+std::vector<MemoryClock> read_memory_clocks(TableReader& reader,
+                                            std::vector<std::string>& problems) {
+  std::vector<MemoryClock> clocks;
+  for (const toml::table* one : reader.tables_or_none("memory_clocks")) {
+    TableReader items{*one, reader.path("memory_clocks"), problems};
+    const MemoryClock step{Hertz{items.number("from_hz", 0.0, 1e11)},
+                           Hertz{items.number("memory_hz", 0.0, 1e11)}};
+    items.reject_unknown();
+    if (!clocks.empty() && !(clocks.back().from < step.from)) {
+      reader.complain("memory_clocks", "are not ascending");
+    }
+    clocks.push_back(step);
+  }
+  return clocks;
+}
+
+PowerCost read_power(TableReader& reader, std::vector<std::string>& problems) {
   PowerCost power;
   power.board_w = reader.number("board_w", 0.0, 1000.0);
   power.converter = reader.number("converter", 1.0, 10.0);
@@ -22,6 +38,8 @@ PowerCost read_power(TableReader& reader) {
   power.cpu_linear_w = reader.number("cpu_linear_w", 0.0, 1000.0);
   power.core_linear_w = reader.number("core_linear_w", 0.0, 1000.0);
   power.core_cubic_w = reader.number("core_cubic_w", 0.0, 1000.0);
+  power.memory_linear_w = reader.number_or("memory_linear_w", 0.0, 0.0, 1000.0);
+  power.memory_clocks = read_memory_clocks(reader, problems);
   reader.reject_unknown();
   return power;
 }
@@ -108,7 +126,7 @@ PlatformModel read_model(const toml::table& file, std::vector<std::string>& prob
   model.switching_time = from_seconds(reader.number("switching_time_s", 0.0, 10.0));
   if (const toml::table* power = reader.table("power")) {
     TableReader items{*power, "power", problems};
-    model.power = read_power(items);
+    model.power = read_power(items, problems);
   }
   if (const toml::table* kernels = reader.table("kernels")) {
     TableReader items{*kernels, "kernels", problems};

@@ -65,6 +65,21 @@ TEST(ModeledPlatform, power_is_constant_linear_and_cubic_in_the_clock) {
   EXPECT_NEAR((busy - idle).value(), 1.24 * 4.0 * (0.11 * 2.035 + 0.095 * 8.4274), 1e-3);
 }
 
+TEST(ModeledPlatform, the_memory_clock_rises_in_steps_with_the_cores) {
+  PlatformModel with_steps = model();
+  with_steps.power.memory_linear_w = 0.4;
+  with_steps.power.memory_clocks = {{Hertz{0.5e9}, Hertz{0.4e9}}, {Hertz{1.4e9}, Hertz{1.9e9}}};
+  const ModeledPlatform platform{with_steps};
+  const ModeledPlatform without{model()};
+  const auto added_w = [&](double hz) {
+    return (platform.power({4, Hertz{hz}}, 1.0) - without.power({4, Hertz{hz}}, 1.0)).value();
+  };
+  EXPECT_NEAR(added_w(0.4e9), 0.0, 1e-12);
+  EXPECT_NEAR(added_w(0.5e9), 1.24 * 0.4 * 0.4, 1e-12);
+  EXPECT_NEAR(added_w(1.3e9), 1.24 * 0.4 * 0.4, 1e-12);
+  EXPECT_NEAR(added_w(2.0e9), 1.24 * 0.4 * 1.9, 1e-12);
+}
+
 TEST(ModeledPlatformDeathTest, a_count_that_is_no_number_is_a_broken_kernel) {
   const ModeledPlatform platform{model()};
   Work work;

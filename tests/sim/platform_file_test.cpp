@@ -106,6 +106,22 @@ TEST(PlatformFile, refuses_a_kernel_that_would_cost_nothing) {
             std::string::npos);
 }
 
+TEST(PlatformFile, may_say_how_the_memory_clock_follows) {
+  const ScratchFolder scratch;
+  const std::string steps =
+      "core_cubic_w = 0.4\nmemory_linear_w = 0.5\n[[power.memory_clocks]]\n"
+      "from_hz = 0.0\nmemory_hz = 4e8\n[[power.memory_clocks]]\n";
+  const auto model = load_platform(scratch.file(
+      "board.toml", with("core_cubic_w = 0.4", steps + "from_hz = 2e9\nmemory_hz = 1.6e9")));
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->power.memory_linear_w, 0.5);
+  EXPECT_EQ(model->power.memory_clock(Hertz{1e9}).value(), 4e8);
+  EXPECT_EQ(model->power.memory_clock(Hertz{2e9}).value(), 1.6e9);
+  EXPECT_NE(failure_of(with("core_cubic_w = 0.4", steps + "from_hz = 0.0\nmemory_hz = 1.6e9"))
+                .find("power.memory_clocks are not ascending"),
+            std::string::npos);
+}
+
 const char* const warm = R"(
 [thermal]
 ambient_c = 40.0
@@ -166,17 +182,17 @@ TEST(PlatformFile, that_is_like_nothing_is_named) {
   EXPECT_NE(failure_of("like = \"moon\"\n").find("there is no"), std::string::npos);
 }
 
-TEST(JetsonTx2, passively_cooled_throttles_under_full_load_and_not_at_half_of_it) {
+TEST(JetsonTx2, passively_cooled_throttles_under_full_load_and_not_with_one_busy_core) {
   const auto model = load_platform(kit::built_data() + "/platforms/jetson_tx2_passive.toml");
   ASSERT_TRUE(model) << model.error().message;
   const ModeledPlatform platform{*model};
   const OperatingPoint top{4, platform.frequencies().back()};
   ThermalState full{*model->thermal, platform.power(top, 0.0)};
-  ThermalState half = full;
+  ThermalState one = full;
   full.step(platform.power(top, 4.0), 1e5);
-  half.step(platform.power(top, 2.0), 1e5);
+  one.step(platform.power(top, 1.0), 1e5);
   EXPECT_TRUE(full.cap());
-  EXPECT_FALSE(half.cap());
+  EXPECT_FALSE(one.cap());
   for (const ThermalTrip& trip : model->thermal->trips) {
     const auto& clocks = platform.frequencies();
     EXPECT_EQ(std::count(clocks.begin(), clocks.end(), trip.cap), 1) << trip.cap.value();
@@ -200,6 +216,14 @@ TEST(JetsonTx2, draws_what_the_board_is_known_to_draw) {
   EXPECT_LT(idle_w, 2.1);
   EXPECT_GT(full_w, 6.0);
   EXPECT_LT(full_w, 8.0);
+}
+
+TEST(JetsonTx2, raises_the_memory_clock_with_the_cores) {
+  const PowerCost power = tx2().power;
+  // the cores' clock tree over 1.69 GHz, and the memory's way from 408 MHz to 1.866 GHz
+  EXPECT_NEAR((power.power(Hertz{2035.2e6}, 0.0) - power.power(Hertz{345.6e6}, 0.0)).value(),
+              1.24 * (0.05 * 1.6896 + 0.402 * 1.458), 1e-6);
+  EXPECT_EQ(power.memory_clock(Hertz{1267.2e6}).value(), 660e6);
 }
 
 struct PaperTime {

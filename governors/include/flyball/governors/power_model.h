@@ -14,7 +14,17 @@ namespace flyball {
 /// Jetson TX2's (four A57 cores; estimates from its published rail powers, recalibrate on the
 /// board): the same numbers, with their sources, as sim/platforms/jetson_tx2.toml.
 struct ComputerPower {
-  PowerCost cost{0.6, 1.24, 0.5, 0.38, 0.15, 0.05, 0.11, 0.095};
+  PowerCost cost{
+      0.6,
+      1.24,
+      0.5,
+      0.13,
+      0.15,
+      0.05,
+      0.11,
+      0.095,
+      0.402,
+      {{Hertz{0.0}, Hertz{408e6}}, {Hertz{800e6}, Hertz{660e6}}, {Hertz{1400e6}, Hertz{1866e6}}}};
 
   [[nodiscard]] Watts power(Hertz clock, double busy_cores) const;
   /// Energy of a job that takes `seconds` of one core at this clock, above an idle computer.

@@ -67,8 +67,14 @@ struct KernelCost {
   double parallel_fraction{};  ///< 0: the kernel runs on one core only.
 };
 
-/// P_in = board + converter * (P_soc + P_memory + const + linear f + sum_i u_i (core_linear f +
-/// core_cubic f^3)), f in GHz (facts in the platform file).
+/// From this clock of the cores on, the memory's clock is so much: boards raise both together.
+struct MemoryClock {
+  Hertz from{};
+  Hertz memory{};
+};
+
+/// P_in = board + converter * (P_soc + memory + memory_linear f_m + const + linear f + sum_i u_i
+/// (core_linear f + core_cubic f^3)), f and f_m in GHz (facts in the platform file).
 struct PowerCost {
   double board_w{};
   double converter{1.0};
@@ -78,8 +84,12 @@ struct PowerCost {
   double cpu_linear_w{};
   double core_linear_w{};
   double core_cubic_w{};
+  double memory_linear_w{};
+  std::vector<MemoryClock> memory_clocks{};  ///< Ascending; none: f_m = 0.
 
   [[nodiscard]] Watts power(Hertz clock, double busy_cores) const;
+  /// f_m at this clock of the cores.
+  [[nodiscard]] Hertz memory_clock(Hertz clock) const;
   /// What one busy core adds on its own rail, before the converter.
   [[nodiscard]] Watts core_power(Hertz clock) const;
 };
