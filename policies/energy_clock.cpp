@@ -2,8 +2,9 @@
 //
 // The clock alone, by mission_energy's reckoning, for an application that sets its map itself: the
 // clock with the least joules per metre for the cells in force, where that saves more than the
-// mission could lose by waiting longer for what else it computes. Where the vehicle waits, or flies
-// without a map, the lowest clock that is soon enough.
+// mission could lose by waiting longer for what else it computes, and only at the mission's own
+// limit of speed. Where the vehicle waits, or flies without a map, the lowest clock that is soon
+// enough.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
@@ -83,15 +84,13 @@ class EnergyClock final : public flyball::Policy {
     if (const auto within_s = resting_->allowed_s(seen)) {
       return search_->rest(cells_m, range_m_, *within_s, resting_->raised_by(), seen.now).clock_hz;
     }
-    // Who stands in flight waits for a plan: those are not in the model.
-    constexpr double standing_m_s = 0.5;
-    const bool waits = !(seen.speed_m_s > standing_m_s) || seen.planner_failures > 0;
     flyball::Surroundings around = flyball::limits_of(seen);
     // Indoors ways are short and views end at walls: there latency limits the speed long before
     // the map's range would say so.
     around.sight_m = flyball::shown_free_m(seen);
     around.coarsest_m = around.finest_m = cells_m;
-    around.needs_top_clock = waits || seen.phase != MissionPhase::cruise;
+    // Plans are not in the model.
+    around.needs_top_clock = !flyball::flies_at_limit(seen) || seen.planner_failures > 0;
     around.waits = waiting_;
     return search_->choose(around, seen.now).setting.clock_hz;
   }

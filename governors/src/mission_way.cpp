@@ -11,7 +11,6 @@
 namespace flyball {
 namespace {
 
-constexpr double at_limit = 0.9;  // Of the speed: the reference eases towards it.
 constexpr double standing_m_s = 0.1;
 constexpr double failed_plan_j = 750.0;     // A loss of some 2.5 s of speed, at 300 W.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
@@ -177,8 +176,7 @@ void MissionWay::limit_lattice(const Observation& seen,
   sight_.note(seen, in_force.range_m);
   around.sight_m = sight_.distance_m();
   around.most_response_s = patience_s_;  // Else it would be taken for stuck.
-  // Only at the mission's own limit a second buys nothing: elsewhere a plan may be wanted.
-  around.needs_top_clock |= !(seen.speed_m_s >= at_limit * around.speed_limit_m_s);
+  around.needs_top_clock |= !flies_at_limit(seen);
 }
 
 // What shuts the way to a narrow place are the cells, which may be larger than its door: after one

@@ -63,6 +63,12 @@ Surroundings limits_of(const Observation& seen) {
   return around;
 }
 
+bool flies_at_limit(const Observation& seen) {
+  constexpr double nearly = 0.9;  // The reference eases towards it.
+  return seen.phase == MissionPhase::cruise &&
+         seen.speed_m_s >= nearly * limits_of(seen).speed_limit_m_s;
+}
+
 double shown_free_m(const Observation& seen) {
   constexpr double farthest_m = 1e6;
   const double flown_m = seen.speed_m_s * std::max(0.0, to_seconds(seen.latency));

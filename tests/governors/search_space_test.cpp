@@ -48,6 +48,21 @@ TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
   }
 }
 
+TEST(SearchSpace, only_who_cruises_as_fast_as_the_mission_lets_it_flies_at_the_limit) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  seen.speed_limit_m_s = 4.0;
+  seen.speed_m_s = 3.7;
+  EXPECT_TRUE(flies_at_limit(seen));
+  seen.phase = MissionPhase::land;
+  EXPECT_FALSE(flies_at_limit(seen));
+  seen.phase = MissionPhase::cruise;
+  for (const double slower_m_s : {0.0, 3.5, std::numeric_limits<double>::quiet_NaN()}) {
+    seen.speed_m_s = slower_m_s;
+    EXPECT_FALSE(flies_at_limit(seen)) << slower_m_s;
+  }
+}
+
 TEST(SearchSpace, what_was_shown_free_counts_from_where_the_frame_was_taken) {
   Observation seen;
   seen.known_free_m = 3.0;

@@ -32,6 +32,10 @@ namespace flyball {
 /// as `Surroundings` has it, with a world that lets see to any distance.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);
 
+/// It cruises as fast as the mission lets it. Only there a second buys nothing: who is slower waits
+/// for a plan, or brakes for one or for its goal.
+[[nodiscard]] bool flies_at_limit(const Observation& seen);
+
 /// What the newest map showed free along the committed path, from where its frame was taken [m]: d
 /// of eq. 2, but for body and tube. It ends with the path, too: before a place where the vehicle
 /// will stop anyway, latency makes it slower still. 0 where an observation says nothing of sense.
