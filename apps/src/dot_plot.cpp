@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace flyball {
 namespace {
@@ -86,6 +87,7 @@ constexpr double left_px = 60.0;
 constexpr double right_px = 640.0;
 constexpr double top_px = 20.0;
 constexpr double bottom_px = 330.0;
+constexpr double name_row_px = 15.0;
 
 struct Frame {
   Scale x{};
@@ -144,19 +146,50 @@ std::string cross(const Frame& frame,
   const double x = frame.x.at(point.x.median);
   const double y = frame.y.at(point.y.median);
   const std::string look = "stroke-width=\"2\" stroke=\"" + ink + "\"";
-  const bool is_right = x > 480.0;
   return line(frame.x.at(point.x.lo), y, frame.x.at(point.x.hi), y, look) +
          line(x, frame.y.at(point.y.lo), x, frame.y.at(point.y.hi), look) +
-         dot(x, y, ink, interval_text(point.name + ", " + x_title, point.x)) +
-         text(x + (is_right ? -8.0 : 8.0), y - 7.0, is_right ? "end" : "start", point.name);
+         dot(x, y, ink, interval_text(point.name + ", " + x_title, point.x));
+}
+
+/// Beside the frame, for points may lie on each other: a name in a row of its own, joined to its
+/// point.
+std::string names_of(const Frame& frame, const std::vector<PlottedPoint>& points) {
+  std::vector<std::size_t> by_height(points.size());
+  std::iota(by_height.begin(), by_height.end(), 0U);
+  const auto height_px = [&](std::size_t i) { return frame.y.at(points[i].y.median); };
+  std::stable_sort(by_height.begin(), by_height.end(),
+                   [&](std::size_t a, std::size_t b) { return height_px(a) < height_px(b); });
+  std::string content;
+  double free_px = top_px;
+  double left = static_cast<double>(points.size());
+  for (const std::size_t i : by_height) {
+    const double lowest_px = std::max(free_px, bottom_px - name_row_px * --left);
+    const double y = std::clamp(height_px(i), free_px, lowest_px);
+    content += line(frame.x.at(points[i].x.median), height_px(i), right_px + 10.0, y,
+                    "stroke-width=\"0.7\" stroke=\"" + colour(i) + "\"") +
+               text(right_px + 14.0, y + 4.0, "start", points[i].name);
+    free_px = y + name_row_px;
+  }
+  return content;
+}
+
+/// Width of the longest name, in the page's type.
+template <class Named>
+double longest_px(const std::vector<Named>& all) {
+  constexpr double letter_px = 6.8;
+  std::size_t most = 0;
+  for (const Named& one : all) {
+    most = std::max(most, one.name.size());
+  }
+  return letter_px * static_cast<double>(most);
 }
 
 }  // namespace
 
 std::string dot_plot_svg(const std::string& title, const std::vector<PlottedValue>& values) {
   constexpr double row_px = 22.0;
-  constexpr double names_px = 150.0;
-  constexpr double width_px = 480.0;
+  const double names_px = std::max(150.0, longest_px(values) + 12.0);
+  const double width_px = names_px + 300.0;
   double high = 0.0;
   for (const PlottedValue& value : values) {
     high = value.value ? std::max(high, value.value->hi) : high;
@@ -204,10 +237,13 @@ std::string pareto_plot_svg(const std::string& x_title,
   const Frame frame = frame_around(points);
   std::string content = text(right_px, bottom_px + 36.0, "end", x_title) +
                         text(4.0, 14.0, "start", y_title) + axes(frame) + front_of(frame, points);
+  content += names_of(frame, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     content += cross(frame, points[i], colour(i), x_title);
   }
-  return svg(right_px + 20.0, bottom_px + 42.0, content);
+  const double names_end_px = top_px + name_row_px * static_cast<double>(points.size());
+  return svg(right_px + 24.0 + longest_px(points), std::max(bottom_px + 42.0, names_end_px),
+             content);
 }
 
 }  // namespace flyball

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dot_plot.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -12,6 +14,13 @@ std::size_t count(const std::string& text, const std::string& part) {
     ++found;
   }
   return found;
+}
+
+/// The number behind the last `key` before `mark`; behind the first one without it.
+double number_after(const std::string& text, const std::string& key, const std::string& mark = "") {
+  const std::size_t at =
+      mark.empty() ? text.find(key) : text.rfind(key, text.find(">" + mark + "<"));
+  return at == std::string::npos ? -1.0 : std::stod(text.substr(at + key.size()));
 }
 
 PlottedPoint point(const std::string& name, double x, double y) {
@@ -29,6 +38,25 @@ TEST(DotPlot, puts_a_value_of_zero_at_the_left_end) {
   const std::string svg = dot_plot_svg("hits", {{"a", MedianInterval{0.0, 0.0, 0.0}}});
   EXPECT_NE(svg.find("cx=\"150.0\""), std::string::npos) << svg;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(DotPlot, has_room_for_long_names) {
+  const std::string name(40, 'n');
+  const std::string svg = dot_plot_svg("time", {{name, MedianInterval{0.0, 0.0, 0.0}}});
+  EXPECT_EQ(number_after(svg, "cx=\""), number_after(svg, "text x=\"", name) + 8.0);
+  EXPECT_GT(number_after(svg, "cx=\""), 6.0 * 40.0);
+}
+
+TEST(ParetoPlot, writes_the_names_of_points_that_lie_on_each_other_in_rows) {
+  const std::string svg = pareto_plot_svg(
+      "s", "kJ", {point("one", 10, 40), point("two", 10, 40), point("three", 10, 40)});
+  std::vector<double> rows;
+  for (const char* name : {"one", "two", "three"}) {
+    rows.push_back(number_after(svg, "\" y=\"", name));
+  }
+  std::sort(rows.begin(), rows.end());
+  EXPECT_GE(rows[1] - rows[0], 14.0);
+  EXPECT_GE(rows[2] - rows[1], 14.0);
 }
 
 TEST(ParetoPlot, marks_what_nothing_beats_in_both) {
