@@ -2,6 +2,7 @@
 #include "mission_setup.h"
 
 #include "flyball/apps/files.h"
+#include "flyball/governors/power_model.h"
 
 #include "scratch_folder.h"
 #include <fstream>
@@ -24,6 +25,19 @@ TEST(MissionSetup, makes_everything_that_the_default_scenario_names) {
   EXPECT_EQ(setup->platform->name(), "jetson_tx2");
   EXPECT_NE(setup->equipment.kernels.mapper, nullptr);
   EXPECT_NE(setup->governor, nullptr);
+}
+
+TEST(MissionSetup, flies_a_computer_whose_power_policies_know) {
+  const auto setup = set_up(Scenario{});
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  const ComputerPower known;
+  for (const Hertz clock : setup->platform->frequencies()) {
+    for (const double busy : {0.0, 1.5, 4.0}) {
+      EXPECT_NEAR(known.power(clock, busy).value(),
+                  setup->platform->power({4, clock}, busy).value(), 1e-9)
+          << clock.value();
+    }
+  }
 }
 
 TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
