@@ -40,7 +40,6 @@ struct Entry : PlannedFlight {
 struct Outcome {
   DriftCount promises{};
   std::size_t flights{};
-  std::size_t without_event{};  ///< The computer never got that hot.
   std::size_t succeeded{};
   std::size_t collisions{};
   double energy_j{};  ///< Sum.
@@ -74,7 +73,7 @@ std::variant<Entries, std::vector<Error>> plan(const DriftOptions& options,
   return entries;
 }
 
-Status add(const Entry& entry, const DriftCase& drift, double at_s, Outcome& outcome) {
+Status add(const Entry& entry, double at_s, Outcome& outcome) {
   const auto picture = finished_run(entry.folder, entry.scenario);
   const Result<DriftRecord> record = read_drift_record(entry.folder);
   if (!picture || !record) {
@@ -85,13 +84,10 @@ Status add(const Entry& entry, const DriftCase& drift, double at_s, Outcome& out
   outcome.succeeded += picture->summary.status == MissionStatus::succeeded ? 1 : 0;
   outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
   outcome.energy_j += picture->summary.energy_total_j();
-  const auto event = time_of_event(*record, drift, at_s);
-  outcome.without_event += event ? 0 : 1;
-  if (event) {
-    const DriftCount count = count_promises(*record, *event, first_promise, last_promise);
-    outcome.promises.decisions += count.decisions;
-    outcome.promises.late += count.late;
-  }
+  const DriftCount count =
+      count_promises(*record, MissionTime{from_seconds(at_s)}, first_promise, last_promise);
+  outcome.promises.decisions += count.decisions;
+  outcome.promises.late += count.late;
   return Done{};
 }
 
@@ -135,7 +131,6 @@ std::string to_json(const DriftOptions& options,
                    {"late", one.promises.late},
                    {"late_share", one.promises.late_share()},
                    {"flights", one.flights},
-                   {"without_event", one.without_event},
                    {"succeeded", one.succeeded},
                    {"collisions", one.collisions},
                    {"energy_mean_j", one.energy_j / static_cast<double>(one.flights)}});
@@ -147,7 +142,7 @@ int show(const DriftOptions& options, const std::vector<DriftCase>& cases, const
   std::vector<Outcome> outcomes(cases.size() * options.policies.size());
   for (const Entry& entry : entries) {
     Outcome& outcome = outcomes[entry.drift * options.policies.size() + entry.policy];
-    if (const Status added = add(entry, cases[entry.drift], options.at_s, outcome); !added) {
+    if (const Status added = add(entry, options.at_s, outcome); !added) {
       return refuse({added.error()});
     }
   }

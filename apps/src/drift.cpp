@@ -27,10 +27,8 @@ void take_row(const nlohmann::json& row, DriftRecord& record) {
   const auto& channel = row.at("channel").get_ref<const std::string&>();
   const MissionTime at{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
   if (channel == "promise") {
-    record.promises.push_back(
+    record.push_back(
         {at, row.at("issued").get<std::uint64_t>(), row.at("late").get<std::uint64_t>()});
-  } else if (channel == "event") {
-    record.events.emplace_back(at, row.at("what").get<std::string>());
   }
 }
 
@@ -40,12 +38,12 @@ std::vector<DriftCase> drift_cases(double at_s) {
   std::vector<std::string> hot = event(1, at_s, "cooling", {"resistance_k_w=20", "ambient_c=45"});
   hot.insert(hot.end(), {"platform.name=jetson_tx2_passive", "platform.start_temperature_c=78"});
   return {
-      {"none", "nothing happens", {}, ""},
+      {"none", "nothing happens", {}},
       {"slowdown", "all kernels cost 3 times what the platform's file says",
-       event(1, at_s, "slowdown", {"factor=3"}), ""},
+       event(1, at_s, "slowdown", {"factor=3"})},
       {"co_runner", "somebody takes 3 of 4 cores and half of the memory's bandwidth",
-       event(1, at_s, "co_runner", {"cores=3", "memory_share=0.5"}), ""},
-      {"heat", "the heat sink gets bad (20 K/W, air of 45 degrees Celsius)", hot, "throttled"},
+       event(1, at_s, "co_runner", {"cores=3", "memory_share=0.5"})},
+      {"heat", "the heat sink gets bad (20 K/W, air of 45 degrees Celsius)", hot},
   };
 }
 
@@ -56,9 +54,7 @@ DriftRecord drift_record(const MemoryRecorder& trace) {
       return static_cast<std::uint64_t>(std::get<std::int64_t>(row.fields[field].value));
     };
     if (row.channel == "promise") {
-      record.promises.push_back({row.at, count(0), count(1)});
-    } else if (row.channel == "event") {
-      record.events.emplace_back(row.at, std::get<std::string>(row.fields.front().value));
+      record.push_back({row.at, count(0), count(1)});
     }
   }
   return record;
@@ -89,7 +85,7 @@ DriftCount count_promises(const DriftRecord& record,
   PromiseRow before;
   DriftCount count;
   PromiseRow previous;
-  for (const PromiseRow& row : record.promises) {
+  for (const PromiseRow& row : record) {
     if (row.at < event) {
       before = row;
     } else if (row.issued >= before.issued + first && row.issued <= before.issued + last) {
@@ -99,18 +95,6 @@ DriftCount count_promises(const DriftRecord& record,
     previous = row;
   }
   return count;
-}
-
-std::optional<MissionTime> time_of_event(const DriftRecord& record,
-                                         const DriftCase& drift,
-                                         double at_s) {
-  if (drift.begins_with.empty()) {
-    return MissionTime{from_seconds(at_s)};
-  }
-  const auto found = std::find_if(record.events.begin(), record.events.end(), [&](const auto& one) {
-    return one.second.rfind(drift.begins_with, 0) == 0;
-  });
-  return found == record.events.end() ? std::nullopt : std::optional{found->first};
 }
 
 }  // namespace flyball

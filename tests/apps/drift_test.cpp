@@ -20,22 +20,13 @@ MissionTime after(double s) {
 TEST(Drift, promises_are_counted_from_the_event_on) {
   DriftRecord record;
   for (std::uint64_t i = 1; i <= 100; ++i) {  // Every fourth one is late.
-    record.promises.push_back({after(static_cast<double>(i)), i, i / 4});
+    record.push_back({after(static_cast<double>(i)), i, i / 4});
   }
   const DriftCount count = count_promises(record, after(20.5), 11, 30);
   EXPECT_EQ(count.decisions, 20U);  // 31 to 50.
   EXPECT_EQ(count.late, 50U / 4U - 30U / 4U);
   EXPECT_EQ(count_promises(record, after(20.5), 71, 500).decisions, 10U) << "the mission ended";
   EXPECT_EQ(count_promises(record, after(500.0), 1, 9).decisions, 0U);
-}
-
-TEST(Drift, the_event_of_heat_is_the_first_trip) {
-  DriftRecord record;
-  const std::vector<DriftCase> cases = drift_cases(event_s);
-  EXPECT_FALSE(time_of_event(record, cases.back(), event_s));
-  record.events = {{after(40.0), "plan wanted: stalled"}, {after(50.0), "throttled to 1.421 GHz"}};
-  EXPECT_EQ(time_of_event(record, cases.back(), event_s), after(50.0));
-  EXPECT_EQ(time_of_event(record, cases.front(), event_s), after(event_s));
 }
 
 TEST(Drift, every_case_is_settings_of_a_scenario) {

@@ -9,9 +9,7 @@
 #include "flyball/runtime/time.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace flyball {
@@ -21,12 +19,10 @@ struct DriftCase {
   std::string name{};
   std::string description{};
   std::vector<std::string> settings{};
-  /// How the record's event begins after which decisions are counted; empty: those from `at_s` on.
-  std::string begins_with{};
 };
 
 /// `none`, and one of each: costs that are three times the file's, a co-runner with half the cores
-/// and memory, a computer behind a bad heat sink that reaches its trips.
+/// and memory, a computer behind a heat sink that gets bad.
 [[nodiscard]] std::vector<DriftCase> drift_cases(double at_s);
 
 /// One promise of a policy that was kept or not, as the record tells.
@@ -36,11 +32,8 @@ struct PromiseRow {
   std::uint64_t late{};    ///< Of them.
 };
 
-/// What of a record is about drift.
-struct DriftRecord {
-  std::vector<PromiseRow> promises{};
-  std::vector<std::pair<MissionTime, std::string>> events{};
-};
+/// All promises of a record, in order.
+using DriftRecord = std::vector<PromiseRow>;
 
 [[nodiscard]] DriftRecord drift_record(const MemoryRecorder& trace);
 /// Of a flight that is on disk.
@@ -60,10 +53,5 @@ struct DriftCount {
                                         MissionTime event,
                                         std::uint64_t first,
                                         std::uint64_t last);
-
-/// When the case's event took place; empty when it did not.
-[[nodiscard]] std::optional<MissionTime> time_of_event(const DriftRecord& record,
-                                                       const DriftCase& drift,
-                                                       double at_s);
 
 }  // namespace flyball
