@@ -40,6 +40,9 @@ PowerCost read_power(TableReader& reader, std::vector<std::string>& problems) {
   power.core_cubic_w = reader.number("core_cubic_w", 0.0, 1000.0);
   power.memory_linear_w = reader.number_or("memory_linear_w", 0.0, 0.0, 1000.0);
   power.memory_clocks = read_memory_clocks(reader, problems);
+  if (power.memory_linear_w > 0.0 && power.memory_clocks.empty()) {
+    reader.complain("memory_linear_w", "needs memory_clocks");
+  }
   reader.reject_unknown();
   return power;
 }

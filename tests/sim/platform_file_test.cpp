@@ -120,6 +120,9 @@ TEST(PlatformFile, may_say_how_the_memory_clock_follows) {
   EXPECT_NE(failure_of(with("core_cubic_w = 0.4", steps + "from_hz = 0.0\nmemory_hz = 1.6e9"))
                 .find("power.memory_clocks are not ascending"),
             std::string::npos);
+  EXPECT_NE(failure_of(with("core_cubic_w = 0.4", "core_cubic_w = 0.4\nmemory_linear_w = 0.5"))
+                .find("power.memory_linear_w needs memory_clocks"),
+            std::string::npos);
 }
 
 const char* const warm = R"(
