@@ -21,11 +21,17 @@ void Sight::note(const Observation& seen, double range_m) {
     revision_ = seen.map_revision;
     captured_ = seen.now - seen.latency;
   }
+  if (std::isfinite(range_m) && range_m != range_m_) {
+    last_range_m_ = range_m_ > 0.0 ? range_m_ : range_m;
+    range_m_ = range_m;
+    changed_ = seen.now;
+  }
+  const double seen_to_m = captured_ < changed_ ? last_range_m_ : range_m_;
   const double free_m = seen.known_free_m + seen.speed_m_s * to_seconds(seen.now - captured_);
   if (seen.phase != MissionPhase::cruise || !std::isfinite(free_m)) {
     return;
   }
-  if (free_m >= range_m - nearly_m) {
+  if (free_m >= seen_to_m - nearly_m) {
     sight_m_ = std::max(free_m, tries * sight_m_);
   } else {
     sight_m_ = free_m >= sight_m_ ? free_m : sight_m_ + forgets * (free_m - sight_m_);

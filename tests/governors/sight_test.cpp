@@ -60,6 +60,27 @@ TEST(Sight, tries_longer_ranges_where_only_the_range_ended_it) {
   EXPECT_LE(sight.distance_m(), 1e3);
 }
 
+/// A map that was captured half a second ago and is free up to 8.5 m.
+Observation half_a_second_late(double t_s, std::uint64_t revision) {
+  Observation seen = cruising(t_s, 8.5);
+  seen.map_revision = revision;
+  seen.latency = from_seconds(0.5);
+  return seen;
+}
+
+TEST(Sight, a_frame_from_before_a_longer_range_does_not_say_that_the_world_ends_the_view) {
+  Sight sight{9.0};
+  sight.note(half_a_second_late(1.0, 1), 9.6);
+  const double tried_m = sight.distance_m();
+  EXPECT_GT(tried_m, 9.6);
+  sight.note(half_a_second_late(1.25, 2), 13.2);  // Taken at .75 s.
+  EXPECT_GE(sight.distance_m(), tried_m);
+  for (std::uint64_t i = 0; i < 20; ++i) {  // Now it is the world.
+    sight.note(half_a_second_late(2.0 + 0.25 * static_cast<double>(i), 3 + i), 13.2);
+  }
+  EXPECT_NEAR(sight.distance_m(), 8.5, 0.1);
+}
+
 TEST(Sight, learns_nothing_before_cruise_and_from_what_is_no_number) {
   Sight sight{7.0};
   Observation seen = cruising(1.0, 2.0);

@@ -20,8 +20,9 @@ class Sight {
   /// @param first_m  Before anything was seen.
   explicit Sight(double first_m) : sight_m_{first_m} {}
 
-  /// @param range_m  Of the map that is in force. What is no number changes nothing, and neither
-  ///                 does what is seen before or after cruise.
+  /// @param range_m  That is in force now; the newest map's is the one that was in force when its
+  ///                 frame was taken. What is no number changes nothing, and neither does what is
+  ///                 seen before or after cruise.
   void note(const Observation& seen, double range_m);
   [[nodiscard]] double distance_m() const { return sight_m_; }
 
@@ -29,6 +30,9 @@ class Sight {
   double sight_m_;
   std::uint64_t revision_{};
   MissionTime captured_{};  ///< The newest map's frame.
+  double range_m_{};
+  double last_range_m_{};  ///< Until `changed_`.
+  MissionTime changed_{};
 };
 
 }  // namespace flyball
