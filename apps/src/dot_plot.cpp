@@ -161,9 +161,9 @@ std::string names_of(const Frame& frame, const std::vector<PlottedPoint>& points
                    [&](std::size_t a, std::size_t b) { return height_px(a) < height_px(b); });
   std::string content;
   double free_px = top_px;
-  double left = static_cast<double>(points.size());
+  double rows_below = static_cast<double>(points.size());
   for (const std::size_t i : by_height) {
-    const double lowest_px = std::max(free_px, bottom_px - name_row_px * --left);
+    const double lowest_px = std::max(free_px, bottom_px - name_row_px * --rows_below);
     const double y = std::clamp(height_px(i), free_px, lowest_px);
     content += line(frame.x.at(points[i].x.median), height_px(i), right_px + 10.0, y,
                     "stroke-width=\"0.7\" stroke=\"" + colour(i) + "\"") +

@@ -2,7 +2,6 @@
 #include "flyball/apps/drift.h"
 
 #include "scenario_fields.h"
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -24,9 +23,8 @@ std::vector<std::string> event(int number,
 }
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
-  const auto& channel = row.at("channel").get_ref<const std::string&>();
-  const MissionTime at{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
-  if (channel == "promise") {
+  if (row.at("channel").get_ref<const std::string&>() == "promise") {
+    const MissionTime at{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
     record.push_back(
         {at, row.at("issued").get<std::uint64_t>(), row.at("late").get<std::uint64_t>()});
   }
