@@ -120,6 +120,7 @@ void GovernorLoop::observe_surroundings() {
   seen_.latency = navigator_->newest_latency();
   seen_.latency_bound = follower.latency_bound();
   seen_.map_revision = navigator_->map_revision();
+  seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator_->newest_capture() : Duration{};
   seen_.obstacle_density =
       context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m);
   seen_.density_ahead = density_ahead();

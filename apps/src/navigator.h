@@ -68,6 +68,7 @@ class Navigator {
   [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
   [[nodiscard]] const PathFollower& follower() const { return follower_; }
   [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
+  [[nodiscard]] MissionTime newest_capture() const { return newest_capture_; }
   [[nodiscard]] std::uint64_t map_revision() const { return map_revision_; }
   [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
 

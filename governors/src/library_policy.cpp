@@ -90,6 +90,7 @@ FlyballObservation observation_of(const Observation& seen) {
   told.mean_gap_m = seen.mean_gap_m;
   told.temperature_c = seen.temperature_c;
   told.trip_c = seen.trip_c;
+  told.map_age_ns = seen.map_age.count();
   return told;
 }
 

@@ -112,7 +112,7 @@ Passability MissionWay::passability(const Parameters& given) const {
   passable.least = from_seconds(given.number("min_fine_s"));
   passable.patience = from_seconds(patience_s_);
   if (is_lattice_) {
-    passable.beside_m = large_m_;
+    passable.retry_m = large_m_;
     passable.near_m = near_m();
   }
   // In order even where `make` will refuse them.

@@ -21,17 +21,17 @@ Passability::Passability(const PassabilitySettings& settings, std::vector<double
     : settings_{settings},
       levels_m_{std::move(levels_m)},
       level_{levels_m_.size() - 1},
-      beside_level_{level_} {
+      retry_level_{level_} {
   FLYBALL_ASSERT(!levels_m_.empty() && std::is_sorted(levels_m_.begin(), levels_m_.end()),
                  "%zu levels", levels_m_.size());
-  while (settings_.beside_m > 0.0 && beside_level_ > 0 &&
-         levels_m_[beside_level_] > settings_.beside_m + rounding_m) {
-    --beside_level_;
+  while (settings_.retry_m > 0.0 && retry_level_ > 0 &&
+         levels_m_[retry_level_] > settings_.retry_m + rounding_m) {
+    --retry_level_;
   }
 }
 
 double Passability::least_m(std::size_t level) const {
-  return settings_.body_m + (settings_.beside_m > 0.0 ? 2.0 * levels_m_[level] : 0.0);
+  return settings_.body_m + (settings_.retry_m > 0.0 ? 2.0 * levels_m_[level] : 0.0);
 }
 
 // Comparisons with what is not a number are false, so it leaves the finest level. Finer cells than
@@ -78,11 +78,10 @@ std::size_t Passability::needed_level(const Observation& seen, Standing standing
   if (has_failed && !(may_be_far && is_far_off(seen))) {
     return 0;
   }
-  const bool is_open_around = seen.obstacle_density <= 0.0 && seen.density_ahead <= 0.0;
-  const std::size_t beside = is_open_around && !has_failed ? levels_m_.size() - 1 : beside_level_;
+  const std::size_t coarsest = has_failed ? retry_level_ : levels_m_.size() - 1;
   const std::size_t open = open_level(seen);
   const bool is_far = has_near && seen.gap_distance_m > settings_.near_m;
-  return std::min(beside, is_far ? std::max(open, std::min(std::size_t{1}, beside_level_)) : open);
+  return std::min(coarsest, is_far ? std::max(open, std::min(std::size_t{1}, retry_level_)) : open);
 }
 
 bool Passability::is_far_off(const Observation& seen) const {

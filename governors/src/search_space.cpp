@@ -41,6 +41,10 @@ std::vector<double> ranges_between(double least_m, double most_m) {
   return ranges_m;
 }
 
+double shown_range_m(const MapSetting& setting) {
+  return std::max(0.0, setting.range_m - setting.resolution_m);
+}
+
 double way_over_line(const EnergySearchSettings& price, double resolution_m, double shows_m) {
   if (price.spacing_m <= 0.0) {
     return 1.0;

@@ -7,8 +7,7 @@
 namespace flyball {
 namespace {
 
-// Body and tube reach as far into the last free cells, and half a frame's way.
-constexpr double nearly_m = 1.5;
+constexpr double body_m = 0.6;    // With its tube at speed, half.
 constexpr double forgets = 0.25;  // Of looks 4 times a second: two thirds of the way in a second.
 constexpr double tries = 1.15;
 constexpr double nearest_m = 1.0;
@@ -19,7 +18,7 @@ constexpr double farthest_m = 1e3;
 void Sight::note(const Observation& seen, double range_m) {
   if (seen.map_revision != revision_) {
     revision_ = seen.map_revision;
-    captured_ = seen.now - seen.latency;
+    captured_ = seen.now - seen.map_age;
   }
   if (std::isfinite(range_m) && range_m != range_m_) {
     last_range_m_ = range_m_ > 0.0 ? range_m_ : range_m;
@@ -31,7 +30,10 @@ void Sight::note(const Observation& seen, double range_m) {
   if (seen.phase != MissionPhase::cruise || !std::isfinite(free_m)) {
     return;
   }
-  if (free_m >= seen_to_m - nearly_m) {
+  // The last cells are not seen as a whole, and where the way crosses them at an angle they reach
+  // as far back as their diagonal.
+  const double ends_m = body_m + std::sqrt(2.0) * std::max(0.0, seen.map_resolution_m);
+  if (free_m >= seen_to_m - ends_m) {
     sight_m_ = std::max(free_m, tries * sight_m_);
   } else {
     sight_m_ = free_m >= sight_m_ ? free_m : sight_m_ + forgets * (free_m - sight_m_);

@@ -73,7 +73,7 @@ ObservationField phase_field() {
 }  // namespace
 
 // A member that is missing below is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 224, "a new member belongs into observation_fields() too");
+static_assert(sizeof(Observation) == 232, "a new member belongs into observation_fields() too");
 
 const std::vector<ObservationField>& observation_fields() {
   using O = Observation;
@@ -107,6 +107,7 @@ const std::vector<ObservationField>& observation_fields() {
       field<&O::mean_gap_m>("mean_gap_m"),
       optional(field<&O::temperature_c>("temperature_c")),
       optional(field<&O::trip_c>("trip_c")),
+      seconds<&O::map_age>("map_age_s"),
   };
   return all;
 }

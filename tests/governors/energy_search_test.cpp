@@ -102,7 +102,8 @@ TEST(EnergySearch, its_choice_is_the_best_of_all_that_are_allowed) {
 TEST(EnergySearch, its_speed_is_that_of_equation_2_for_its_response) {
   EnergySearch one = search();
   const EnergyEstimate best = one.choose(open_space(), {});
-  const double d_m = best.setting.range_m - EnergySearchSettings{}.margin_m;
+  const double d_m =
+      best.setting.range_m - best.setting.resolution_m - EnergySearchSettings{}.margin_m;
   EXPECT_DOUBLE_EQ(best.speed_m_s, SpeedLimit{6.0}.speed_m_s(best.response_s, d_m));
   EXPECT_GT(best.watts_per_second, 0.0);
 }

@@ -112,24 +112,22 @@ TEST(Passability, stands_without_haste_where_the_mission_waits) {
   EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
 }
 
-/// Where obstacles stand, cells are no larger than half the body.
+/// Where a plan has failed, cells are no larger than half the body.
 Passability among_obstacles() {
   PassabilitySettings settings;
   settings.body_m = 0.7;
   settings.patience = 3s;
-  settings.beside_m = 0.35;
+  settings.retry_m = 0.35;
   settings.near_m = 8.0;
   return {settings, {0.15, 0.30, 0.60, 1.20}};
 }
 
-TEST(Passability, keeps_large_cells_for_where_nothing_stands_around) {
+TEST(Passability, allows_large_cells_among_obstacles_that_stand_apart_until_a_plan_fails) {
   Passability passability = among_obstacles();
-  Observation seen_it = seen(0.0, 24.0, 1.20);
+  Observation seen_it = seen(0.0, 6.0, 1.20);
+  seen_it.obstacle_density = seen_it.density_ahead = 0.2;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
-  seen_it.density_ahead = 0.02;
-  EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
-  seen_it.density_ahead = 0.0;
-  seen_it.obstacle_density = 0.02;
+  seen_it.planner_failures = 1;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
 }
 

@@ -42,7 +42,7 @@ TEST(Sight, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
     Observation seen = cruising(10.0 + 0.25 * i, 8.0 - 4.0 * 0.25 * i);
     seen.speed_m_s = 4.0;
     seen.map_revision = 7;
-    seen.latency = from_seconds(0.5);
+    seen.map_age = from_seconds(0.5 + 0.25 * i);
     sight.note(seen, 25.0);
   }
   EXPECT_NEAR(sight.distance_m(), 10.0, 1e-6);  // 8 m and what was flown since the capture.
@@ -51,34 +51,47 @@ TEST(Sight, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
 TEST(Sight, tries_longer_ranges_where_only_the_range_ended_it) {
   Sight sight{7.0};
   for (int i = 0; i < 8; ++i) {
-    sight.note(cruising(0.25 * i, 6.0), 7.0);
+    sight.note(cruising(0.25 * i, 6.5), 7.0);
   }
   EXPECT_GT(sight.distance_m(), 2.0 * 7.0);
   for (int i = 0; i < 200; ++i) {
-    sight.note(cruising(2.0 + 0.25 * i, 6.0), 7.0);
+    sight.note(cruising(2.0 + 0.25 * i, 6.5), 7.0);
   }
   EXPECT_LE(sight.distance_m(), 1e3);
 }
 
-/// A map that was captured half a second ago and is free up to 8.5 m.
-Observation half_a_second_late(double t_s, std::uint64_t revision) {
-  Observation seen = cruising(t_s, 8.5);
+TEST(Sight, coarse_cells_end_farther_before_the_range_than_fine_ones) {
+  for (const double cell_m : {0.15, 1.20}) {
+    Sight sight{7.0};
+    for (int i = 0; i < 8; ++i) {
+      Observation seen = cruising(0.25 * i, 7.5);
+      seen.map_resolution_m = cell_m;
+      sight.note(seen, 9.6);
+    }
+    EXPECT_EQ(sight.distance_m() > 9.6, cell_m > 1.0) << cell_m;
+  }
+}
+
+/// A map that was captured half a second ago and is free up to 9 m.
+Observation half_a_second_old(double t_s, std::uint64_t revision) {
+  Observation seen = cruising(t_s, 9.0);
   seen.map_revision = revision;
-  seen.latency = from_seconds(0.5);
+  seen.latency = from_seconds(0.2);
+  seen.map_age = from_seconds(0.5);
   return seen;
 }
 
 TEST(Sight, a_frame_from_before_a_longer_range_does_not_say_that_the_world_ends_the_view) {
   Sight sight{9.0};
-  sight.note(half_a_second_late(1.0, 1), 9.6);
+  sight.note(half_a_second_old(1.0, 1), 9.6);
   const double tried_m = sight.distance_m();
   EXPECT_GT(tried_m, 9.6);
-  sight.note(half_a_second_late(1.25, 2), 13.2);  // Taken at .75 s.
+  sight.note(half_a_second_old(1.25, 2), 13.2);  // Taken at .75 s.
   EXPECT_GE(sight.distance_m(), tried_m);
   for (std::uint64_t i = 0; i < 20; ++i) {  // Now it is the world.
-    sight.note(half_a_second_late(2.0 + 0.25 * static_cast<double>(i), 3 + i), 13.2);
+    sight.note(half_a_second_old(2.0 + 0.25 * static_cast<double>(i), 3 + i), 13.2);
   }
-  EXPECT_NEAR(sight.distance_m(), 8.5, 0.1);
+  EXPECT_NEAR(sight.distance_m(), 9.0, 0.1);
 }
 
 TEST(Sight, learns_nothing_before_cruise_and_from_what_is_no_number) {

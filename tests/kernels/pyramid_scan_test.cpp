@@ -133,6 +133,47 @@ TEST(PyramidScan, counts_the_blocks_that_it_looked_at) {
   EXPECT_GT(fine, 2.0 * coarse);
 }
 
+/// What a camera 2 m over bare ground sees, clear up to `far_m`.
+PointCloud over_bare_ground(double far_m) {
+  PointCloud cloud;
+  cloud.camera = Intrinsics{160, 120, 138.0, 79.5, 59.5};  // 60 degrees.
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 0; u < 160; ++u) {
+      const Eigen::Vector3f ray{(static_cast<float>(u) + 0.5F - 80.0F) / 138.0F,
+                                (static_cast<float>(v) + 0.5F - 60.0F) / 138.0F, 1.0F};
+      const float ground_m = ray.y() > 0.0F ? 2.0F / ray.y() * ray.norm() : 1e9F;
+      const bool hits = ground_m < static_cast<float>(far_m);
+      (hits ? cloud.hits_C : cloud.clear_C)
+          .push_back((hits ? ground_m : static_cast<float>(far_m)) * ray.normalized());
+    }
+  }
+  return cloud;
+}
+
+// Seen from 8 to 13 m off, a cell of 1.2 m that is looked at no closer than by its own width shows
+// ground that is nearer than itself: such a map would end at 9 m whatever its range up to 15.
+TEST(PyramidScan, frees_large_blocks_over_ground_up_to_its_range) {
+  const double far_m = 14.0;
+  const PointCloud cloud = over_bare_ground(25.0);
+  const Lattice lattice{finest_m};
+  PyramidScan pyramid{finest_m};
+  for (const double yaw_rad : {0.2, 0.35, 0.5}) {
+    const Vec3 ahead_W{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
+    const Vec3 aside_W{-ahead_W.y(), ahead_W.x(), 0.0};
+    Pose X_WC = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()} * kit::looking_along_x();
+    X_WC.translation() = Vec3{0.3, -0.4, 2.0};
+    const Cells cells = cells_of(pyramid.compute(cloud, X_WC, far_m, 3));
+    for (double on_m = 5.0; on_m < far_m - 2.0; on_m += 0.1) {
+      for (const double aside_m : {-0.4, 0.0, 0.4}) {
+        const Vec3 p_W = X_WC.translation() + on_m * ahead_W + aside_m * aside_W;
+        const CellKey cell = lattice.cell(p_W);
+        EXPECT_TRUE(cells.find({cell.x, cell.y, cell.z}) != cells.end())
+            << yaw_rad << ": " << on_m << " m on, " << aside_m << " m aside";
+      }
+    }
+  }
+}
+
 /// Share of the points on the camera's axis, from 1 to 4 m, that a scan of open space frees.
 double free_share_on_axis(PyramidScan& pyramid, int floor_level) {
   PointCloud cloud;

@@ -20,6 +20,7 @@ TEST(ObservationFields, carry_an_observation_over_bit_for_bit) {
   seen.map_revision = (1ULL << 53U) - 1;
   seen.latency = Duration{123456789};
   seen.latency_bound = Duration{86399999999999};
+  seen.map_age = Duration{987654321};
   seen.deadline_misses = std::numeric_limits<std::uint32_t>::max();
   seen.cores = -1;
   seen.frequency = Hertz{2.0352e9};
@@ -34,6 +35,7 @@ TEST(ObservationFields, carry_an_observation_over_bit_for_bit) {
   EXPECT_TRUE(std::signbit(copy.known_free_m));
   EXPECT_EQ(seen.latency, copy.latency);
   EXPECT_EQ(seen.latency_bound, copy.latency_bound);
+  EXPECT_EQ(seen.map_age, copy.map_age);
   EXPECT_EQ(seen.map_revision, copy.map_revision);
   EXPECT_EQ(seen.deadline_misses, copy.deadline_misses);
 }

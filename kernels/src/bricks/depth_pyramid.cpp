@@ -93,11 +93,11 @@ void DepthPyramid::build_scale(std::size_t scale, const InnerLoops& loops) {
   }
 }
 
-DepthSpan DepthPyramid::span(const PixelBlock& block) const {
-  // The scale at which the block is two or three texels wide: coarser ones see far beside it.
+DepthSpan DepthPyramid::span(const PixelBlock& block, int texels) const {
+  // Coarser scales see far beside the block.
   const int edge = std::max(block.u1 - block.u0, block.v1 - block.v0);
   unsigned scale = 0;
-  while (edge >> scale > 1 && scale + 1 < scales_.size()) {
+  while (edge >> scale > texels && scale + 1 < scales_.size()) {
     ++scale;
   }
   DepthSpan whole{std::numeric_limits<float>::infinity(), 0.0F};

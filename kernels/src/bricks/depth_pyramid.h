@@ -36,8 +36,9 @@ class DepthPyramid {
   [[nodiscard]] const float* depth_m() const { return depth_m_.data(); }
   /// From the finest scale to a single texel.
   [[nodiscard]] const std::vector<DepthScale>& scales() const { return views_; }
-  /// @pre The block lies in the image. May look at pixels beside it.
-  [[nodiscard]] DepthSpan span(const PixelBlock& block) const;
+  /// @pre The block lies in the image. May look at pixels beside it: up to a texel on each side, of
+  ///      which `texels` or one more cover the block's width.
+  [[nodiscard]] DepthSpan span(const PixelBlock& block, int texels = 1) const;
 
  private:
   struct Scale {

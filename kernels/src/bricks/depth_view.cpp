@@ -140,6 +140,18 @@ PixelBlock DepthView::pixels_around(const Eigen::Vector3f& centre_C, int level) 
   return image.is_beside(probe_.grid) ? PixelBlock{0, 0, -1, -1} : image.pixels(probe_.grid);
 }
 
+bool DepthView::sees_through(const Eigen::Vector3f& centre_C, int level) const {
+  constexpr int texels = 8;  // As wide as the block: what is looked at beside it is an eighth.
+  const Extent& extent = extents_[static_cast<std::size_t>(level)];
+  if (centre_C.z() - extent.half.z() <= probe_.nearest_m ||
+      centre_C.squaredNorm() > extent.squared_near) {
+    return false;
+  }
+  const Image image = image_of(centre_C, extent);
+  return image.is_inside(probe_.grid) &&
+         centre_C.z() + extent.half.z() <= depth_.span(image.pixels(probe_.grid), texels).least;
+}
+
 Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();

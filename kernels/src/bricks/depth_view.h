@@ -40,6 +40,9 @@ class DepthView {
   [[nodiscard]] Aabb box_of_view(const Pose& X_WC, double range_m, double margin_m) const;
   /// A cube of level 1..5 around a point of C.
   [[nodiscard]] Sight sight_of(const Eigen::Vector3f& centre_C, int level) const;
+  /// `sight_of` looks up to the cube's own width beside it, where the ground may come nearer than
+  /// the cube. This looks closely, for several times as much work.
+  [[nodiscard]] bool sees_through(const Eigen::Vector3f& centre_C, int level) const;
   /// Of the eight cubes in a cube of level 2..5.
   [[nodiscard]] OctantSight sight_of_octants(const Eigen::Vector3f& centre_C, int level) const {
     return loops_.see_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());

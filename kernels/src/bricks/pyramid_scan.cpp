@@ -120,6 +120,7 @@ int PyramidScan::floor_at(float depth_m) const {
 void PyramidScan::free_inside(const Block& block) {
   const int floor_level = floor_at(block.centre_C.z());
   if (block.level <= floor_level) {
+    free_closely(block);
     return;
   }
   if (block.level > brick_level) {
@@ -128,6 +129,14 @@ void PyramidScan::free_inside(const Block& block) {
     free_eighths(block);
   } else {
     free_cells(block);
+  }
+}
+
+/// There is no smaller block to try.
+void PyramidScan::free_closely(const Block& block) {
+  ++masks_.blocks;
+  if (view_.sees_through(block.centre_C, block.level)) {
+    window_.free_block(block.place, bricks_in(block.level));
   }
 }
 

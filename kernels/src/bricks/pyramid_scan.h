@@ -49,6 +49,7 @@ class PyramidScan {
   void free_chunk(const CellKey& chunk, const Pose& X_CW);
   [[nodiscard]] int floor_at(float depth_m) const;
   void free_inside(const Block& block);
+  void free_closely(const Block& block);
   void free_octants(const Block& block);
   void free_eighths(const Block& brick);
   void free_cells(const Block& brick);

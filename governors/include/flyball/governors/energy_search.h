@@ -74,7 +74,7 @@ struct EnergyEstimate {
 /// Exact search of a small lattice for the least
 ///
 ///     J = (P_rotor(v) + P_computer) / v * way + switching / horizon [+ price of large cells]
-///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range, sight) - v delta
+///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, sight) - v delta
 ///
 /// An obstacle of half width w that shows s ahead makes the way longer by the second term, and
 /// by a cell that its border fills: so cells have a price and sight a worth where the mission, not

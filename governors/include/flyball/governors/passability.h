@@ -17,8 +17,8 @@ struct PassabilitySettings {
   double body_m{0.71};  ///< Widest part of the vehicle with its tube at a crawl, both sides.
   Duration least{};     ///< A finer level that was needed stays at least this long.
   Duration patience{};  ///< Standing in cruise for so long, there is something that is not seen.
-  /// Largest cells where obstacles stand within some metres of vehicle or way; 0: no such limit.
-  double beside_m{};
+  /// Largest cells where a plan has failed or the vehicle stands; 0: no such limit.
+  double retry_m{};
   /// Farther off than this a shut gap is not looked at in finest cells yet; 0: as soon as it shows.
   double near_m{};
 };
@@ -33,9 +33,7 @@ struct PassabilitySettings {
 ///
 /// What needed finer cells needs them until the vehicle is past it: finer cells show less far, and
 /// a wall that they do not show yet looks like an open way. Where they show that it is not there,
-/// they are not needed any longer. A cell beside an obstacle is known to
-/// be free only when all of it was seen, so among obstacles large cells end what is known to be
-/// free sooner than the obstacles do (`beside_m`). Nothing allocates after construction.
+/// they are not needed any longer. Nothing allocates after construction.
 class Passability {
  public:
   struct Verdict {
@@ -63,10 +61,10 @@ class Passability {
   PassabilitySettings settings_;
   std::vector<double> levels_m_;
   std::size_t level_;
-  MissionTime needed_at_{};   ///< The last time that no coarser level would have done.
-  std::size_t beside_level_;  ///< The coarsest one that `beside_m` allows.
-  double gap_on_m_{};         ///< Finest cells are needed for so long a way: until a gap is past,
-  double failed_on_m_{};      ///< or where a plan failed.
+  MissionTime needed_at_{};  ///< The last time that no coarser level would have done.
+  std::size_t retry_level_;  ///< The coarsest one that `retry_m` allows.
+  double gap_on_m_{};        ///< Finest cells are needed for so long a way: until a gap is past,
+  double failed_on_m_{};     ///< or where a plan failed.
   std::optional<MissionTime> finest_since_{};  ///< The map has had finest cells.
   std::optional<MissionTime> last_judged_{};
   std::optional<MissionTime> standing_since_{};

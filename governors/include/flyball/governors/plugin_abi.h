@@ -24,7 +24,7 @@ extern "C" {
 #endif
 
 enum {
-  flyball_abi_version = 2,   /* Goes up when a structure grows. */
+  flyball_abi_version = 3,   /* Goes up when a structure grows. */
   flyball_wish_capacity = 16 /* For good: the array stands inside a structure. */
 };
 
@@ -129,6 +129,9 @@ typedef struct FlyballObservation {
 
   double temperature_c;
   double trip_c;
+  /* Version 2 ends here. */
+
+  int64_t map_age_ns;
 } FlyballObservation;
 
 typedef struct FlyballWish {

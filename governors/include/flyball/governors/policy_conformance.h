@@ -82,6 +82,7 @@ struct PolicyCandidate {
     seen.mean_gap_m = draw.uniform(seen.narrowest_gap_m, 24.0);
     seen.temperature_c = draw.uniform(20.0, 90.0);
     seen.trip_c = draw.uniform(0.0, 1.0) < 0.5 ? 0.0 : draw.uniform(60.0, 95.0);
+    seen.map_age = seen.latency + from_seconds(draw.uniform(0.0, 1.0));
   }
   return all;
 }
@@ -105,7 +106,7 @@ struct PolicyCandidate {
     seen.map_revision = all.size();
     seen.frequency = Hertz{x};
     seen.computer_power = seen.rotor_power = Watts{x};
-    seen.latency = seen.latency_bound = std::chrono::hours{x < 0.0 ? -24 : 24};
+    seen.latency = seen.latency_bound = seen.map_age = std::chrono::hours{x < 0.0 ? -24 : 24};
     seen.deadline_misses = seen.queue_drops = seen.planner_failures = most;
     seen.cores = x < 0.0 ? -1 : 1 << 30;
     all.push_back(seen);

@@ -47,8 +47,9 @@ struct Observation {
   double gap_distance_m{};   ///< How far ahead that is.
   double mean_gap_m{};       ///< Mean of the widest openings over the same stretch.
   double temperature_c{};    ///< Of the computer, where its clocks' limit is measured.
-  double trip_c{};  ///< The lowest temperature at which it loses clocks; 0: nobody says, and the
-                    ///< temperature says nothing either.
+  double trip_c{};     ///< The lowest temperature at which it loses clocks; 0: nobody says, and the
+                       ///< temperature says nothing either.
+  Duration map_age{};  ///< Since the frame of the newest map was captured.
 };
 
 }  // namespace flyball
