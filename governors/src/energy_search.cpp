@@ -209,10 +209,11 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const Watts computer_w = computer_power(setting, latency_s);
   const bool switches = setting.resolution_m != in_force_.resolution_m;
   const double shows_m = distance_m - best.speed_m_s * best.response_s;
-  best.joules_per_m = way_over_line(settings_, setting.resolution_m, shows_m) *
-                          joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-                      (switches ? settings_.switching_j / settings_.horizon_m : 0.0) +
-                      (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
+  best.joules_per_m =
+      way_over_line(settings_, setting.resolution_m, shows_m) *
+          joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
+      (switches ? settings_.switching_j / std::max(settings_.horizon_m, distance_m) : 0.0) +
+      (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));

@@ -46,8 +46,10 @@ TEST(EnergySearchWay, a_way_past_obstacles_is_longer_by_cells_and_by_what_shows_
   const double shows_m =
       12.0 - 0.80 - EnergySearchSettings{}.margin_m - dear.speed_m_s * dear.response_s;
   const double longer_m = 0.80 + std::hypot(shows_m, 5.0) - shows_m;
-  EXPECT_NEAR(dear.joules_per_m - 6.0,  // Of 60 J over 10 m for the switch.
-              (1.0 + longer_m / 20.0) * (plain.estimate(setting, slow).joules_per_m - 6.0), 1e-9);
+  const double switch_j_m = 60.0 / (12.0 - 0.80 - 0.5);
+  EXPECT_NEAR(dear.joules_per_m - switch_j_m,
+              (1.0 + longer_m / 20.0) * (plain.estimate(setting, slow).joules_per_m - switch_j_m),
+              1e-9);
 }
 
 TEST(EnergySearchWay, where_the_mission_is_slow_sees_far_in_the_finest_cells) {

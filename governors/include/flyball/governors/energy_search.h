@@ -25,7 +25,7 @@ struct EnergySearchSettings {
   double margin_m{0.5};      ///< Body and tracking tube, off the distance.
   double frame_s{0.05};      ///< Between two frames of the camera.
   double switching_j{60.0};  ///< Of a change of resolution: another map starts with one frame.
-  double horizon_m{10.0};    ///< Over which a switch must pay.
+  double horizon_m{10.0};    ///< Over which a switch must pay, at least.
   /// Way per obstacle that is passed; 0: none is.
   double spacing_m{};
   double half_width_m{5.0};  ///< Of such an obstacle: half a room, or RoboRun's blocks and spaces.
@@ -73,17 +73,18 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least
 ///
-///     J = (P_rotor(v) + P_computer) / v * way + switching / horizon [+ price of large cells]
+///     J = (P_rotor(v) + P_computer) / v * way + switching / max(horizon, d) [+ large cells' price]
 ///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, sight) - v delta
 ///
 /// An obstacle of half width w that shows s ahead makes the way longer by the second term, and
 /// by a cell that its border fills: so cells have a price and sight a worth where the mission, not
 /// latency, limits the speed.
 ///
-/// with v from MAVBench's eq. 2 for the calibrated bound on latency; of settings that take
-/// less than a thousandth more than the best, the one that responds soonest. Latency and rotor
-/// power are learned from observations, and so is what the computer may take before it gets too
-/// hot (`ThermalLimit`): clocks beyond that are not chosen. Nothing allocates after `make`.
+/// with v from MAVBench's eq. 2 for the calibrated bound on latency, and d its distance: as far as
+/// is seen, the world stays as it is. Of settings that take less than a thousandth more than the
+/// best, the one that responds soonest. Latency and rotor power are learned from observations, and
+/// so is what the computer may take before it gets too hot (`ThermalLimit`): clocks beyond that are
+/// not chosen. Nothing allocates after `make`.
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
