@@ -18,7 +18,7 @@ constexpr double farthest_m = 1e3;
 void Sight::note(const Observation& seen, double range_m) {
   if (seen.map_revision != revision_) {
     revision_ = seen.map_revision;
-    captured_ = seen.now - seen.map_age;
+    captured_ = seen.now - std::max(seen.map_age, seen.latency);  // Not all tell the age.
   }
   if (std::isfinite(range_m) && range_m != range_m_) {
     last_range_m_ = range_m_ > 0.0 ? range_m_ : range_m;

@@ -48,6 +48,16 @@ TEST(Sight, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
   EXPECT_NEAR(sight.distance_m(), 10.0, 1e-6);  // 8 m and what was flown since the capture.
 }
 
+TEST(Sight, takes_latency_for_the_age_of_a_map_that_nobody_tells) {
+  Sight sight{5.0};
+  Observation seen = cruising(10.0, 8.0);
+  seen.speed_m_s = 4.0;
+  seen.map_revision = 1;
+  seen.latency = from_seconds(0.5);
+  sight.note(seen, 25.0);
+  EXPECT_NEAR(sight.distance_m(), 10.0, 1e-6);
+}
+
 TEST(Sight, tries_longer_ranges_where_only_the_range_ended_it) {
   Sight sight{7.0};
   for (int i = 0; i < 8; ++i) {

@@ -49,7 +49,7 @@ struct Observation {
   double temperature_c{};    ///< Of the computer, where its clocks' limit is measured.
   double trip_c{};     ///< The lowest temperature at which it loses clocks; 0: nobody says, and the
                        ///< temperature says nothing either.
-  Duration map_age{};  ///< Since the frame of the newest map was captured.
+  Duration map_age{};  ///< Since the frame of the newest map was captured; 0: nobody says.
 };
 
 }  // namespace flyball
