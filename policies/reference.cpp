@@ -21,7 +21,9 @@ using flyball::MapSetting;
 using flyball::Observation;
 using flyball::Surroundings;
 
-constexpr double behind_m = 3.0;  // A gap that is past, by so much, is past.
+constexpr double behind_m = 3.0;       // A gap that is past, by so much, is past.
+constexpr double beside_m = 6.0;       // Large cells end what is free before obstacles so near do,
+constexpr double look_ahead_m = 12.0;  // here and so far on. Who learns in flight sees it himself.
 constexpr double zone_ahead_m = 20.0;
 
 class Reference final : public flyball::Policy {
@@ -119,9 +121,10 @@ class Reference final : public flyball::Policy {
       if (on_m >= -behind_m && on_m <= way_->near_m()) {
         coarsest_m = std::min(coarsest_m, open_m(other.opening_m, seen.map_resolution_m));
       }
+      const bool is_beside = on_m >= 0.0 && on_m <= look_ahead_m && other.obstacle_m < beside_m;
       const bool is_slow =
           on_m >= 0.0 && on_m <= zone_ahead_m && other.speed_limit_m_s <= way_->narrow_m_s();
-      if (is_slow) {
+      if (is_beside || is_slow) {
         coarsest_m = std::min(coarsest_m, way_->large_m());
       }
     }

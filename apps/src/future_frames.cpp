@@ -17,6 +17,7 @@ constexpr double step_m = 4.0;
 constexpr int steps = 15;                              // 60 m.
 constexpr double direction_rad = 0.39269908169872414;  // An eighth of a half turn.
 constexpr double half_band_m = 0.3;                    // As the governor loop looks at the map.
+constexpr double nearest_m = 20.0;
 constexpr double path_width_reach_m = 8.0;  // Farther on the path will often be another one.
 
 std::unique_ptr<Mapper> made(const KernelSettings& kernels) {
@@ -72,6 +73,7 @@ PlaceAhead FutureFrames::place(const PathFollower& follower,
   line.bounds_W = context_.brief.bounds_W;
   const Vec3 onward_W = spot.p_W + spot.tangent_W;
   place.opening_m = gaps_ahead(context_.map(), spot.p_W, onward_W, line).narrowest_m;
+  place.obstacle_m = context_.map().nearest_obstacle_m(spot.p_W, nearest_m, half_band_m);
   const double s_m = follower.s_m() + ahead_m;
   if (follower.has_path() && s_m < follower.path().length_m() && ahead_m <= path_width_reach_m) {
     const PathSpan here{&follower.path(), s_m, step_m};

@@ -35,7 +35,7 @@ struct Made {
     open.deceleration_m_s2 = deceleration_m_s2;
     around.assign(places, open);
     for (std::size_t i = 0; i < places; ++i) {
-      truth.places.push_back({step_m * static_cast<double>(i), 6.0, 24.0});
+      truth.places.push_back({step_m * static_cast<double>(i), 6.0, 24.0, 20.0});
     }
     set_frames(0.5, 0.1);
   }

@@ -19,7 +19,7 @@ flyball::Foresight told(const flyball::Policy& policy, double finest_s, double g
   for (int i = 0; i < 16; ++i) {
     const double ahead_m = 4.0 * i;
     const bool is_gap = std::abs(ahead_m - gap_at_m) < 2.0;
-    truth.places.push_back({ahead_m, 6.0, is_gap ? 0.9 : 24.0});
+    truth.places.push_back({ahead_m, 6.0, is_gap ? 0.9 : 24.0, is_gap ? 0.45 : 20.0});
     for (const flyball::MapSetting& one : policy.foresees()) {
       truth.frame_s.push_back(finest_s * 0.15 / one.resolution_m * top_hz / one.clock_hz);
     }

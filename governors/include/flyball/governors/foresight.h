@@ -25,6 +25,7 @@ struct PlaceAhead {
   double ahead_m{};          ///< Along the committed path and, beyond its end, straight on.
   double speed_limit_m_s{};  ///< The mission's.
   double opening_m{};        ///< The widest opening across the way there.
+  double obstacle_m{};       ///< From there to the nearest obstacle; 20 when none is nearer.
 };
 
 /// The way ahead, in steps of equal length from where the vehicle is. The durations are true: those
