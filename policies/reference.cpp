@@ -23,7 +23,7 @@ using flyball::Surroundings;
 
 constexpr double behind_m = 3.0;       // A gap that is past, by so much, is past.
 constexpr double beside_m = 6.0;       // Large cells end what is free before obstacles so near do,
-constexpr double look_ahead_m = 12.0;  // here and so far on. Who learns in flight sees it himself.
+constexpr double look_ahead_m = 12.0;  // here and so far on: as observations count density.
 constexpr double zone_ahead_m = 20.0;
 
 class Reference final : public flyball::Policy {

@@ -202,7 +202,7 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   best.setting = setting;
   // The next map comes about as late as this one did, at the soonest with the next frame.
   best.response_s = bound_s + std::max(bound_s, settings_.frame_s) + settings_.reaction_s;
-  const double distance_m = std::min(shown_range_m(setting), around.sight_m) - settings_.margin_m;
+  const double distance_m = free_ahead_m(settings_, setting, around.sight_m);
   const double safe_m_s = limit.speed_m_s(best.response_s, distance_m);
   best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
   const Watts rotor_w = rotors_.power(best.speed_m_s);

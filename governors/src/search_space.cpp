@@ -41,8 +41,9 @@ std::vector<double> ranges_between(double least_m, double most_m) {
   return ranges_m;
 }
 
-double shown_range_m(const MapSetting& setting) {
-  return std::max(0.0, setting.range_m - setting.resolution_m);
+double free_ahead_m(const EnergySearchSettings& price, const MapSetting& setting, double sight_m) {
+  const double shown_m = std::max(0.0, setting.range_m - setting.resolution_m);
+  return std::min(shown_m, sight_m) - price.margin_m;
 }
 
 double way_over_line(const EnergySearchSettings& price, double resolution_m, double shows_m) {

@@ -10,7 +10,6 @@
 #include "started_policy.h"
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,25 +35,13 @@ KnobSettings knobs_of_a_tx2() {
   return KnobSettings{specs};
 }
 
-/// What must be given, as its policy says it by way of example.
-std::map<std::string, ParameterValue> required_of(const std::string& name) {
-  Registry registry;
-  register_policies(registry);
-  std::map<std::string, ParameterValue> given;
-  for (const ParameterSpec& one : registry.make<Policy>(name)->parameters()) {
-    if (one.required) {
-      given[one.name] = one.fallback;
-    }
-  }
-  return given;
-}
-
 double share(const std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
 }
 
-void decide(benchmark::State& state, const std::string& name) {
-  const StartedPolicy started = start_policy(name, required_of(name), knobs_of_a_tx2());
+void decide(benchmark::State& state, const Registry& registry, const std::string& name) {
+  const auto given = with_examples(registry.make<Policy>(name)->parameters(), {});
+  const StartedPolicy started = start_policy(name, given, knobs_of_a_tx2());
   if (!started.status.ok()) {
     state.SkipWithError(started.status.error().message.c_str());
     return;
@@ -92,7 +79,8 @@ int main(int argc, char** argv) {
   Registry registry;
   register_policies(registry);
   for (const std::string& name : registry.names<Policy>()) {
-    benchmark::RegisterBenchmark(name.c_str(), [name](auto& state) { decide(state, name); });
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&registry, name](auto& state) { decide(state, registry, name); });
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

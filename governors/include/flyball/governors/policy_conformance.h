@@ -47,6 +47,17 @@ struct PolicyCandidate {
   }};
 }
 
+/// What is given, and its example for each required parameter that is not.
+[[nodiscard]] inline std::map<std::string, ParameterValue> with_examples(
+    const std::vector<ParameterSpec>& specs, std::map<std::string, ParameterValue> given) {
+  for (const ParameterSpec& spec : specs) {
+    if (spec.required) {
+      given.emplace(spec.name, spec.fallback);
+    }
+  }
+  return given;
+}
+
 /// A mission's worth of observations that a vehicle may well make, every quarter of a second.
 [[nodiscard]] inline std::vector<Observation> plausible_observations(std::size_t count) {
   RandomStream draw{1, "policy_conformance"};
@@ -151,13 +162,8 @@ class PolicyConformance {
       require(false, "the factory makes nothing");
       return nullptr;
     }
-    auto parameters = candidate_.parameters;
-    for (const ParameterSpec& spec : policy->parameters()) {
-      if (spec.required) {
-        parameters.emplace(spec.name, spec.fallback);  // an example, by its contract
-      }
-    }
-    const auto given = Parameters::resolve("policy", policy->parameters(), parameters);
+    const auto given = Parameters::resolve(
+        "policy", policy->parameters(), with_examples(policy->parameters(), candidate_.parameters));
     if (const auto* errors = std::get_if<std::vector<Error>>(&given)) {
       require(false, "does not take the given parameters: " + errors->front().message);
       return nullptr;

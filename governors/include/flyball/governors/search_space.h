@@ -22,10 +22,13 @@ namespace flyball {
 /// Five ranges, equal steps in proportion, as latency has it. @pre 0 < `least_m` < `most_m`.
 [[nodiscard]] std::vector<double> ranges_between(double least_m, double most_m);
 
-/// Of its range, what a map of one frame shows free: the last cells are not seen as a whole. (1.2 m
-/// cells end it .7 to 2.1 m before their range of 10 to 25 m, half a body's width included, those
-/// of .3 m .55 to .8 m.)
-[[nodiscard]] double shown_range_m(const MapSetting& setting);
+/// d of eq. 2 that a setting promises: its range, or the world's end of sight if that is nearer,
+/// less body and tube. The last cells in range are not seen as a whole. (1.2 m cells end what is
+/// free .7 to 2.1 m before their range of 10 to 25 m, half a body's width included, those of .3 m
+/// .55 to .8 m.)
+[[nodiscard]] double free_ahead_m(const EnergySearchSettings& price,
+                                  const MapSetting& setting,
+                                  double sight_m);
 
 /// The way over its straight line, as `EnergySearch` counts it: for cells of this size and what is
 /// shown so far ahead of where the vehicle can stop.
