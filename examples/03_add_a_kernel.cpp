@@ -5,8 +5,8 @@
 // the tree the same class would go to kernels/perception/<name>.cpp, and nothing else is edited.
 // This program checks the detector on a painted picture and then follows a person with it.
 
-#include "flyball/apps/mission.h"
 #include "flyball/kernels/detector.h"
+#include "flyball/simulation/mission.h"
 
 #include <algorithm>
 #include <cstdio>

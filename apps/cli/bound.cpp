@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/energy_bound.h"
-#include "flyball/apps/text_table.h"
+#include "flyball/records/text_table.h"
+#include "flyball/studies/energy_bound.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/comparison.h"
-#include "flyball/apps/report.h"
+#include "flyball/records/report.h"
+#include "flyball/studies/comparison.h"
 
 #include "commands.h"
 #include "flight_batch.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/text_table.h"
+#include "flyball/records/text_table.h"
 
 #include "commands.h"
 #include "console.h"

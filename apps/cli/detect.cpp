@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/detection_run.h"
-#include "flyball/apps/text_table.h"
+#include "flyball/recordings/detection_run.h"
+#include "flyball/records/text_table.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/drift.h"
+#include "flyball/studies/drift.h"
 
-#include "flyball/apps/report.h"
-#include "flyball/apps/text_table.h"
+#include "flyball/records/report.h"
+#include "flyball/records/text_table.h"
 
 #include "commands.h"
 #include "flight_batch.h"

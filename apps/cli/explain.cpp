@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/replay.h"
-#include "flyball/apps/text_table.h"
+#include "flyball/records/replay.h"
+#include "flyball/records/text_table.h"
 #include "flyball/runtime/observation_fields.h"
 
 #include "commands.h"

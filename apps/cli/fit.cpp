@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/platform_fit.h"
+#include "flyball/studies/platform_fit.h"
 
 #include "commands.h"
 #include "console.h"

@@ -5,7 +5,7 @@
 /// Many missions, each a process of its own: planned before the first one flies, flown a few at a
 /// time, and what went wrong said once.
 
-#include "flyball/apps/scenario.h"
+#include "flyball/scenario/scenario.h"
 
 #include "console.h"
 #include "flight_options.h"

@@ -4,7 +4,7 @@
 /// @file
 /// Which mission: the arguments that `run`, `compare` and `config` have in common.
 
-#include "flyball/apps/scenario.h"
+#include "flyball/scenario/scenario.h"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/catalogue.h"
-#include "flyball/apps/mission.h"
+#include "flyball/scenario/catalogue.h"
+#include "flyball/simulation/mission.h"
 
 #include "commands.h"
 #include "console.h"

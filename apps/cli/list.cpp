@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/catalogue.h"
-#include "flyball/apps/files.h"
-#include "flyball/apps/knobs.h"
-#include "flyball/apps/mission.h"
-#include "flyball/apps/text_table.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/preset.h"
+#include "flyball/records/text_table.h"
+#include "flyball/scenario/catalogue.h"
+#include "flyball/scenario/files.h"
+#include "flyball/scenario/knobs.h"
 #include "flyball/sim/platform_file.h"
+#include "flyball/simulation/mission.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/mission.h"
-#include "flyball/apps/text_table.h"
 #include "flyball/kernels/mapper.h"
+#include "flyball/records/text_table.h"
+#include "flyball/simulation/mission.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/models.h"
+#include "flyball/scenario/models.h"
 
-#include "flyball/apps/text_table.h"
+#include "flyball/records/text_table.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/policy_choice.h"
 #include "flyball/governors/policy_conformance.h"
+#include "flyball/scenario/policy_choice.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/replay.h"
+#include "flyball/records/replay.h"
 
-#include "flyball/apps/text_table.h"
+#include "flyball/records/text_table.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/tournament.h"
+#include "flyball/studies/tournament.h"
 
-#include "flyball/apps/energy_bound.h"
-#include "flyball/apps/report.h"
-#include "flyball/apps/tournament_store.h"
+#include "flyball/records/report.h"
+#include "flyball/studies/energy_bound.h"
+#include "flyball/studies/tournament_store.h"
 
 #include "commands.h"
 #include "flight_batch.h"

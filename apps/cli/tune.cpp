@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/comparison.h"
-#include "flyball/apps/report.h"
-#include "flyball/apps/tournament_store.h"
-#include "flyball/apps/tuning.h"
+#include "flyball/records/report.h"
+#include "flyball/studies/comparison.h"
+#include "flyball/studies/tournament_store.h"
+#include "flyball/studies/tuning.h"
 
 #include "commands.h"
 #include "flight_batch.h"

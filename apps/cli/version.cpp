@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/version.h"
+#include "flyball/records/version.h"
 
 #include "commands.h"
 #include "console.h"

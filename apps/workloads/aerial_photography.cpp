@@ -4,13 +4,13 @@
 // MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and real-time tracker,
 // PID. It flies without a map: the scenario declares the space above the park clear.
 
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "perception_nodes.h"
-#include "target_follower.h"
-#include "target_nodes.h"
-#include "tracking_score.h"
+#include "flight/people/target_follower.h"
+#include "flight/people/target_nodes.h"
+#include "flight/perception/perception_nodes.h"
+#include "simulation/tracking_score.h"
 #include <memory>
 
 namespace {

@@ -4,10 +4,10 @@
 // enough of what can be seen is known, fly home, land. Dataflow as in MAVBench (MICRO 2018), figure
 // of 3-D mapping.
 
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "exploration_flight.h"
+#include "flight/exploration/exploration_flight.h"
 #include <memory>
 
 namespace {

@@ -3,10 +3,10 @@
 // Package delivery, there and back: take off, fly to the goal, land, leave the payload, take off,
 // fly home, land. Dataflow as in MAVBench (MICRO 2018), figure of package delivery.
 
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "navigation_nodes.h"
+#include "flight/navigation/navigation_nodes.h"
 #include <memory>
 
 namespace {

@@ -8,11 +8,11 @@
 // declaration is true is the world's promise; a collision still ends the mission. Take-off and
 // landing are upright over the start, where the world keeps every height free.
 
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "ground_coverage.h"
-#include "navigation_nodes.h"
+#include "flight/navigation/navigation_nodes.h"
+#include "simulation/ground_coverage.h"
 #include <algorithm>
 #include <cstdio>
 #include <memory>

@@ -4,13 +4,13 @@
 // is found, flies home and lands. Dataflow as in MAVBench (MICRO 2018), figure of search and
 // rescue.
 
-#include "flyball/apps/pictures.h"
-#include "flyball/apps/text_table.h"
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
+#include "flyball/records/pictures.h"
+#include "flyball/records/text_table.h"
 #include "flyball/runtime/registry.h"
 
-#include "exploration_flight.h"
-#include "person_search.h"
+#include "flight/exploration/exploration_flight.h"
+#include "flight/people/person_search.h"
 #include <algorithm>
 #include <memory>
 

@@ -5,10 +5,10 @@
 // that is asked of the computer is that the news is not too old. Graph of nodes as in package
 // delivery, so that it could depart at once.
 
-#include "flyball/apps/workload.h"
+#include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "navigation_nodes.h"
+#include "flight/navigation/navigation_nodes.h"
 #include <algorithm>
 #include <cstdio>
 #include <memory>

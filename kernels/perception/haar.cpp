@@ -9,8 +9,8 @@
 #include "flyball/kernels/detector.h"
 #include "flyball/runtime/registry.h"
 
-#include "cv_image.h"
-#include "detection_boxes.h"
+#include "visual/cv_image.h"
+#include "visual/detection_boxes.h"
 #include <array>
 #include <cmath>
 #include <exception>

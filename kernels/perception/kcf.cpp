@@ -8,8 +8,8 @@
 #include "flyball/kernels/tracker.h"
 #include "flyball/runtime/registry.h"
 
-#include "cv_image.h"
-#include "detection_boxes.h"
+#include "visual/cv_image.h"
+#include "visual/detection_boxes.h"
 #include <exception>
 
 #include <opencv2/tracking.hpp>

@@ -11,8 +11,8 @@
 #include "flyball/runtime/registry.h"
 
 #include "bricks/octree_record.h"
-#include "layered_mapper.h"
-#include "octree_file.h"
+#include "maps/layered_mapper.h"
+#include "maps/octree_file.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
 
-#include "improving_stop.h"
-#include "ompl_search.h"
-#include "staged_search.h"
+#include "planning/improving_stop.h"
+#include "planning/ompl_search.h"
+#include "planning/staged_search.h"
 #include <array>
 #include <set>
 

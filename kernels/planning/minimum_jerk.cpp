@@ -8,7 +8,7 @@
 #include "flyball/kernels/smoother.h"
 #include "flyball/runtime/registry.h"
 
-#include "polygon_smoother.h"
+#include "planning/polygon_smoother.h"
 
 namespace {
 

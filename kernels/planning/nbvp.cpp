@@ -10,7 +10,7 @@
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
 
-#include "frontier_views.h"
+#include "planning/frontier_views.h"
 #include <algorithm>
 #include <cmath>
 

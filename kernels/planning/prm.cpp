@@ -12,9 +12,9 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
 
-#include "ompl_kd_tree.h"
-#include "plan_sampler.h"
-#include "staged_search.h"
+#include "planning/ompl_kd_tree.h"
+#include "planning/plan_sampler.h"
+#include "planning/staged_search.h"
 #include <algorithm>
 #include <deque>
 #include <functional>

@@ -7,8 +7,8 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/registry.h"
 
-#include "ompl_search.h"
-#include "staged_search.h"
+#include "planning/ompl_search.h"
+#include "planning/staged_search.h"
 
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 

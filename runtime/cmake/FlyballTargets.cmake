@@ -24,16 +24,20 @@ function(flyball_data name folder)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/flyball/${name})
 endfunction()
 
-# flyball_module(<name> SOURCES ... [PUBLIC <targets>] [PRIVATE <targets>])
+# flyball_module(<name> SOURCES ... [INCLUDES <folders>] [PUBLIC <targets>] [PRIVATE <targets>])
 #   One folder, one target: flyball_<name>, alias flyball::<name>.
-#   Public headers are exactly the files under <folder>/include/.
+#   Public headers are exactly the files under <folder>/include/, or under the folders named.
 function(flyball_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;INCLUDES;PUBLIC;PRIVATE" ${ARGN})
   set(target flyball_${name})
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.h)
+  if(NOT arg_INCLUDES)
+    set(arg_INCLUDES include)
+  endif()
+  list(TRANSFORM arg_INCLUDES APPEND /*.h OUTPUT_VARIABLE patterns)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${patterns})
   add_library(${target} ${arg_SOURCES})
   add_library(flyball::${name} ALIAS ${target})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${arg_INCLUDES} FILES ${headers})
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON CXX_EXTENSIONS OFF

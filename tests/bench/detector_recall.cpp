@@ -7,7 +7,7 @@
 
 #include "flyball/sim/colour_camera.h"
 
-#include "seeing_setup.h"
+#include "simulation/seeing_setup.h"
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -5,22 +5,22 @@
 //
 //     ninja kernel_costs && bin/kernel_costs
 
-#include "flyball/apps/files.h"
-#include "flyball/apps/mission.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/point_cloud.h"
+#include "flyball/scenario/files.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/platform_file.h"
+#include "flyball/simulation/mission.h"
 
 #include "cost_fit.h"
-#include "fit_scenes.h"
-#include "fit_sight.h"
-#include "mission_setup.h"
-#include "octomap_tree.h"
-#include "perception_nodes.h"
-#include "scenario_parameters.h"
+#include "flight/perception/perception_nodes.h"
+#include "maps/octomap_tree.h"
+#include "scenario/scenario_parameters.h"
+#include "simulation/mission_setup.h"
+#include "studies/fit_scenes.h"
+#include "studies/fit_sight.h"
 #include <algorithm>
 #include <cstdio>
 #include <map>

@@ -4,12 +4,12 @@
 /// @file
 /// What map_bench measures: ways of mapping the frames of a flight.
 
-#include "../../kernels/src/bricks/brick_map.h"
-#include "../../kernels/src/bricks/exact_scan.h"
-#include "../../kernels/src/bricks/octree_record.h"
-#include "../../kernels/src/bricks/pyramid_scan.h"
-#include "../../kernels/src/bricks/ray_scan.h"
+#include "bricks/brick_map.h"
+#include "bricks/octree_record.h"
 #include "map_scenes.h"
+#include "scans/exact_scan.h"
+#include "scans/pyramid_scan.h"
+#include "scans/ray_scan.h"
 #include <string>
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_questions.h"
 
-#include "../../kernels/src/bricks/brick_view.h"
-#include "../../kernels/src/octomap_view.h"
+#include "bricks/brick_view.h"
 #include "map_table.h"
+#include "maps/octomap_view.h"
 #include <map>
 #include <memory>
 #include <random>

@@ -7,7 +7,7 @@
 
 #include "flyball/runtime/messages.h"
 
-#include "../../kernels/src/bricks/scan.h"
+#include "scans/scan.h"
 #include <vector>
 
 #include <octomap/Pointcloud.h>

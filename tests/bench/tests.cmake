@@ -2,14 +2,14 @@
 if(FLYBALL_BUILD_SIM)
   add_executable(kernel_costs EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/kernel_costs.cpp)
   target_link_libraries(kernel_costs PRIVATE flyball::apps octomap octomath)
-  target_include_directories(kernel_costs PRIVATE ${PROJECT_SOURCE_DIR}/apps/src
+  target_include_directories(kernel_costs PRIVATE ${PROJECT_SOURCE_DIR}/apps
                                                   ${PROJECT_SOURCE_DIR}/kernels/src)
   flyball_compile_options(kernel_costs)
 endif()
 if(FLYBALL_BUILD_SIM)
   add_executable(detector_recall EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/detector_recall.cpp)
   target_link_libraries(detector_recall PRIVATE flyball::apps)
-  target_include_directories(detector_recall PRIVATE ${PROJECT_SOURCE_DIR}/apps/src)
+  target_include_directories(detector_recall PRIVATE ${PROJECT_SOURCE_DIR}/apps ${CMAKE_CURRENT_SOURCE_DIR}/kit)
   flyball_compile_options(detector_recall)
 endif()
 find_package(benchmark QUIET)

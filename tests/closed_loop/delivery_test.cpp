@@ -2,7 +2,7 @@
 //
 // Whole missions, held against bands and against each other.
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 #include <cmath>
 
 #include <gtest/gtest.h>

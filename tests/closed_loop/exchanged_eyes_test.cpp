@@ -3,7 +3,7 @@
 //
 // Localizers that see and detectors, each exchanged by a word in a mission that needs it.
 
-#include "flyball/apps/mission.h"
+#include "flyball/simulation/mission.h"
 
 #include "models.h"
 #include <filesystem>

@@ -4,8 +4,8 @@
 
 #include "flyball/kernels/mapper.h"
 
-#include "../apps/short_delivery.h"
 #include "scratch_folder.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

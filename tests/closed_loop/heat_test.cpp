@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/apps/mission.h"
+#include "flyball/simulation/mission.h"
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
-#include "../apps/short_delivery.h"
 #include "scratch_folder.h"
+#include "short_delivery.h"
 #include <cmath>
 #include <set>
 #include <tuple>

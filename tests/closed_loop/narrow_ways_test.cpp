@@ -2,7 +2,7 @@
 //
 // A rule that likes coarse cells must not stand for ever before a gap that they close.
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
-#include "flyball/apps/mission.h"
+#include "flyball/simulation/mission.h"
 
 #include <variant>
 

@@ -3,8 +3,8 @@
 // One rule as a preset, a script and a library flies one and the same mission.
 #ifdef FLYBALL_EXAMPLES
 
-#include "../apps/short_delivery.h"
 #include "scratch_folder.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "flyball/governors/policy.h"
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

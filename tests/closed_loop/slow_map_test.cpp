@@ -3,7 +3,7 @@
 // Frames that take seconds come from few places: a vehicle that has used up what was declared clear
 // at its start stands too near to what it does not know to see it.
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // The guard's promise: whatever a policy says costs time, never a collision.
 #ifdef FLYBALL_HAS_LUA
 
-#include "../apps/short_delivery.h"
+#include "short_delivery.h"
 
 #include <gtest/gtest.h>
 

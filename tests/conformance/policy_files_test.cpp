@@ -4,8 +4,8 @@
 // keeps the same contract and decides the same.
 #ifdef FLYBALL_EXAMPLES
 
-#include "flyball/apps/policy_choice.h"
 #include "flyball/governors/policy_conformance.h"
+#include "flyball/scenario/policy_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
-#include "octomap_tree.h"
+#include "maps/octomap_tree.h"
 #include "synthetic_scans.h"
 #include "wall_scan.h"
 #include <limits>

@@ -4,7 +4,7 @@
 /// @file
 /// Masks of a scan, taken apart into single cells.
 
-#include "../../kernels/src/bricks/scan_masks.h"
+#include "scans/scan_masks.h"
 #include <map>
 #include <tuple>
 

@@ -4,8 +4,8 @@
 /// @file
 /// Random maps, and what they say by definition: the brute force that the view is held against.
 
-#include "../../kernels/src/octomap_view.h"
-#include "octomap_tree.h"
+#include "maps/octomap_tree.h"
+#include "maps/octomap_view.h"
 #include <algorithm>
 #include <cmath>
 #include <memory>

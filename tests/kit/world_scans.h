@@ -4,7 +4,7 @@
 /// @file
 /// The synthetic scans in W, as OctoMap takes them.
 
-#include "../../kernels/src/bricks/scan.h"
+#include "scans/scan.h"
 #include "synthetic_scans.h"
 
 namespace flyball::kit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../sim/src/building.h"
+#include "world/building.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../sim/src/congestion.h"
+#include "world/congestion.h"
 
 #include "floor_plan.h"
 #include "made_world.h"

@@ -3,7 +3,7 @@
 
 #include "flyball/sim/depth_camera.h"
 
-#include "mover_view.h"
+#include "world/mover_view.h"
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "person_mesh.h"
+#include "people/person_mesh.h"
 
 #include "flyball/sim/colour_camera.h"
 

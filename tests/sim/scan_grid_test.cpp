@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../sim/src/scan_grid.h"
+#include "sensors/scan_grid.h"
 
 #include "flyball/runtime/random.h"
 

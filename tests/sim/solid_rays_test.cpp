@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solid_rays.h"
+#include "sensors/solid_rays.h"
 
 #include "flyball/runtime/random.h"
 
-#include "pinhole.h"
+#include "sensors/pinhole.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

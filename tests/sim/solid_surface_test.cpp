@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../sim/src/solid_surface.h"
+#include "world/solid_surface.h"
 
 #include "flyball/runtime/random.h"
 

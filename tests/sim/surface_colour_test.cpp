@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface_colour.h"
+#include "world/surface_colour.h"
 
 #include <algorithm>
 

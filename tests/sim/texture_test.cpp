@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "texture.h"
+#include "world/texture.h"
 
 #include <gtest/gtest.h>
 

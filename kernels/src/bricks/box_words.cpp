@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: brick_view
 #include "box_words.h"
 
 #include <algorithm>

@@ -14,10 +14,10 @@
 
 #include "flyball/runtime/occupancy.h"
 
-#include "inner_loops.h"
 #include "lattice.h"
-#include "packed_cell.h"
-#include "scan_masks.h"
+#include "scans/inner_loops.h"
+#include "scans/packed_cell.h"
+#include "scans/scan_masks.h"
 #include <array>
 #include <functional>
 #include <memory>

@@ -4,10 +4,10 @@
 /// @file
 /// Bricks as a store of LayeredMapper: the cells of one resolution, freed by stock's rule.
 
-#include "../layered_mapper.h"
 #include "brick_contents.h"
 #include "brick_map.h"
 #include "map_file.h"
+#include "maps/layered_mapper.h"
 #include "octree_copy.h"
 
 namespace flyball {

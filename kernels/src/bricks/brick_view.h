@@ -14,7 +14,7 @@
 #include "flyball/runtime/occupancy.h"
 
 #include "brick_map.h"
-#include "clear_spaces.h"
+#include "scans/clear_spaces.h"
 #include <functional>
 #include <optional>
 

@@ -6,8 +6,8 @@
 /// level an occupied cell is shown with its full cube; unknown space is always shown cell by finest
 /// cell, so that what was seen of a coarse cell stays seen.
 
-#include "../overlap.h"
 #include "brick_map.h"
+#include "visual/overlap.h"
 #include <array>
 
 namespace flyball {

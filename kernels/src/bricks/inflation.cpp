@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: inflated_window
 #include "inflation.h"
 
 #include "box_words.h"

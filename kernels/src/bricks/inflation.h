@@ -13,7 +13,7 @@
 #include "flyball/kernels/inflated_window.h"
 
 #include "brick_map.h"
-#include "clear_spaces.h"
+#include "scans/clear_spaces.h"
 #include <vector>
 
 namespace flyball {

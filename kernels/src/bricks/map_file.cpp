@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_file.h"
 
-#include "../octree_file.h"
+#include "maps/octree_file.h"
 #include "octree_copy.h"
 #include <cmath>
 #include <exception>

@@ -8,7 +8,7 @@
 /// which say where the cell is in its brick, then the bricks' bits, x lowest. So a brick is one
 /// cache line, and a step along one axis is an addition that carries across the other axes' bits.
 
-#include "scan_masks.h"
+#include "scans/scan_masks.h"
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: brick_view
 #include "mask_window.h"
 
 #include "flyball/runtime/assert.h"

@@ -8,8 +8,8 @@
 /// A brick's place is its chunk's number in the window, times 512, plus its number in the chunk, so
 /// the bricks of a coarser cell are neighbours.
 
-#include "inner_loops.h"
-#include "scan_masks.h"
+#include "scans/inner_loops.h"
+#include "scans/scan_masks.h"
 #include <cstdint>
 #include <vector>
 

@@ -7,8 +7,8 @@
 
 #include "flyball/runtime/result.h"
 
-#include "../octomap_tree.h"
 #include "brick_map.h"
+#include "maps/octomap_tree.h"
 #include <memory>
 
 namespace flyball {

@@ -12,8 +12,8 @@
 /// block with a hit in it is not freed as a whole, (3) a free block over refined space reaches
 /// every leaf in it, (4) no coarse block is written through the cell at its centre.
 
-#include "../octomap_tree.h"
-#include "scan_masks.h"
+#include "maps/octomap_tree.h"
+#include "scans/scan_masks.h"
 #include <vector>
 
 namespace flyball {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_slam
 #include "visual/feature.h"
 
 #include <algorithm>

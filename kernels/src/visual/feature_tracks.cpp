@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_inertial
 #include "visual/feature_tracks.h"
 
 #include "visual/feature.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_inertial
 #include "visual/inertial_odometry.h"
 
 #include "visual/motion.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_inertial
 #include "visual/sight_update.h"
 
 #include "visual/feature.h"

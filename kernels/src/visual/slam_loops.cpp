@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_slam
 //
 // Back where it was before: the keyframes of then bind those of now.
 

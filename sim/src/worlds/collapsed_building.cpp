@@ -8,7 +8,7 @@
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/world.h"
 
-#include "../building.h"
+#include "world/building.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -4,7 +4,7 @@
 // another one. 27 settings: density {.3, .45, .6} x spread {40, 80, 120} m x goal {600, 900,
 // 1200} m. The way to the goal is askew to the blocks' grid, so no street leads there.
 
-#include "../congestion.h"
+#include "world/congestion.h"
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"

@@ -6,8 +6,8 @@
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/world.h"
 
-#include "../scanned_place.h"
-#include "../solid_surface.h"
+#include "world/scanned_place.h"
+#include "world/solid_surface.h"
 
 namespace {
 

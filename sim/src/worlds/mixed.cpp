@@ -8,8 +8,8 @@
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/world.h"
 
-#include "../building.h"
-#include "../congestion.h"
+#include "world/building.h"
+#include "world/congestion.h"
 #include <algorithm>
 #include <cmath>
 

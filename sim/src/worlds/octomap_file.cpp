@@ -6,7 +6,7 @@
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/world.h"
 
-#include "../scanned_place.h"
+#include "world/scanned_place.h"
 #include <array>
 
 namespace {

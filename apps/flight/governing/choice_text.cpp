@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: replay
+
+#include "flight/governing/choice_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+namespace flyball {
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
+  std::snprintf(text.data(), text.size(), "%.17g", value);
+  return text.data();
+}
+
+bool equal(const Decision& a, const Decision& b) {
+  return a.reason == b.reason &&
+         std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+           return x.knob == y.knob && have_same_bits(x.value, y.value);
+         });
+}
+
+}  // namespace
+
+bool have_same_bits(double a, double b) {
+  std::uint64_t bits_a = 0;
+  std::uint64_t bits_b = 0;
+  std::memcpy(&bits_a, &a, sizeof a);
+  std::memcpy(&bits_b, &b, sizeof b);
+  return bits_a == bits_b;
+}
+
+std::string settings_text(const Decision& decision) {
+  std::string text;
+  for (const auto& [knob, value] : decision) {
+    text += (text.empty() ? "" : " ") + std::string{knob} + "=" + number(value);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string choice_text(const PolicyGovernor& governor, const Decision& answer) {
+  std::string text = std::string{to_string(answer.reason)} + ": " + settings_text(answer);
+  const std::string wished = settings_text(governor.wished());
+  if (wished != settings_text(answer)) {
+    text += "; wished " + wished;
+  }
+  if (governor.fallback() != Fallback::none) {
+    text += "; fallback " + std::string{to_string(governor.fallback())};
+  }
+  return text;
+}
+
+bool ChoiceMemory::is_new(const PolicyGovernor& governor, const Decision& answer) {
+  const bool same = has_one_ && governor.fallback() == fallback_ && equal(answer, answer_) &&
+                    equal(governor.wished(), wished_);
+  if (!same) {
+    wished_ = governor.wished();
+    answer_ = answer;
+    fallback_ = governor.fallback();
+    has_one_ = true;
+  }
+  return !same;
+}
+
+}  // namespace flyball

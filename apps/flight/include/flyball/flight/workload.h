@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A workload: builds its graph of kernels, and knows when its mission is done.
+
+#include "flyball/records/mission_frame.h"
+#include "flyball/runtime/graph.h"
+#include "flyball/runtime/result.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+struct Scenario;
+class MissionContext;  // see apps/flight/mission_context.h, navigator.h
+struct MissionBrief;
+struct VehicleTopics;
+class Navigator;
+
+class Workload {
+ public:
+  Workload() = default;
+  Workload(const Workload&) = delete;
+  Workload& operator=(const Workload&) = delete;
+  virtual ~Workload() = default;
+
+  /// Whether it can be flown at all.
+  ///
+  /// @error `invalid_input`: one sentence with the key, its value and the way out.
+  [[nodiscard]] virtual Status check([[maybe_unused]] const Scenario& scenario,
+                                     [[maybe_unused]] const MissionBrief& brief) const {
+    return Done{};
+  }
+  /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
+  /// the workload outlives the graph's jobs.
+  virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
+  /// Whether a colour camera, a detector and trackers are on board: without, nothing is rendered,
+  /// and no detector need be there.
+  [[nodiscard]] virtual bool looks_for_people() const { return false; }
+  /// For the observation and the record; null when the workload flies without one.
+  [[nodiscard]] virtual const Navigator* navigator() const = 0;
+  /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is
+  /// the name's ending.
+  [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
+  /// Pictures for the report: few, for each is kept whole.
+  [[nodiscard]] virtual std::vector<MissionFrame> frames() const { return {}; }
+};
+
+class Registry;
+void register_workloads(Registry& registry);
+
+}  // namespace flyball

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/navigation/path_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The tube grows with speed, so a passage can be too narrow for cruise and wide enough for a crawl.
+// Three tiers of it: narrow passages, near obstacles, and the knob's largest speed.
+constexpr double middle_m_s = 4.0;
+// Half of what the guard may brake with; the rest is for curves and for the guard.
+constexpr double comfort_m_s2 = 3.0;
+// A planned stop brakes harder, a little less than the guard would: the later the vehicle must
+// stop before an obstacle, the more room is left to turn.
+constexpr double stopping_m_s2 = 5.0;
+constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
+constexpr double look_ahead_s = 1.0;
+constexpr double stop_margin_m = 0.1;  // From what is not known to be free.
+constexpr double look_ahead_min_m = 1.0;
+constexpr auto odometer_memory = 10s;
+
+double towards(double value, double target, double braking_m_s2, double dt_s) {
+  return value < target ? std::min(target, value + comfort_m_s2 * dt_s)
+                        : std::max(target, value - braking_m_s2 * dt_s);
+}
+
+// The safe speed saws with each published map; a vehicle that followed every tooth at full
+// acceleration would pitch to and fro and lose height. The guard does not wait for this.
+double eased(double value, double target, double dt_s) {
+  constexpr double gain_1_s = 5.0;
+  return value + std::min(1.0, gain_1_s * dt_s) * (target - value);
+}
+
+GuardSettings guard_settings(const MissionContext& context) {
+  GuardSettings settings;
+  settings.max_deceleration_m_s2 = context.scenario.mission.max_acceleration_m_s2;
+  return settings;
+}
+
+}  // namespace
+
+PathFollower::PathFollower(const MissionContext& context)
+    : context_{context}, guard_{guard_settings(context)} {}
+
+void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
+  path_ = Path{};
+  hover_W_ = p_W;
+  yaw_rad_ = yaw_rad;
+  s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
+  free_until_m_ = {};
+  stalled_since_.reset();
+}
+
+SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) const {
+  SpeedProfileLimits limits;
+  limits.lateral_m_s2 = comfort_m_s2;
+  limits.longitudinal_m_s2 = std::min(braking_m_s2, guard_.settings().max_deceleration_m_s2);
+  return {path, limits, [this](const Vec3& p_W) { return context_.speed_limit_m_s(p_W); }};
+}
+
+bool PathFollower::adopt(const Path& tail, double splice_m) {
+  constexpr double rounding_m = 1e-6;
+  if (!path_.empty() && s_m_ > splice_m + rounding_m) {
+    return false;
+  }
+  Path path = path_.empty() ? tail : Path::joined(path_, s_m_, splice_m, tail);
+  constexpr double slack_m_s = 0.1;
+  if (profile_of(path, stopping_m_s2).at(0.0) + slack_m_s < speed_m_s_) {
+    return false;
+  }
+  profile_ = profile_of(path, comfort_m_s2);
+  path_ = std::move(path);
+  s_m_ = 0.0;
+  stop_at_m_ = path_.length_m();
+  stalled_since_.reset();
+  return true;
+}
+
+void PathFollower::commit_stop(double s_m) {
+  stop_at_m_ = std::clamp(s_m, s_m_, path_.length_m());
+}
+
+void PathFollower::refresh_known_free(const OccupancyView& map) {
+  if (!has_path()) {
+    return;
+  }
+  // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
+  constexpr double step_m = 0.075;
+  const double horizon_m =
+      context_.maps_obstacles ? context_.knobs.value("map.range_m") + 2.0 : path_.length_m();
+  const auto speeds = tier_speeds_m_s();
+  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
+    const Cylinder body = context_.body_at(speeds[tier]);
+    free_until_m_[tier] = s_m_ + known_free_distance(map, {&path_, s_m_, horizon_m}, body, step_m);
+  }
+}
+
+double PathFollower::distance_since(MissionTime captured) const {
+  const auto after =
+      std::lower_bound(odometer_.begin(), odometer_.end(), captured,
+                       [](const auto& entry, MissionTime t) { return entry.first < t; });
+  return after == odometer_.end() ? 0.0 : travelled_m_ - after->second;
+}
+
+// At most what the newest frame itself can have seen: the map remembers free space beyond its
+// range, but something may have come there since. Without a map, what is declared clear stays so.
+double PathFollower::room_m(std::size_t tier) const {
+  const double from_here_m = free_until_m_[tier] - s_m_;
+  if (!context_.maps_obstacles) {
+    return from_here_m;
+  }
+  const double in_sight_m =
+      context_.knobs.value("map.range_m") - context_.body_at(tier_speeds_m_s()[tier]).radius_m;
+  return std::min(from_here_m + distance_since(newest_capture_), in_sight_m);
+}
+
+double PathFollower::cruise_speed(std::size_t tier) const {
+  const double delta_s = to_seconds(latency_bound() + guard_.reaction_time());
+  return std::min(tier_speeds_m_s()[tier],
+                  safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, room_m(tier)));
+}
+
+std::array<double, 3> PathFollower::tier_speeds_m_s() const {
+  const double knob = context_.knobs.value("mission.max_speed_m_s");
+  return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
+}
+
+Duration PathFollower::latency_bound() const {
+  const double factor = context_.restraint.bound_factor;
+  return factor == 1.0 ? latency_bound_ : from_seconds(factor * to_seconds(latency_bound_));
+}
+
+double PathFollower::safe_cruise() const {
+  if (context_.restraint.must_hover) {
+    return 0.0;
+  }
+  double safe = 0.0;
+  for (std::size_t tier = 0; tier < free_until_m_.size(); ++tier) {
+    safe = std::max(safe, cruise_speed(tier));
+  }
+  return safe;
+}
+
+double PathFollower::stopping() const {
+  return std::min(stopping_m_s2, guard_.settings().max_deceleration_m_s2);
+}
+
+double PathFollower::speed_limit() const {
+  const double stop = safe_speed(stopping(), SpeedProfileLimits{}.lag_s, stop_at_m_ - s_m_);
+  return std::min(profile_.at(s_m_), stop);
+}
+
+// A tier whose free space ends is left for the next slower one; the slowest is left for a stop.
+double PathFollower::braked_speed(double dt_s) const {
+  const auto speeds = tier_speeds_m_s();
+  const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
+  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
+    const double floor = tier == 0 ? 0.0 : speeds[tier - 1];
+    if (speed_m_s_ > floor && guard_.must_brake(speed_m_s_, free_until_m_[tier] - s_m_)) {
+      return std::max(floor, least);
+    }
+  }
+  return speed_m_s_ + comfort_m_s2 * dt_s;
+}
+
+// A vehicle that has fallen out of its tube is waited for: the reference slows down to a crawl.
+// Lagging along the path is no danger, and waiting for it would make both swing.
+double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
+  const Vec3 tangent_W = path_.at(s_m_).tangent_W;
+  const double along_m = error_W.dot(tangent_W);
+  const double across_m = (error_W - along_m * tangent_W).norm();
+  const double tube_m = context_.tube.radius_m(speed_m_s_);
+  constexpr double patience_m = 0.2;
+  constexpr double lag_m = 0.5;
+  const double out_m = std::max(across_m - tube_m, std::abs(along_m) - lag_m);
+  return std::clamp(1.0 - out_m / patience_m, 0.1, 1.0);
+}
+
+double PathFollower::next_speed(double dt_s, const Vec3& error_W) {
+  const double braking = guard_.settings().max_deceleration_m_s2;
+  const double waiting = wait_for_vehicle(error_W);
+  const double cruise = waiting * safe_cruise();
+  const double limit = waiting * speed_limit();
+  target_m_s_ = std::min(cruise, limit);
+  const double eased_m_s = eased(speed_m_s_, cruise, dt_s);
+  const double wished = towards(speed_m_s_, std::min(eased_m_s, limit), braking, dt_s);
+  return std::min(wished, braked_speed(dt_s));
+}
+
+PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error_W) {
+  const double dt_s = to_seconds(dt);
+  double acceleration = 0.0;
+  if (has_path()) {
+    const double next = next_speed(dt_s, error_W);
+    acceleration = (next - speed_m_s_) / dt_s;
+    const double moved =
+        std::min(0.5 * (next + speed_m_s_) * dt_s, std::max(0.0, stop_at_m_ - s_m_));
+    s_m_ += moved;
+    travelled_m_ += moved;
+    // The last millimetres of a square-root approach would take for ever.
+    speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
+    turn(dt_s, now);
+  }
+  if (face_yaw_rad_ && stands_still()) {
+    turn_towards(*face_yaw_rad_, dt_s);
+  }
+  odometer_.emplace_back(now, travelled_m_);
+  while (odometer_.front().first + odometer_memory < now) {
+    odometer_.pop_front();
+  }
+  return {s_m_, speed_m_s_, acceleration, yaw_rad_};
+}
+
+// Yaw looks where the path goes next, at least as far as the first place that must be seen before
+// it can be flown to: so the vehicle turns in place before it leaves its field of view.
+std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
+  const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
+  Vec3 direction = path_.at(s_m_ + ahead_m).p_W - path_.at(s_m_).p_W;
+  direction.z() = 0.0;
+  if (direction.norm() <= 0.1) {
+    return std::nullopt;
+  }
+  // Stalled before something unknown: look left and right of it.
+  const double stalled_s = std::max(0.0, to_seconds(stalled(now)) - 2.0);
+  return yaw_of(direction) + 0.8 * std::sin(stalled_s);
+}
+
+void PathFollower::turn_towards(double yaw_rad, double dt_s) {
+  const double error = wrap_angle(yaw_rad - yaw_rad_);
+  yaw_rad_ =
+      wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+}
+
+void PathFollower::turn(double dt_s, MissionTime now) {
+  if (const auto wanted_rad = wanted_yaw_rad(now)) {
+    turn_towards(*wanted_rad, dt_s);
+  }
+  const bool stands = speed_m_s_ <= 0.02;
+  if (!stands || is_at_end()) {
+    stalled_since_.reset();
+  } else if (!stalled_since_) {
+    stalled_since_ = now;
+  }
+}
+
+Vec3 PathFollower::position_W() const {
+  return has_path() ? path_.at(s_m_).p_W : hover_W_;
+}
+
+TrackingError PathFollower::tracking_error(const Vec3& error_W) const {
+  const Vec3 tangent_W = has_path() ? path_.at(s_m_).tangent_W : Vec3{Vec3::Zero()};
+  const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
+  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
+}
+
+double PathFollower::stop_point_m(double deceleration_m_s2) const {
+  const double v = speed_m_s_;
+  return s_m_ + v * to_seconds(guard_.settings().tick) + v * v / (2.0 * deceleration_m_s2);
+}
+
+// Where room is left for the wide tube, so that the next path can be flown at speed from its start;
+// but not nearer than full braking reaches.
+double PathFollower::planned_stop_m() const {
+  const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
+  const double wished = stop_point_m(stopping()) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
+  const double wide = free_until_m_.back() - stop_margin_m;
+  const double reach = wide > s_m_ ? wide : free_until_m_.front();
+  return std::max(std::min(wished, reach), stop_point_m(limit_m_s2));
+}
+
+double PathFollower::farthest_stop_m() const {
+  return std::min(path_.length_m(), free_until_m_.back() - stop_margin_m);
+}
+
+bool PathFollower::is_at_end() const {
+  return has_path() && speed_m_s_ == 0.0 && path_.length_m() - s_m_ < 0.01;
+}
+
+Duration PathFollower::stalled(MissionTime now) const {
+  return stalled_since_ ? now - *stalled_since_ : Duration{0};
+}
+
+}  // namespace flyball

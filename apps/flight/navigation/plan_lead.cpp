@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/navigation/plan_lead.h"
+
+#include "simulation/flight_recorder.h"
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace flyball {
+namespace {
+
+constexpr double lead_over_usual = 1.5;
+constexpr double usual_share = 0.8;
+constexpr std::size_t plans_remembered = 5;
+constexpr double most_lead_s = 3.0;
+constexpr double least_iterations = 100.0;  // Else their fixed part would be counted.
+
+}  // namespace
+
+void PlanLead::took(double plan_s, double iterations) {
+  taken_.push_back({plan_s, iterations});
+  if (taken_.size() > plans_remembered) {
+    taken_.pop_front();
+  }
+}
+
+double PlanLead::lead_s() const {
+  std::vector<double> taken_s;
+  taken_s.reserve(taken_.size());
+  for (const Taken& plan : taken_) {
+    taken_s.push_back(plan.s);
+  }
+  const double usual_s = quantile(std::move(taken_s), usual_share);
+  return std::clamp(lead_over_usual * usual_s, least_plan_lead_s, most_lead_s);
+}
+
+double PlanLead::iteration_s() const {
+  Taken all;
+  for (const Taken& plan : taken_) {
+    all.s += plan.s;
+    all.iterations += plan.iterations;
+  }
+  return all.iterations < least_iterations ? 0.0 : all.s / all.iterations;
+}
+
+}  // namespace flyball

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/navigation/plan_with_tubes.h"
+
+#include "flyball/runtime/random.h"
+
+#include "flight/navigation/gap_scan.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+// Beside the tube of cruise speed: two of the cells with which that speed can be flown (.30 m),
+// one that an obstacle fills by its border and one that must be known free. (Larger ones keep their
+// distance by themselves.) A path with so much room keeps a map of such cells passable; a corner
+// that is cut closer costs fine cells, and half the speed.
+constexpr double room_m = 0.6;
+
+constexpr double aside_m = 20.0;     // A way farther off the line is a detour for any tube.
+constexpr double exact_to_m = 0.25;  // Widths of openings.
+constexpr double half_band_m = 0.3;
+
+constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
+constexpr double worthwhile = 0.5;       // A narrow way, for it is slower, saves this share of it.
+constexpr int shorter_iterations = 400;  // A known door takes fewer (tests/kernels/rrt_test.cpp).
+constexpr int most_improvements = 3;
+// Measured in flights of delivery_mixed: 9 of 88 such searches found a way, and of the time that a
+// vehicle in motion searches it loses this share; the rest it flies on.
+constexpr double finds_one = 0.1;
+constexpr double lost_in_motion = 0.37;
+
+class Search {
+ public:
+  Search(MissionContext& context, const PlanQuery& query) : context_{context}, query_{query} {
+    request_.start_W = query.start_W;
+    request_.goal_W = query.goal_W;
+    request_.bounds_W = context.brief.bounds_W;
+    request_.seed = RandomStream{context.scenario.seed, "planner", query.id}.next();
+  }
+
+  Plan plan() {
+    if (find_any()) {
+      look_for_shorter();
+    }
+    plan_.work = work_;
+    return plan_;
+  }
+  [[nodiscard]] const Cylinder& body() const { return body_; }
+
+ private:
+  // First with room around the wide tube that cruise speed needs, then without, each for a part of
+  // the budget: what is there is mostly found soon. The narrow one gets what is left. A tube that
+  // no opening on the way lets through is not tried: before doors that would be a quarter of the
+  // time.
+  bool find_any() {
+    const int budget = static_cast<int>(context_.knobs.value("planner.budget"));
+    if (query_.may_be_tight) {
+      return try_with(context_.narrow_body(), budget);
+    }
+    const double opening_m = narrowest_opening_m();
+    const auto fits = [&](const Cylinder& body) {
+      return 2.0 * body.radius_m <= opening_m + exact_to_m;
+    };
+    const int part = budget / 8;
+    const Cylinder wide = context_.body_at(context_.knobs.value("mission.max_speed_m_s"));
+    const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
+    const bool tries_roomy = 2.0 * context_.map().resolution_m() <= room_m && fits(roomy);
+    const bool tries_wide = fits(wide);
+    const int tried = (tries_roomy ? part : 0) + (tries_wide ? part : 0);
+    return (tries_roomy && try_with(roomy, part)) || (tries_wide && try_with(wide, part)) ||
+           try_with(context_.narrow_body(), budget - tried);
+  }
+
+  [[nodiscard]] double narrowest_opening_m() const {
+    GapScan scan;
+    scan.reach_m = (request_.goal_W - request_.start_W).norm();
+    scan.aside_m = aside_m;
+    scan.half_band_m = half_band_m;
+    scan.bounds_W = context_.brief.bounds_W;
+    return gaps_ahead(context_.map(), request_.start_W, request_.goal_W, scan).narrowest_m;
+  }
+
+  void look_for_shorter() {
+    const double line_m = (request_.goal_W - request_.start_W).norm();
+    for (int i = 0; i < most_improvements; ++i) {
+      const double now_m = length_m(plan_.waypoints_W);
+      const double saved_m = worthwhile * (now_m - line_m);
+      request_.shorter_than_m = now_m - saved_m;
+      const int iterations = now_m > line_m + detour_m ? iterations_worth(saved_m) : 0;
+      if (iterations == 0 || !try_with(context_.narrow_body(), iterations)) {
+        return;
+      }
+    }
+  }
+
+  /// No longer than the time that they may save.
+  [[nodiscard]] int iterations_worth(double saved_m) const {
+    const double limit_m_s = std::min(context_.speed_limit_m_s(query_.start_W),
+                                      context_.knobs.value("mission.max_speed_m_s"));
+    const double lost = query_.start_direction_W.isZero() ? 1.0 : lost_in_motion;
+    const double worth_s = finds_one * saved_m / limit_m_s / lost;
+    return worth_s >= shorter_iterations * query_.iteration_s
+               ? shorter_iterations
+               : static_cast<int>(worth_s / query_.iteration_s);
+  }
+
+  /// Keeps what was found before when nothing is found.
+  bool try_with(const Cylinder& body, int iterations) {
+    request_.body = body;
+    request_.max_iterations = iterations;
+    Plan plan = context_.kernels.planner->plan(request_, context_.map());
+    for (const auto& item : plan.work.items()) {
+      work_.add(item.name, item.count);
+    }
+    const bool found = !plan.waypoints_W.empty();
+    if (found || plan_.waypoints_W.empty()) {
+      plan_ = std::move(plan);
+      body_ = body;
+    }
+    return found;
+  }
+
+  MissionContext& context_;
+  const PlanQuery& query_;
+  PlanRequest request_;
+  Plan plan_;
+  Cylinder body_;
+  Work work_;
+};
+
+}  // namespace
+
+Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
+  Search search{context, query};
+  Plan plan = search.plan();
+  body = search.body();
+  return plan;
+}
+
+}  // namespace flyball

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/navigation/sub_goal.h"
+
+namespace flyball {
+namespace {
+
+constexpr double step_m = 2.5;
+constexpr double nearest_share = 0.5;  // Of the horizon: nearer goals would make short legs.
+constexpr double aside_m = 3.0;
+constexpr int most_aside = 4;
+constexpr double half_band_m = 0.3;
+// What is unknown and nearer to an obstacle may be its inside: RoboRun's blocks are 4 m wide.
+constexpr double unknown_gap_m = 3.0;
+
+bool may_be_there(const MissionContext& context, const Vec3& p_W) {
+  if (!context.brief.bounds_W.contains(p_W)) {
+    return false;
+  }
+  const CellState state = context.map().body_state(p_W, context.narrow_body());
+  return state == CellState::free ||
+         (state == CellState::unknown &&
+          context.map().nearest_obstacle_m(p_W, unknown_gap_m, half_band_m) >= unknown_gap_m);
+}
+
+}  // namespace
+
+Vec3 sub_goal_W(const MissionContext& context,
+                const Vec3& start_W,
+                const Vec3& goal_W,
+                int failures) {
+  const double horizon_m = context.scenario.planner.horizon_m;
+  const double distance_m = (goal_W - start_W).norm();
+  if (horizon_m <= 0.0 || distance_m <= horizon_m) {
+    return goal_W;
+  }
+  const Vec3 ahead_W = (goal_W - start_W) / distance_m;
+  const Vec3 left_W = Vec3::UnitZ().cross(ahead_W);
+  for (int place = 0; place <= 2 * most_aside; ++place) {
+    const double aside = aside_m * (place % 2 == 1 ? (place + 1) / 2 : -(place / 2));
+    for (double on_m = horizon_m; on_m >= nearest_share * horizon_m; on_m -= step_m) {
+      Vec3 p_W = start_W + on_m * ahead_W + aside * left_W;
+      p_W.z() = goal_W.z();
+      if (may_be_there(context, p_W) && failures-- <= 0) {
+        return p_W;
+      }
+    }
+  }
+  return goal_W;
+}
+
+}  // namespace flyball

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/people/target_nodes.h"
+
+#include "flight/people/person_range.h"
+#include "simulation/seeing_setup.h"
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A box that jumps by more than this share of the image's width is somebody else.
+constexpr double reach_share = 0.3;
+constexpr int give_up_after = 20;    // Frames: a second.
+constexpr int unconfirmed_most = 6;  // Looks in a row; nine of ten find somebody in view.
+
+double between_px(const ImageBox& a, const ImageBox& b) {
+  const double x = a.centre_x_px() - b.centre_x_px();
+  const double y = a.centre_y_px() - b.centre_y_px();
+  return std::sqrt(x * x + y * y);
+}
+
+/// Shows the tracker what it reads of the frame, and no more: the rest need not be rendered.
+Status begin_tracking(Tracker& tracker, const ColourFrame& frame, const ImageBox& box, Work& work) {
+  return tracker.begin(frame.image.part(tracker.learns_from(box, frame.camera)), box, work);
+}
+
+Result<std::optional<ImageBox>> track(Tracker& tracker, const ColourFrame& frame, Work& work) {
+  return tracker.update(frame.image.part(tracker.looks_at(frame.camera)), work);
+}
+
+void add_detect(Graph& graph,
+                const VehicleTopics& vehicle,
+                const TargetTopics& topics,
+                MissionContext& context) {
+  NodeSpec spec;
+  spec.name = "detect";
+  spec.cost = detector_cost(context.scenario);
+  spec.trigger = OnMessage{vehicle.colour.index};
+  spec.priority = 10;
+  spec.writes = {topics.detections.index};
+  graph.node(std::move(spec), [vehicle, topics, &context](JobContext& job) {
+    Work work;
+    const auto frame = job.latest(vehicle.colour);
+    if (!frame || context.phase != MissionPhase::cruise) {
+      return work;
+    }
+    auto people = context.kernels.detector->detect(frame->image.value(),
+                                                   context.knobs.value("detector.scale"), work);
+    if (!people) {
+      context.event(job.now(), "not looked at: " + people.error().message);
+      return work;
+    }
+    job.publish(topics.detections, Detections{*frame, std::move(*people)});
+    return work;
+  });
+}
+
+/// Takes a detection through the frames that arrived while the detector ran, to the newest of them.
+class BufferedTracking {
+ public:
+  BufferedTracking(const VehicleTopics& vehicle,
+                   const TargetTopics& topics,
+                   MissionContext& context,
+                   TargetLog& log)
+      : vehicle_{vehicle}, topics_{topics}, context_{context}, log_{log} {}
+
+  Work operator()(JobContext& job) {
+    Work work;
+    const auto seen = job.latest(topics_.detections);
+    if (!seen) {
+      return work;
+    }
+    CaughtUp caught_up{seen->frame, chosen(job, *seen), 0};
+    if (caught_up.box) {
+      job.publish(topics_.sighting, Target{seen->frame, caught_up.box});
+      begin(job, caught_up, work);
+    }
+    // Taken in any case: the next detection's frames are those that come from now on.
+    while (const auto frame = job.take(vehicle_.colour_buffer)) {
+      if (frame->sequence > seen->frame.sequence) {
+        catch_up(job, *frame, caught_up, work);
+      }
+    }
+    log_.buffered_frames += caught_up.frames_between;
+    job.publish(topics_.caught_up, std::move(caught_up));
+    return work;
+  }
+
+ private:
+  std::optional<ImageBox> chosen(JobContext& job, const Detections& seen) {
+    const auto target = job.latest(topics_.target);
+    const auto last = target ? target->box : std::nullopt;
+    const auto person = pick(plausible(seen, job.latest(topics_.pose).get(), context_), last,
+                             reach_share * seen.frame.camera.width_px);
+    ++log_.looks;
+    log_.detections += person ? 1 : 0;
+    log_.missed_in_row = person ? 0 : log_.missed_in_row + 1;
+    context_.recorder.record(job.now(), "detection",
+                             {{"frame", static_cast<std::int64_t>(seen.frame.sequence)},
+                              {"people", static_cast<std::int64_t>(seen.people.size())},
+                              {"score", person ? person->score : 0.0},
+                              {"chosen", static_cast<std::int64_t>(person.has_value())}});
+    return person ? std::optional{person->box} : std::nullopt;
+  }
+
+  void begin(JobContext& job, CaughtUp& caught_up, Work& work) {
+    const Status begun =
+        begin_tracking(*context_.kernels.buffered_tracker, caught_up.frame, *caught_up.box, work);
+    if (!begun) {
+      context_.event(job.now(), "not tracked: " + begun.error().message);
+      caught_up.box = std::nullopt;
+    }
+  }
+
+  void catch_up(JobContext& job, const ColourFrame& frame, CaughtUp& caught_up, Work& work) {
+    ++caught_up.frames_between;
+    if (!caught_up.box) {
+      return;
+    }
+    auto box = track(*context_.kernels.buffered_tracker, frame, work);
+    if (!box) {
+      context_.event(job.now(), "not tracked: " + box.error().message);
+    }
+    caught_up.box = box ? *box : std::nullopt;
+    caught_up.frame = frame;
+  }
+
+  VehicleTopics vehicle_;
+  TargetTopics topics_;
+  MissionContext& context_;
+  TargetLog& log_;
+};
+
+void add_buffered(Graph& graph,
+                  const VehicleTopics& vehicle,
+                  const TargetTopics& topics,
+                  MissionContext& context,
+                  TargetLog& log) {
+  NodeSpec spec;
+  spec.name = "track_buffered";
+  spec.cost = context.scenario.kernels.tracker + "_buffered";
+  spec.trigger = OnMessage{topics.detections.index};
+  spec.priority = 20;
+  spec.reads = {vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
+  spec.writes = {topics.sighting.index, topics.caught_up.index};
+  auto tracking = std::make_shared<BufferedTracking>(vehicle, topics, context, log);
+  graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
+}
+
+/// Follows from frame to frame; a detection that was caught up with replaces what it follows. What
+/// was not seen for a while is given up: the view has gone elsewhere. So is what no detector
+/// confirms: a tracker holds on to the tree behind which somebody went.
+class RealTimeTracking {
+ public:
+  RealTimeTracking(const VehicleTopics& vehicle,
+                   const TargetTopics& topics,
+                   MissionContext& context,
+                   const TargetLog& log)
+      : vehicle_{vehicle}, topics_{topics}, context_{context}, log_{log} {}
+
+  Work operator()(JobContext& job) {
+    Work work;
+    const auto frame = job.latest(vehicle_.colour);
+    if (!frame) {
+      return work;
+    }
+    Target target{*frame, std::nullopt};
+    const auto caught_up = job.take(topics_.caught_up);
+    if (caught_up && caught_up->box) {
+      is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
+      unseen_in_row_ = 0;
+      target.box = is_following_ ? caught_up->box : std::nullopt;
+    }
+    is_following_ = is_following_ && log_.missed_in_row < unconfirmed_most;
+    const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
+    if (is_following_ && is_newer) {
+      const auto box = track(tracker(), *frame, work);
+      target.box = box ? *box : std::nullopt;
+      unseen_in_row_ = target.box ? 0 : unseen_in_row_ + 1;
+      is_following_ = unseen_in_row_ < give_up_after;
+    }
+    job.publish(topics_.target, target);
+    return work;
+  }
+
+ private:
+  [[nodiscard]] Tracker& tracker() const { return *context_.kernels.real_time_tracker; }
+
+  VehicleTopics vehicle_;
+  TargetTopics topics_;
+  MissionContext& context_;
+  const TargetLog& log_;
+  bool is_following_{};
+  int unseen_in_row_{};
+};
+
+void add_real_time(Graph& graph,
+                   const VehicleTopics& vehicle,
+                   const TargetTopics& topics,
+                   MissionContext& context,
+                   const TargetLog& log) {
+  NodeSpec spec;
+  spec.name = "track_real_time";
+  spec.cost = context.scenario.kernels.tracker + "_real_time";
+  spec.trigger = OnMessage{vehicle.colour.index};
+  spec.priority = 30;
+  spec.reads = {topics.caught_up.index};
+  spec.writes = {topics.target.index};
+  auto tracking = std::make_shared<RealTimeTracking>(vehicle, topics, context, log);
+  graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
+}
+
+}  // namespace
+
+std::optional<Detection> pick(const std::vector<Detection>& people,
+                              const std::optional<ImageBox>& last,
+                              double reach_px) {
+  std::optional<Detection> best;
+  for (const Detection& person : people) {  // Surest first.
+    if (!last) {
+      return person;
+    }
+    const double away_px = between_px(person.box, *last);
+    if (away_px <= reach_px && (!best || away_px < between_px(best->box, *last))) {
+      best = person;
+    }
+  }
+  return best;
+}
+
+std::vector<Detection> plausible(const Detections& seen,
+                                 const PoseEstimate* pose,
+                                 const MissionContext& context) {
+  if (pose == nullptr) {
+    return seen.people;
+  }
+  const PersonGeometry geometry{context.scenario.photography.person_height_m,
+                                pose->X_WB.translation().z() - context.brief.ground_z_m};
+  std::vector<Detection> people;
+  std::copy_if(seen.people.begin(), seen.people.end(), std::back_inserter(people),
+               [&](const Detection& person) {
+                 return is_plausible(person_range(person.box, seen.frame, geometry));
+               });
+  return people;
+}
+
+TargetTopics add_target(Graph& graph,
+                        const VehicleTopics& vehicle,
+                        Topic<PoseEstimate> pose,
+                        MissionContext& context,
+                        TargetLog& log) {
+  TargetTopics topics;
+  topics.pose = pose;
+  topics.detections = graph.topic<Detections>("detections");
+  topics.sighting = graph.topic<Target>("sighting");
+  topics.caught_up = graph.topic<CaughtUp>("caught_up");
+  topics.target = graph.topic<Target>("target");
+  add_detect(graph, vehicle, topics, context);
+  add_buffered(graph, vehicle, topics, context, log);
+  add_real_time(graph, vehicle, topics, context, log);
+  return topics;
+}
+
+}  // namespace flyball

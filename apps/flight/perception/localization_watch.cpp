@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/perception/localization_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double stop_s = 1.5;  // From 6 m/s at 5 m/s^2, and a little.
+constexpr double look_s = 6.0;  // Left and right and back.
+constexpr double look_aside_rad =
+    1.0471975511965976;  // 60 degrees: with a field of 90, 210 in all.
+constexpr double way_back_m = 3.0;
+constexpr double back_speed_m_s = 1.0;  // Slower than whatever it lost its way at.
+constexpr double back_s = way_back_m / back_speed_m_s + 1.0;
+constexpr double patience_s = stop_s + 2.0 * look_s + back_s + 2.0;
+constexpr double trail_step_m = 0.1;
+constexpr std::size_t trail_points = 50;
+
+double look_aside(double since_s) {
+  constexpr double full_turn_rad = 6.283185307179586;
+  return look_aside_rad * std::sin(full_turn_rad * std::clamp(since_s / look_s, 0.0, 1.0));
+}
+
+}  // namespace
+
+void LocalizationWatch::fixed(MissionTime now, const VisualFix& fix) {
+  has_fixes_ = true;
+  if (!fix.tracked && !lost_since_) {
+    lost_since_ = now;
+    ++times_lost_;
+  } else if (fix.tracked && lost_since_) {
+    lost_s_ += to_seconds(now - *lost_since_);
+    lost_since_.reset();
+    search_height_W_m_.reset();
+  }
+}
+
+bool LocalizationWatch::has_given_up(MissionTime now) const {
+  return lost_since_ && to_seconds(now - *lost_since_) > patience_s;
+}
+
+void LocalizationWatch::compare(const PoseEstimate& estimate, const Vec3& p_WB_truth) {
+  const double error_m = (estimate.X_WB.translation() - p_WB_truth).norm();
+  error_sum_m_ += error_m;
+  error_max_m_ = std::max(error_max_m_, error_m);
+  ++compared_;
+}
+
+void LocalizationWatch::passed(const PoseEstimate& estimate) {
+  if (trail_.empty() ||
+      (estimate.X_WB.translation() - trail_.back().X_WB.translation()).norm() > trail_step_m) {
+    trail_.push_back(estimate);
+    if (trail_.size() > trail_points) {
+      trail_.pop_front();
+    }
+  }
+}
+
+const PoseEstimate& LocalizationWatch::passed_before(double path_m) const {
+  std::size_t i = trail_.size() - 1;
+  for (double back_m = 0.0; i > 0 && back_m < path_m; --i) {
+    back_m += (trail_[i].X_WB.translation() - trail_[i - 1].X_WB.translation()).norm();
+  }
+  return trail_[i];
+}
+
+std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height_W_m) {
+  if (!lost_since_ || trail_.empty()) {
+    return std::nullopt;
+  }
+  const double since_s = to_seconds(now - *lost_since_);
+  const double back_since_s = since_s - stop_s - look_s;
+  const PoseEstimate& at =
+      passed_before(std::clamp(back_since_s * back_speed_m_s, 0.0, way_back_m));
+  Setpoint setpoint;
+  setpoint.stamp = now;
+  search_height_W_m_ = search_height_W_m_.value_or(height_W_m);
+  setpoint.p_WB = at.X_WB.translation();
+  setpoint.p_WB.z() = *search_height_W_m_;
+  setpoint.yaw_rad = wrap_angle(yaw_of(at.X_WB.linear().col(0)) + look_aside(since_s - stop_s) +
+                                look_aside(back_since_s - back_s));
+  return setpoint;
+}
+
+std::map<std::string, double> LocalizationWatch::quality(MissionTime now) const {
+  std::map<std::string, double> values;
+  if (compared_ > 0) {
+    values["localization_error_m_mean"] = error_sum_m_ / static_cast<double>(compared_);
+    values["localization_error_m_max"] = error_max_m_;
+  }
+  if (has_fixes_) {
+    values["localization_lost"] = times_lost_;
+    values["localization_lost_s"] = lost_s_ + (lost_since_ ? to_seconds(now - *lost_since_) : 0.0);
+  }
+  return values;
+}
+
+}  // namespace flyball

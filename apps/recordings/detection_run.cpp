@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/recordings/detection_run.h"
+
+#include "flyball/records/pictures.h"
+#include "flyball/records/report.h"
+
+#include "simulation/seeing_setup.h"
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Rgb box_colour{255, 40, 40};
+
+Result<std::unique_ptr<Detector>> detector_of(const DetectionRun& run) {
+  Scenario scenario;
+  scenario.kernels.detector = run.detector;
+  scenario.kernels.detector_parameters = run.parameters;
+  scenario.detector.models_folder = run.models_folder;
+  return make_detector(scenario);
+}
+
+/// `vtest_000040.png`: of a video each frame has its own file.
+std::string picture_name(const Picture& picture) {
+  char number[24];
+  std::snprintf(number, sizeof number, "_%06llu.png",
+                static_cast<unsigned long long>(picture.frame));
+  const fs::path file{picture.file};
+  return file.stem().string() + (picture.frame > 0 ? number : ".png");
+}
+
+Result<std::string> write_picture(const DetectionRun& run,
+                                  Picture picture,
+                                  const std::vector<Detection>& people) {
+  for (const Detection& person : people) {
+    draw_box(picture.image, person.box, box_colour);
+  }
+  const auto content = png_of(picture.image);
+  if (!content) {
+    return content.error();
+  }
+  const std::string path = (fs::path{run.out} / picture_name(picture)).string();
+  const Status written = write_file(path, *content);
+  return written ? Result<std::string>{path} : written.error();
+}
+
+Result<DetectedFrame> look(const DetectionRun& run, Detector& detector, Picture picture) {
+  DetectedFrame frame{picture.file, picture.frame, {}, {}, 0.0, {}};
+  const auto begun = std::chrono::steady_clock::now();
+  auto people = detector.detect(picture.image, run.scale, frame.work);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
+  if (!people) {
+    return people.error();
+  }
+  frame.host_ms = took.count();
+  frame.people = std::move(*people);
+  if (!run.out.empty()) {
+    auto written = write_picture(run, std::move(picture), frame.people);
+    if (!written) {
+      return written.error();
+    }
+    frame.picture = std::move(*written);
+  }
+  return frame;
+}
+
+}  // namespace
+
+Status run_detection(const DetectionRun& run,
+                     const std::function<bool(const DetectedFrame&)>& report) {
+  auto detector = detector_of(run);
+  if (!detector) {
+    return detector.error();
+  }
+  auto pictures = open_pictures(run.input);
+  if (!pictures) {
+    return pictures.error();
+  }
+  if (!run.out.empty()) {
+    if (const auto prepared = prepare_folder(run.out); !prepared) {
+      return prepared.error();
+    }
+  }
+  while (true) {
+    auto picture = (*pictures)->next();
+    if (!picture) {
+      return picture.error();
+    }
+    if (!picture->has_value()) {
+      return Done{};
+    }
+    if ((*picture)->frame % run.every != 0) {
+      continue;
+    }
+    const auto frame = look(run, **detector, std::move(**picture));
+    if (!frame) {
+      return frame.error();
+    }
+    if (!report(*frame)) {
+      return Done{};
+    }
+  }
+}
+
+std::string to_json(const DetectedFrame& frame) {
+  nlohmann::ordered_json line{{"file", frame.file}, {"frame", frame.frame}};
+  line["people"] = nlohmann::ordered_json::array();
+  for (const Detection& person : frame.people) {
+    line["people"].push_back({{"x_px", person.box.x_px},
+                              {"y_px", person.box.y_px},
+                              {"width_px", person.box.width_px},
+                              {"height_px", person.box.height_px},
+                              {"score", person.score}});
+  }
+  for (const WorkItem& item : frame.work.items()) {
+    line["work"][std::string{item.name}] = item.count;
+  }
+  line["host_ms"] = frame.host_ms;
+  if (!frame.picture.empty()) {
+    line["picture"] = frame.picture;
+  }
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace flyball

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/recordings/localization_run.h"
+
+#include "flyball/kernels/localizer.h"
+#include "flyball/simulation/mission.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+Status check_inputs(const Recording& recording, const LocalizerInputs& inputs) {
+  const bool has_depth = std::all_of(recording.frames.begin(), recording.frames.end(),
+                                     [](const RecordedFrame& f) { return !f.depth_file.empty(); });
+  if (inputs.depth && !has_depth) {
+    return Error{ErrorCode::invalid_input,
+                 "the recording has no depth images, and this localizer needs them; try "
+                 "--localizer visual_inertial"};
+  }
+  if (inputs.imu && recording.imu.empty()) {
+    return Error{ErrorCode::invalid_input,
+                 "the recording has no inertial measurements, and this localizer needs them; try "
+                 "--localizer visual_slam"};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name) {
+  auto localizer = all_plugins().make<Localizer>(name);
+  if (localizer && localizer->inputs().images) {
+    return localizer;
+  }
+  std::string names;
+  for (const std::string& other : all_plugins().names<Localizer>()) {
+    if (all_plugins().make<Localizer>(other)->inputs().images) {
+      names += (names.empty() ? "" : ", ") + other;
+    }
+  }
+  return Error{localizer ? ErrorCode::invalid_input : ErrorCode::not_found,
+               (localizer ? "localizer \"" + name + "\" looks at no images"
+                          : "no localizer \"" + name + "\"") +
+                   "; there are: " + names};
+}
+
+Result<LocalizationRun> localize(const Recording& recording,
+                                 Localizer& localizer,
+                                 const std::function<bool()>& stop) {
+  if (const Status fits = check_inputs(recording, localizer.inputs()); !fits) {
+    return fits.error();
+  }
+  localizer.start({});
+  LocalizationRun run;
+  Work work;
+  double busy_ms = 0.0;
+  auto imu = recording.imu.begin();
+  for (std::size_t i = 0; i < recording.frames.size() && !stop(); ++i) {
+    const auto frame = load_frame(recording, i);
+    if (!frame) {
+      return frame.error();
+    }
+    const HostTime begun = HostTime::clock::now();
+    for (; imu != recording.imu.end() && imu->stamp <= frame->captured; ++imu) {
+      localizer.feel(*imu);
+    }
+    const auto fix = localizer.see(*frame, work);
+    const double frame_ms =
+        1e3 * std::chrono::duration<double>(HostTime::clock::now() - begun).count();
+    if (!fix) {
+      return fix.error();
+    }
+    ++run.frames;
+    run.lost += fix->tracked ? 0 : 1;
+    run.keyframes = fix->keyframes;
+    run.loops_closed = fix->loops_closed;
+    busy_ms += frame_ms;
+    run.frame_ms_max = std::max(run.frame_ms_max, frame_ms);
+    if (fix->tracked) {
+      run.path.push_back({fix->captured, fix->X_WB});
+    }
+  }
+  run.frame_ms_mean = run.frames > 0 ? busy_ms / run.frames : 0.0;
+  run.error = absolute_trajectory_error(run.path, recording.truth);
+  return run;
+}
+
+}  // namespace flyball

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: recording
+
+#include "flyball/recordings/recording.h"
+
+#include "recordings/recording_images.h"
+#include "recordings/recording_text.h"
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace flyball {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in(const std::string& folder, const std::string& name) {
+  return (fs::path{folder} / "mav0" / name).string();
+}
+
+/// The numbers between the first brackets after `key:`. Enough of YAML for these files, whose every
+/// list is written so.
+Result<std::vector<double>> list_of(const std::string& file,
+                                    const std::string& text,
+                                    const std::string& key,
+                                    std::size_t count) {
+  const std::size_t at = text.find("\n" + key + ":");
+  const std::size_t open = at == std::string::npos ? at : text.find('[', at);
+  const std::size_t close = open == std::string::npos ? open : text.find(']', open);
+  std::vector<double> numbers;
+  if (close != std::string::npos) {
+    std::string word;
+    for (const char c : text.substr(open + 1, close - open - 1) + ",") {
+      if (c != ',') {
+        word += std::isspace(static_cast<unsigned char>(c)) != 0 ? "" : std::string{c};
+      } else if (const auto value = to_number(word)) {
+        numbers.push_back(*value);
+        word.clear();
+      }
+    }
+  }
+  if (numbers.size() != count) {
+    return Error{ErrorCode::invalid_input,
+                 file + ": " + key + " must be a list of " + std::to_string(count) + " numbers"};
+  }
+  return numbers;
+}
+
+Status read_camera(const std::string& file, Recording& recording) {
+  std::ifstream in_file{file};
+  if (!in_file) {
+    return Error{ErrorCode::not_found, "cannot read \"" + file + "\""};
+  }
+  const std::string text = "\n" + std::string{std::istreambuf_iterator<char>{in_file}, {}};
+  const auto intrinsics = list_of(file, text, "intrinsics", 4);
+  if (!intrinsics) {
+    return intrinsics.error();
+  }
+  const auto distortion = list_of(file, text, "distortion_coefficients", 4);
+  if (!distortion) {
+    return distortion.error();
+  }
+  std::string nested = text;  // T_BS's list stands one level deeper: data: [...].
+  const std::size_t pose_at = nested.find("\nT_BS:");
+  const std::size_t data_at =
+      pose_at == std::string::npos ? pose_at : nested.find("data:", pose_at);
+  const auto X =
+      list_of(file, data_at == std::string::npos ? "" : "\n" + nested.substr(data_at), "data", 16);
+  if (!X) {
+    return X.error();
+  }
+  recording.camera = {0, 0, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3],
+                      {}};
+  std::copy(distortion->begin(), distortion->end(), recording.camera.distortion.begin());
+  Eigen::Matrix3d R;
+  R << (*X)[0], (*X)[1], (*X)[2], (*X)[4], (*X)[5], (*X)[6], (*X)[8], (*X)[9], (*X)[10];
+  recording.X_BC.linear() = Eigen::Quaterniond{R}.normalized().toRotationMatrix();
+  recording.X_BC.translation() = Vec3{(*X)[3], (*X)[7], (*X)[11]};
+  return Done{};
+}
+
+Status read_images(const std::string& folder, Recording& recording) {
+  const std::string file = in(folder, "cam0/data.csv");
+  const auto lines = read_lines(file);
+  if (!lines) {
+    return lines.error();
+  }
+  for (const TextLine& line : *lines) {
+    const auto stamp = to_time(line.words.front());
+    if (!stamp || line.words.size() < 2) {
+      return wrong(file, line, "expected a time in nanoseconds and a file name");
+    }
+    recording.frames.push_back({*stamp, in(folder, "cam0/data/" + line.words[1]), ""});
+  }
+  if (recording.frames.empty()) {
+    return Error{ErrorCode::invalid_input, "\"" + file + "\" names no image"};
+  }
+  return size_from_image(recording);
+}
+
+Status read_imu(const std::string& folder, Recording& recording) {
+  const std::string file = in(folder, "imu0/data.csv");
+  const auto lines = read_lines(file);
+  if (!lines) {
+    return lines.error();
+  }
+  for (const TextLine& line : *lines) {
+    const auto stamp = to_time(line.words.front());
+    const auto values = numbers_of(file, line, 1, 6);
+    if (!stamp || !values) {
+      return stamp ? values.error() : wrong(file, line, "expected a time in nanoseconds");
+    }
+    const auto& v = *values;
+    recording.imu.push_back({*stamp, Vec3{v[0], v[1], v[2]}, Vec3{v[3], v[4], v[5]}});
+  }
+  return Done{};
+}
+
+Status read_truth(const std::string& folder, Recording& recording) {
+  const std::string file = in(folder, "state_groundtruth_estimate0/data.csv");
+  if (std::error_code failed; !fs::exists(file, failed)) {
+    return Done{};
+  }
+  const auto lines = read_lines(file);
+  if (!lines) {
+    return lines.error();
+  }
+  for (const TextLine& line : *lines) {
+    const auto stamp = to_time(line.words.front());
+    const auto values = numbers_of(file, line, 1, 7);
+    if (!stamp || !values) {
+      return stamp ? values.error() : wrong(file, line, "expected a time in nanoseconds");
+    }
+    const auto& v = *values;
+    TimedPose pose{*stamp, Pose::Identity()};
+    pose.X_WB.translation() = Vec3{v[0], v[1], v[2]};
+    pose.X_WB.linear() = Eigen::Quaterniond{v[3], v[4], v[5], v[6]}.normalized().toRotationMatrix();
+    recording.truth.push_back(pose);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+bool is_euroc(const std::string& folder) {
+  std::error_code failed;
+  return fs::is_directory(in(folder, "cam0"), failed);
+}
+
+Result<Recording> read_euroc(const std::string& folder, const RecordingSettings& settings) {
+  Recording recording;
+  if (const Status read = read_camera(in(folder, "cam0/sensor.yaml"), recording); !read) {
+    return read.error();
+  }
+  if (settings.intrinsics.size() == 4) {
+    recording.camera.focal_x_px = settings.intrinsics[0];
+    recording.camera.focal_y_px = settings.intrinsics[1];
+    recording.camera.centre_x_px = settings.intrinsics[2];
+    recording.camera.centre_y_px = settings.intrinsics[3];
+  }
+  for (const auto& read : {read_images, read_imu, read_truth}) {
+    if (const Status done = read(folder, recording); !done) {
+      return done.error();
+    }
+  }
+  return recording;
+}
+
+}  // namespace flyball

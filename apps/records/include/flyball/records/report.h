@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a run leaves on disk, and the page that shows it.
+
+#include "flyball/simulation/mission.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Makes the folder, and finds out whether files can be written there: ask before flying.
+/// @return The folders that it made, the outermost first.
+/// @error `unavailable`; nothing is left behind.
+Result<std::vector<std::string>> prepare_folder(const std::string& folder);
+/// Undoes `prepare_folder`, except for folders that hold something by now.
+void remove_empty(const std::vector<std::string>& folders);
+
+/// Writes a file under a temporary name and renames it: it appears whole or not at all.
+/// @error `unavailable`; an older file of this name is untouched.
+Status write_file(const std::string& path, const std::string& content);
+
+/// The scenario as it is kept beside a record, with version, build and a fingerprint of the data
+/// files that it names. Equal text: the same mission, flown by the same program.
+[[nodiscard]] std::string mission_file(const Scenario& scenario);
+/// The same for a page, folded up.
+[[nodiscard]] std::string scenario_html(const Scenario& scenario);
+
+/// Writes mission.toml, summary.json, trace.jsonl, picture.json and report.html into `folder` (made
+/// if missing). mission.toml comes last: where it stands, the record is complete. That of an
+/// interrupted mission says so.
+/// @error `unavailable` when the folder cannot be written.
+Status write_run(const std::string& folder, const Scenario& scenario, const MissionRecord& record);
+
+/// What the page needs of one run; small enough to keep for many runs.
+struct RunPicture {
+  Summary summary{};
+  std::string json{};  ///< World outline, path and time series at 2 Hz, as a JSON object.
+};
+[[nodiscard]] RunPicture picture_of(const MissionRecord& record);
+/// The picture of a run that `write_run` left in `folder`, when it is complete and of exactly this
+/// mission. Empty otherwise.
+[[nodiscard]] std::optional<RunPicture> finished_run(const std::string& folder,
+                                                     const Scenario& scenario);
+
+/// One self-contained page without network: table, plots over time (resolution, speed, power,
+/// battery) and a top view of world and paths; one colour per policy.
+[[nodiscard]] std::string report_page(const std::string& title,
+                                      const std::vector<RunPicture>& runs,
+                                      const std::string& table_html);
+
+}  // namespace flyball

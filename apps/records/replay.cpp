@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/records/replay.h"
+
+#include "flyball/governors/speed_limit.h"
+#include "flyball/runtime/guard.h"
+#include "flyball/runtime/observation_fields.h"
+#include "flyball/simulation/mission.h"
+
+#include "flight/governing/choice_text.h"
+#include "simulation/mission_setup.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+/// Goes through a flight's decisions.
+class Decisions {
+ public:
+  explicit Decisions(const RecordedFlight& flight)
+      : flight_{flight}, change_{flight.changes.begin()}, choice_{flight.choices.begin()} {}
+
+  /// False after the last one.
+  bool next() {
+    if (number_ == flight_.decisions) {
+      return false;
+    }
+    seen_.now = MissionTime{flight_.period * static_cast<Duration::rep>(number_++)};
+    for (; change_ != flight_.changes.end() && change_->first <= seen_.now; ++change_) {
+      for (const auto& [field, value] : change_->second) {
+        observation_fields()[field].set(seen_, value);
+      }
+    }
+    for (; choice_ != flight_.choices.end() && choice_->first <= seen_.now; ++choice_) {
+      recorded_ = choice_->second;
+    }
+    return true;
+  }
+  [[nodiscard]] const Observation& seen() const { return seen_; }
+  [[nodiscard]] const std::string& recorded() const { return recorded_; }
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+
+ private:
+  const RecordedFlight& flight_;
+  std::map<MissionTime, std::vector<std::pair<std::size_t, double>>>::const_iterator change_;
+  std::map<MissionTime, std::string>::const_iterator choice_;
+  std::uint64_t number_{};
+  Observation seen_{};
+  std::string recorded_{};
+};
+
+void note(ReplayResult& result, MissionTime at, const std::string& recorded, std::string now) {
+  auto& all = result.differences;
+  if (all.empty() || all.back().recorded != recorded || all.back().now != now) {
+    all.push_back({at, recorded, std::move(now)});
+  }
+}
+
+Result<std::unique_ptr<PolicyGovernor>> governor_for(Scenario scenario, const std::string& policy) {
+  if (!policy.empty()) {
+    scenario.governor.policy = policy;
+  }
+  auto setup = set_up(scenario);
+  if (!setup) {
+    return setup.error();
+  }
+  if (!setup->governor->policy().foresees().empty()) {
+    return Error{ErrorCode::unavailable, "policy \"" + scenario.governor.policy +
+                                             "\" is told what no record holds; fly it instead"};
+  }
+  return std::move(setup->governor);
+}
+
+/// How the knobs stand after a decision in the words of `choice_text`.
+void put_in_force(const std::string& choice, std::map<std::string, std::string>& in_force) {
+  const std::size_t begin = choice.find(": ") + 2;
+  const std::string settings = choice.substr(begin, choice.find(';', begin) - begin);
+  for (std::size_t at = 0; at < settings.size();) {
+    const std::size_t end = std::min(settings.find(' ', at), settings.size());
+    const std::string one = settings.substr(at, end - at);
+    if (const std::size_t equals = one.find('='); equals != std::string::npos) {
+      in_force[one.substr(0, equals)] = one.substr(equals + 1);
+    }
+    at = end + 1;
+  }
+}
+
+std::string short_number(const std::string& value) {
+  std::string text = std::to_string(std::stod(value));
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
+
+using InForce = std::map<std::string, std::string>;
+
+/// The knobs that stand otherwise, each with its value in `of`.
+std::string where_they_differ(const InForce& of, const InForce& other) {
+  std::string text;
+  for (const auto& [knob, value] : of) {
+    const auto found = other.find(knob);
+    if (found != other.end() && found->second != value) {
+      text += (text.empty() ? "" : ", ") + knob + " " + short_number(value);
+    }
+  }
+  return text;
+}
+
+InForce standing_at_start(const KnobSettings& knobs) {
+  InForce all;
+  Decision defaults;
+  for (const KnobSpec& spec : knobs.specs()) {
+    defaults.set(spec.name, spec.fallback);
+  }
+  put_in_force(": " + settings_text(defaults), all);
+  return all;
+}
+
+}  // namespace
+
+Result<ReplayResult> replay(const RecordedFlight& flight) {
+  const auto governor = governor_for(flight.scenario, "");
+  if (!governor) {
+    return governor.error();
+  }
+  ReplayResult result;
+  ChoiceMemory memory;
+  std::string now;
+  for (Decisions decisions{flight}; decisions.next(); ++result.decisions) {
+    const Decision answer = (*governor)->decide(decisions.seen());
+    if (memory.is_new(**governor, answer)) {
+      now = choice_text(**governor, answer);
+    }
+    if (now != decisions.recorded()) {
+      ++result.different;
+      note(result, decisions.seen().now, decisions.recorded(), now);
+    }
+  }
+  return result;
+}
+
+Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& policy) {
+  const auto governor = governor_for(flight.scenario, policy);
+  if (!governor) {
+    return governor.error();
+  }
+  ReplayResult result;
+  InForce recorded = standing_at_start((*governor)->knobs());
+  InForce now = recorded;
+  for (Decisions decisions{flight}; decisions.next(); ++result.decisions) {
+    const Decision answer = (*governor)->decide(decisions.seen());
+    put_in_force(decisions.recorded(), recorded);
+    put_in_force(choice_text(**governor, answer), now);
+    const std::string theirs = where_they_differ(recorded, now);
+    const std::string ours = where_they_differ(now, recorded);
+    result.different += theirs.empty() ? 0 : 1;
+    if (!theirs.empty() || !result.differences.empty()) {
+      note(result, decisions.seen().now, theirs.empty() ? "the same" : theirs,
+           ours.empty() ? "the same" : ours);
+    }
+  }
+  return result;
+}
+
+Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
+  const MissionTime end{flight.period * static_cast<Duration::rep>(flight.decisions)};
+  if (at < MissionTime{} || at > end) {
+    return Error{ErrorCode::invalid_input,
+                 "there is no decision at " + std::to_string(to_seconds(at)) +
+                     " s; the flight lasts from 0 to " + std::to_string(to_seconds(end)) + " s"};
+  }
+  const auto governor = governor_for(flight.scenario, "");
+  if (!governor) {
+    return governor.error();
+  }
+  Explanation explanation;
+  Decisions decisions{flight};
+  const MissionTime last = at - flight.period;
+  while (decisions.next()) {
+    static_cast<void>((*governor)->decide(decisions.seen()));
+    if (decisions.seen().now > last) {
+      break;
+    }
+  }
+  const Observation& seen = explanation.seen = decisions.seen();
+  explanation.at = seen.now;
+  explanation.choice = decisions.recorded();
+  explanation.options = (*governor)->policy().options();
+  const double deceleration_m_s2 = flight.scenario.mission.max_acceleration_m_s2;
+  explanation.response_s = to_seconds(seen.latency_bound + Guard{GuardSettings{}}.reaction_time());
+  const double power_w = seen.rotor_power.value() + seen.computer_power.value();
+  constexpr double nearly = 0.98;
+  if (seen.phase == MissionPhase::cruise && seen.speed_m_s < nearly * seen.speed_limit_m_s) {
+    explanation.watts_per_second =
+        power_w / (explanation.response_s + seen.speed_m_s / deceleration_m_s2);
+  }
+  return explanation;
+}
+
+}  // namespace flyball

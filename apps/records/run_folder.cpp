@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/governors/policy_file.h"
+#include "flyball/records/report.h"
+#include "flyball/records/text_table.h"
+#include "flyball/records/version.h"
+#include "flyball/scenario/files.h"
+#include "flyball/sim/platform_file.h"
+
+#include "records/frame_files.h"
+#include "records/trace_file.h"
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace flyball {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const std::string& path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+Error cannot_write(const std::string& path, const std::string& why) {
+  return {ErrorCode::unavailable,
+          "cannot write \"" + path + "\": " + why + "; choose another place with --out"};
+}
+
+/// Of the files that the scenario names: their numbers are part of the mission.
+std::string data_fingerprint(const Scenario& scenario) {
+  TraceHash hash;
+  const Result<std::string> airframe = find_shipped("airframes", scenario.vehicle.airframe);
+  hash.add(airframe ? content_of(*airframe) : std::string{});
+  const Result<std::string> platform = find_shipped("platforms", scenario.platform.name);
+  for (const std::string& file :
+       platform ? files_of_platform(*platform) : std::vector<std::string>{}) {
+    hash.add(content_of(file));
+  }
+  // A preset may stand for a program in another file.
+  const Result<std::string> policy = find_shipped("presets", scenario.governor.policy);
+  for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
+    hash.add(content_of(file));
+  }
+  return hash.hex();
+}
+
+std::string summary_table(const Summary& summary) {
+  const bool failed = summary.status == MissionStatus::failed;
+  std::vector<std::pair<std::string, std::string>> cells{
+      {"policy", html_text(summary.policy)},
+      {"seed", std::to_string(summary.seed)},
+      {"end", failed ? to_string(summary.failure) : to_string(summary.status)},
+      {"time s", rounded(summary.mission_time_s, 1)},
+      {"energy kJ", rounded(summary.energy_total_j() * 1e-3, 1)},
+      {"battery %", rounded(summary.battery_used_percent(), 1)},
+      {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
+      {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
+      {"clearance m", rounded(summary.min_clearance_m, 2)}};
+  for (const auto& [name, value] : summary.quality) {
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    cells.emplace_back(html_text(title), rounded(value, 1));
+  }
+  std::string titles;
+  std::string values;
+  for (const auto& [title, value] : cells) {
+    titles += std::string{"<th>"}.append(title).append("</th>");
+    values += "<td>" + value + "</td>";
+  }
+  return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";
+}
+
+std::string run_page(const Scenario& scenario,
+                     const RunPicture& picture,
+                     const std::string& frames_html) {
+  return report_page(scenario.name, {picture},
+                     summary_table(picture.summary) + frames_html + scenario_html(scenario));
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
+  std::error_code failed;
+  std::vector<std::string> made;
+  for (fs::path at = fs::absolute(folder, failed).lexically_normal();
+       !at.empty() && !fs::exists(at, failed); at = at.parent_path()) {
+    made.insert(made.begin(), at.string());
+  }
+  fs::create_directories(folder, failed);
+  if (failed) {
+    remove_empty(made);
+    return cannot_write(folder, failed.message());
+  }
+  const std::string probe = (fs::path{folder} / ".writable").string();
+  if (Status written = write_file(probe, ""); !written) {
+    remove_empty(made);
+    return written.error();
+  }
+  fs::remove(probe, failed);
+  return made;
+}
+
+void remove_empty(const std::vector<std::string>& folders) {
+  std::error_code ignored;  // Of one that is not empty.
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
+    fs::remove(*folder, ignored);
+  }
+}
+
+Status write_file(const std::string& path, const std::string& content) {
+  const std::string temporary = path + ".part";
+  std::error_code failed;
+  std::ofstream file{temporary, std::ios::binary | std::ios::trunc};
+  file << content;
+  file.close();
+  if (file) {
+    fs::rename(temporary, path, failed);
+  }
+  if (!file || failed) {
+    const Error error =
+        cannot_write(path, failed ? failed.message() : "the folder or disk refuses it");
+    fs::remove(temporary, failed);
+    return error;
+  }
+  return Done{};
+}
+
+std::string mission_file(const Scenario& scenario) {
+  return "# Flyball " + version() + ", build " + build_fingerprint() + ", data " +
+         data_fingerprint(scenario) + "\n" + to_toml(scenario);
+}
+
+std::string scenario_html(const Scenario& scenario) {
+  return "<details><summary>The scenario, every setting</summary><pre>" +
+         html_text(mission_file(scenario)) + "</pre></details>\n";
+}
+
+Status write_run(const std::string& folder, const Scenario& scenario, const MissionRecord& record) {
+  const fs::path in{folder};
+  std::error_code failed;
+  fs::create_directories(in, failed);
+  fs::remove(in / "mission.toml", failed);  // Whatever stood here is incomplete from now on.
+  const RunPicture picture = picture_of(record);
+  const auto frames_html = write_frames(folder, record.frames);
+  if (!frames_html) {
+    return frames_html.error();
+  }
+  const bool is_whole = record.summary.status != MissionStatus::interrupted;
+  const std::pair<const char*, std::string> files[] = {
+      {"trace.jsonl", trace_lines(scenario, *record.trace)},
+      {"picture.json", picture.json},
+      {"report.html", run_page(scenario, picture, *frames_html)},
+      {"summary.json", to_json(record.summary) + "\n"},
+      {"mission.toml",
+       (is_whole ? "" : "# Interrupted: the record ends early.\n") + mission_file(scenario)}};
+  for (const auto& [name, content] : files) {
+    if (Status written = write_file((in / name).string(), content); !written) {
+      return written;
+    }
+  }
+  return Done{};
+}
+
+std::optional<RunPicture> finished_run(const std::string& folder, const Scenario& scenario) {
+  const fs::path in{folder};
+  RunPicture run;
+  if (content_of((in / "mission.toml").string()) != mission_file(scenario) ||
+      !from_json(content_of((in / "summary.json").string()), run.summary)) {
+    return std::nullopt;
+  }
+  run.json = content_of((in / "picture.json").string());
+  return run;
+}
+
+}  // namespace flyball

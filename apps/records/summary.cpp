@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/records/summary.h"
+
+#include <array>
+#include <limits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array statuses{MissionStatus::succeeded, MissionStatus::failed,
+                              MissionStatus::interrupted};
+constexpr std::array failures{MissionFailure::none,
+                              MissionFailure::collision,
+                              MissionFailure::battery_empty,
+                              MissionFailure::no_plan,
+                              MissionFailure::time_limit,
+                              MissionFailure::target_lost,
+                              MissionFailure::localization_lost,
+                              MissionFailure::not_found,
+                              MissionFailure::incomplete};
+
+/// Throws like the library's own getters when no value has this name.
+template <class Value, std::size_t n>
+Value named(const std::array<Value, n>& values, const std::string& name) {
+  for (const Value value : values) {
+    if (name == to_string(value)) {
+      return value;
+    }
+  }
+  throw std::out_of_range{name};
+}
+
+/// JSON has no infinity: a clearance without any obstacle is written as null.
+double number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+Json kernels_json(const Summary& summary) {
+  Json kernels = Json::object();
+  for (const auto& [name, kernel] : summary.kernels) {
+    kernels[name] = {{"calls", kernel.calls},
+                     {"mission_ms_mean", kernel.mission_ms_mean},
+                     {"mission_ms_p95", kernel.mission_ms_p95},
+                     {"host_ms_mean", kernel.host_ms_mean}};
+  }
+  return kernels;
+}
+
+void read_kernels(const Json& json, Summary& summary) {
+  for (const auto& [name, kernel] : json.items()) {
+    summary.kernels[name] = {
+        kernel.at("calls").get<std::uint64_t>(), number(kernel.at("mission_ms_mean")),
+        number(kernel.at("mission_ms_p95")), number(kernel.at("host_ms_mean"))};
+  }
+}
+
+Json promises_json(const Summary& summary) {
+  Json levels = Json::array();
+  for (const LevelPromises& level : summary.promises) {
+    levels.push_back({{"resolution_m", level.resolution_m},
+                      {"issued", level.issued},
+                      {"late", level.late},
+                      {"most_late", level.most_late ? Json(*level.most_late) : Json()}});
+  }
+  return levels;
+}
+
+void read_promises(const Json& json, Summary& summary) {
+  for (const Json& level : json) {
+    const Json& most = level.at("most_late");
+    summary.promises.push_back({level.at("resolution_m").get<double>(),
+                                level.at("issued").get<std::uint64_t>(),
+                                level.at("late").get<std::uint64_t>(),
+                                most.is_null() ? std::nullopt : std::optional{most.get<double>()}});
+  }
+}
+
+void read_head(const Json& json, Summary& summary) {
+  summary.scenario = json.at("scenario").get<std::string>();
+  summary.policy = json.at("policy").get<std::string>();
+  summary.seed = json.at("seed").get<std::uint64_t>();
+  summary.status = named(statuses, json.at("status").get<std::string>());
+  summary.failure = named(failures, json.at("failure").get<std::string>());
+  summary.host_s = number(json.at("host_s"));
+  summary.real_time_factor = number(json.at("real_time_factor"));
+  summary.trace_hash = json.at("trace_hash").get<std::string>();
+  summary.numeric_fingerprint = json.at("numeric_fingerprint").get<std::string>();
+  summary.version = json.at("version").get<std::string>();
+}
+
+void read_flight(const Json& json, Summary& summary) {
+  summary.mission_time_s = number(json.at("mission_time_s"));
+  summary.energy_rotor_j = number(json.at("energy_j").at("rotor"));
+  summary.energy_computer_j = number(json.at("energy_j").at("computer"));
+  summary.battery_start_percent = number(json.at("battery_start_percent"));
+  summary.battery_end_percent = number(json.at("battery_end_percent"));
+  summary.distance_m = number(json.at("distance_m"));
+  summary.mean_speed_m_s = number(json.at("mean_speed_m_s"));
+  summary.max_speed_m_s = number(json.at("max_speed_m_s"));
+  summary.hover_time_s = number(json.at("hover_time_s"));
+  summary.min_clearance_m = number(json.at("min_clearance_m"));
+}
+
+void read_computing(const Json& json, Summary& summary) {
+  summary.replans = json.at("replans").get<int>();
+  summary.deadline_overruns = json.at("deadline_overruns").get<std::uint64_t>();
+  summary.decisions = json.at("decisions").get<std::uint64_t>();
+  summary.knob_changes = json.at("knob_changes").get<std::uint64_t>();
+  summary.policy_faults = json.at("policy_faults").get<std::uint64_t>();
+  summary.policy_trouble = json.at("policy_trouble").get<std::string>();
+  summary.latency_p50_s = number(json.at("latency_s").at("p50"));
+  summary.latency_p95_s = number(json.at("latency_s").at("p95"));
+  summary.latency_max_s = number(json.at("latency_s").at("max"));
+  summary.maps = json.at("maps").get<std::uint64_t>();
+  summary.bound_overruns = json.at("bound_overruns").get<std::uint64_t>();
+  summary.budget_use_p50 = number(json.at("budget_use_p50"));
+  summary.decision_host_us_p50 = number(json.at("decision_host_us").at("p50"));
+  summary.decision_host_us_p99 = number(json.at("decision_host_us").at("p99"));
+  summary.throttle_events = json.at("throttle_events").get<std::uint64_t>();
+  if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
+    summary.hottest_c = hottest.get<double>();
+  }
+  read_promises(json.at("promises"), summary);
+  read_kernels(json.at("kernels"), summary);
+  for (const auto& [name, value] : json.at("quality").items()) {
+    summary.quality[name] = number(value);
+  }
+}
+
+}  // namespace
+
+const char* to_string(MissionStatus status) {
+  switch (status) {
+    case MissionStatus::succeeded:
+      return "succeeded";
+    case MissionStatus::failed:
+      return "failed";
+    case MissionStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+const char* to_string(MissionFailure failure) {
+  switch (failure) {
+    case MissionFailure::none:
+      return "none";
+    case MissionFailure::collision:
+      return "collision";
+    case MissionFailure::battery_empty:
+      return "battery_empty";
+    case MissionFailure::no_plan:
+      return "no_plan";
+    case MissionFailure::time_limit:
+      return "time_limit";
+    case MissionFailure::target_lost:
+      return "target_lost";
+    case MissionFailure::localization_lost:
+      return "localization_lost";
+    case MissionFailure::not_found:
+      return "not_found";
+    case MissionFailure::incomplete:
+      return "incomplete";
+  }
+  return "unknown";
+}
+
+std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {
+  return faults == 0 ? ""
+                     : "failed in " + std::to_string(faults) + " of " + std::to_string(decisions) +
+                           " decisions and was replaced by safe settings there: " + why;
+}
+
+std::string to_json(const Summary& summary, int indent) {
+  const Json json{
+      {"scenario", summary.scenario},
+      {"policy", summary.policy},
+      {"seed", summary.seed},
+      {"status", to_string(summary.status)},
+      {"failure", to_string(summary.failure)},
+      {"mission_time_s", summary.mission_time_s},
+      {"energy_j",
+       {{"rotor", summary.energy_rotor_j},
+        {"computer", summary.energy_computer_j},
+        {"total", summary.energy_total_j()}}},
+      {"battery_start_percent", summary.battery_start_percent},
+      {"battery_end_percent", summary.battery_end_percent},
+      {"battery_used_percent", summary.battery_used_percent()},
+      {"distance_m", summary.distance_m},
+      {"mean_speed_m_s", summary.mean_speed_m_s},
+      {"max_speed_m_s", summary.max_speed_m_s},
+      {"hover_time_s", summary.hover_time_s},
+      {"min_clearance_m", summary.min_clearance_m},
+      {"replans", summary.replans},
+      {"deadline_overruns", summary.deadline_overruns},
+      {"decisions", summary.decisions},
+      {"knob_changes", summary.knob_changes},
+      {"policy_faults", summary.policy_faults},
+      {"policy_trouble", summary.policy_trouble},
+      {"latency_s",
+       {{"p50", summary.latency_p50_s},
+        {"p95", summary.latency_p95_s},
+        {"max", summary.latency_max_s}}},
+      {"maps", summary.maps},
+      {"bound_overruns", summary.bound_overruns},
+      {"budget_use_p50", summary.budget_use_p50},
+      {"promises", promises_json(summary)},
+      {"decision_host_us",
+       {{"p50", summary.decision_host_us_p50}, {"p99", summary.decision_host_us_p99}}},
+      {"throttle_events", summary.throttle_events},
+      {"hottest_c", summary.hottest_c ? Json(*summary.hottest_c) : Json()},
+      {"kernels", kernels_json(summary)},
+      {"quality", Json(summary.quality)},
+      {"host_s", summary.host_s},
+      {"real_time_factor", summary.real_time_factor},
+      {"trace_hash", summary.trace_hash},
+      {"numeric_fingerprint", summary.numeric_fingerprint},
+      {"version", summary.version},
+  };
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+bool from_json(const std::string& text, Summary& summary) {
+  try {
+    const Json json = Json::parse(text);
+    Summary read;
+    read_head(json, read);
+    read_flight(json, read);
+    read_computing(json, read);
+    summary = std::move(read);
+    return true;
+  } catch (const std::exception&) {  // Not JSON, a key is missing, or a value is of another kind.
+    return false;
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenario/computer_strain.h"
+
+#include "scenario/scenario_fields.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+Error impossible(std::size_t event, const std::string& why) {
+  return {ErrorCode::invalid_input, "events." + std::to_string(event + 1) + why};
+}
+
+/// The most that co-runners take at one time: it can only grow when one of them begins.
+double most_taken(const std::vector<ComputerEvent>& events) {
+  double most = 0.0;
+  for (const ComputerEvent& event : events) {
+    most = std::max(most, strain_at(events, begin_of(event)).taken_cores);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<std::string> kernels_of(const ComputerEvent& event) {
+  std::vector<std::string> names;
+  std::string name;
+  for (const char c : event.kernels + ",") {
+    if (c == ',') {
+      if (!name.empty()) {
+        names.push_back(name);
+      }
+      name.clear();
+    } else if (c != ' ' && c != '\t') {
+      name += c;
+    }
+  }
+  return names == std::vector<std::string>{"all"} ? std::vector<std::string>{} : names;
+}
+
+MissionTime begin_of(const ComputerEvent& event) {
+  return MissionTime{from_seconds(event.at_s)};
+}
+
+std::optional<MissionTime> end_of(const ComputerEvent& event) {
+  return event.until_s == 0.0 ? std::nullopt
+                              : std::optional{MissionTime{from_seconds(event.until_s)}};
+}
+
+bool is_active(const ComputerEvent& event, MissionTime now) {
+  const std::optional<MissionTime> end = end_of(event);
+  return now >= begin_of(event) && (!end || now < *end);
+}
+
+Strain strain_at(const std::vector<ComputerEvent>& events, MissionTime now) {
+  Strain strain;
+  for (const ComputerEvent& event : events) {
+    if (!is_active(event, now)) {
+      continue;
+    }
+    if (event.kind == "slowdown") {
+      const std::vector<std::string> names = kernels_of(event);
+      strain.cost *= names.empty() ? event.factor : 1.0;
+      for (const std::string& name : names) {
+        strain.kernel_cost.try_emplace(name, 1.0).first->second *= event.factor;
+      }
+    } else if (event.kind == "co_runner") {
+      strain.taken_cores += event.cores;
+      strain.memory_cost /= 1.0 - event.memory_share;
+    }
+  }
+  return strain;
+}
+
+std::vector<Error> impossible_events(const std::vector<ComputerEvent>& events,
+                                     const PlatformModel& platform) {
+  std::vector<Error> errors;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].kind == "slowdown") {
+      for (const std::string& name : kernels_of(events[i])) {
+        if (platform.kernels.find(name) == platform.kernels.end()) {
+          errors.push_back(impossible(i, ".kernels: " + platform.name +
+                                             " has no price for a kernel \"" + name +
+                                             "\" that could grow; try: flyball list kernels"));
+        }
+      }
+    } else if (events[i].kind == "cooling" && !platform.thermal) {
+      errors.push_back(impossible(i, ": " + platform.name +
+                                         " has no [thermal] table, so that nothing is known of " +
+                                         "its heat; try: --set platform.name=jetson_tx2_passive"));
+    }
+  }
+  const double left = platform.max_cores - most_taken(events);
+  if (left < 1.0) {
+    errors.push_back({ErrorCode::invalid_input,
+                      "events: co-runners take " + toml_number(most_taken(events)) + " of the " +
+                          std::to_string(platform.max_cores) + " cores of " + platform.name +
+                          " at one time; leave one to the mission"});
+  }
+  return errors;
+}
+
+std::string describe(const ComputerEvent& event, bool begins) {
+  if (!begins) {
+    return event.kind + " ends";
+  }
+  if (event.kind == "slowdown") {
+    return "slowdown: " + toml_number(event.factor) + " times the costs of " +
+           (kernels_of(event).empty() ? "all kernels" : event.kernels);
+  }
+  if (event.kind == "co_runner") {
+    return "co_runner: takes " + toml_number(event.cores) + " cores and a share of " +
+           toml_number(event.memory_share) + " of the memory's bandwidth";
+  }
+  return "cooling: " + toml_number(event.resistance_k_w) + " K/W to air of " +
+         toml_number(event.ambient_c) + " degrees Celsius";
+}
+
+}  // namespace flyball

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What the events of a scenario come to for the computer at one moment.
+
+#include "flyball/runtime/drifting_platform.h"
+#include "flyball/scenario/scenario.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Names out of `octomap, rrt_connect`; empty for `all`.
+[[nodiscard]] std::vector<std::string> kernels_of(const ComputerEvent& event);
+
+[[nodiscard]] MissionTime begin_of(const ComputerEvent& event);
+/// Empty: it lasts.
+[[nodiscard]] std::optional<MissionTime> end_of(const ComputerEvent& event);
+[[nodiscard]] bool is_active(const ComputerEvent& event, MissionTime now);
+
+/// Slowdowns of one kernel multiply; co-runners add up, and what they leave of the memory's
+/// bandwidth multiplies. A kernel waits for memory in inverse proportion to the bandwidth that is
+/// left to it. Without a cap on the clock.
+[[nodiscard]] Strain strain_at(const std::vector<ComputerEvent>& events, MissionTime now);
+
+/// What of them the platform cannot do, one sentence each.
+[[nodiscard]] std::vector<Error> impossible_events(const std::vector<ComputerEvent>& events,
+                                                   const PlatformModel& platform);
+
+/// `slowdown: 3 times the costs of all kernels`; `slowdown ends`.
+[[nodiscard]] std::string describe(const ComputerEvent& event, bool begins);
+
+}  // namespace flyball

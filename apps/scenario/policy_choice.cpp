@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/scenario/policy_choice.h"
+
+#include "flyball/governors/combined_policy.h"
+#include "flyball/governors/preset.h"
+#include "flyball/scenario/files.h"
+#include "flyball/simulation/mission.h"
+
+#include "scenario/scenario_parameters.h"
+#include <filesystem>
+
+namespace flyball {
+namespace {
+
+/// Empty: it is none, or a broken one, which `choose_policy` will tell.
+Preset combination_of(const std::string& name) {
+  const auto file = find_shipped("presets", name);
+  if (file && std::filesystem::path{*file}.extension() == ".toml") {
+    if (const auto preset = load_preset(*file); preset && preset->is_combination()) {
+      return *preset;
+    }
+  }
+  return {};
+}
+
+Result<std::unique_ptr<Policy>> start_one(const std::string& name,
+                                          std::uint64_t seed,
+                                          const KnobSettings& knobs) {
+  const auto choice = choose_policy(name, seed);
+  if (!choice) {
+    return choice.error();
+  }
+  return choice->started(knobs);
+}
+
+/// One half of a combination.
+Result<std::unique_ptr<Policy>> start_half(const std::string& name,
+                                           std::uint64_t seed,
+                                           const KnobSettings& knobs) {
+  if (combination_of(name).is_combination()) {
+    return Error{ErrorCode::invalid_input,
+                 "policy \"" + name + "\" is a combination itself; name one policy"};
+  }
+  return start_one(name, seed, knobs);
+}
+
+}  // namespace
+
+Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed) {
+  const auto file = find_shipped("presets", name);
+  if (file) {
+    return load_policy(*file, all_plugins(), seed);
+  }
+  if (all_plugins().make<Policy>(name)) {
+    return PolicyChoice{"policy \"" + name + "\"", [name] {
+                          return Result<std::unique_ptr<Policy>>{all_plugins().make<Policy>(name)};
+                        }};
+  }
+  return file.error();
+}
+
+Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
+                                             std::uint64_t seed,
+                                             Duration application_period,
+                                             const KnobSettings& knobs) {
+  const Preset both = combination_of(name);
+  if (!both.is_combination()) {
+    return start_one(name, seed, knobs);
+  }
+  auto application = start_half(both.application, seed, knobs);
+  if (!application) {
+    return application.error();
+  }
+  auto clock = start_half(both.clock, seed, knobs);
+  if (!clock) {
+    return clock.error();
+  }
+  return std::unique_ptr<Policy>{std::make_unique<CombinedPolicy>(
+      std::move(*application), std::move(*clock), application_period)};
+}
+
+}  // namespace flyball

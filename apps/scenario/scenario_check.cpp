@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: scenario
+
+#include "scenario/scenario_check.h"
+
+#include "flyball/scenario/catalogue.h"
+#include "flyball/scenario/files.h"
+#include "flyball/sim/platform_file.h"
+#include "flyball/simulation/mission.h"
+
+#include "scenario/scenario_keys.h"
+#include "scenario/scenario_parameters.h"
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+/// ` (mine.toml:7)`, or nothing for a default.
+std::string place_of(const std::string& key, const GivenValues& given) {
+  const auto found = given.find(key);
+  return found == given.end() ? "" : " (" + found->second.origin + ")";
+}
+
+/// A name that was looked for among others.
+struct NamedThing {
+  std::string key;
+  std::string thing;  ///< `mapper`
+  std::string name;
+  std::vector<std::string> known;
+  std::string list;  ///< Argument of `flyball list`.
+};
+
+bool is_known(const NamedThing& wanted) {
+  return std::find(wanted.known.begin(), wanted.known.end(), wanted.name) != wanted.known.end();
+}
+
+Error unknown(const NamedThing& wanted, const GivenValues& given) {
+  const std::string near = nearest_name(wanted.name, wanted.known);
+  return {ErrorCode::not_found, "no " + wanted.thing + " \"" + wanted.name + "\"" +
+                                    place_of(wanted.key, given) + "; " +
+                                    (near.empty() ? "" : "did you mean " + near + "? ") +
+                                    "try: flyball list " + wanted.list};
+}
+
+std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {
+  std::vector<NamedThing> things{
+      {"mission.workload", "workload", scenario.mission.workload, workload_names(), "workloads"},
+      {"world.generator", "world", scenario.world.generator, world_names(), "worlds"},
+  };
+  const KernelSettings& kernels = scenario.kernels;
+  const std::vector<std::string> names{
+      kernels.point_cloud, kernels.mapper,       kernels.collision_check, kernels.planner,
+      kernels.smoother,    kernels.path_tracker, kernels.localizer,       kernels.coverage,
+      kernels.explorer,    kernels.detector,     kernels.tracker};
+  const std::vector<KernelFamily> families = kernel_families();  // In the order of `names`.
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    things.push_back({"kernels." + families[i].name, families[i].name, names[i],
+                      families[i].kernels, "kernels"});
+  }
+  return things;
+}
+
+std::vector<NamedThing> files_of(const Scenario& scenario) {
+  return {
+      {"vehicle.airframe", "airframe", scenario.vehicle.airframe, shipped("airframes"),
+       "airframes"},
+      {"platform.name", "platform", scenario.platform.name, shipped("platforms"), "platforms"},
+      {"governor.policy", "policy", scenario.governor.policy, policy_names(), "policies"},
+  };
+}
+
+/// The kinds of `find_shipped` for `files_of`, where a path to a file is as good as a name.
+bool is_file(const NamedThing& wanted) {
+  const std::string kind = wanted.list == "policies" ? "presets" : wanted.list;
+  return find_shipped(kind, wanted.name).ok();
+}
+
+std::string list_of(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) {
+    text += (text.empty() ? "" : ", ") + toml_number(number);
+  }
+  return text;
+}
+
+std::string clocks_of(const PlatformModel& platform) {
+  std::vector<double> clocks_hz;
+  for (const Hertz clock : platform.frequencies) {
+    clocks_hz.push_back(clock.value());
+  }
+  return list_of(clocks_hz);
+}
+
+std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
+  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return {};  // Named as unknown elsewhere.
+  }
+  const Result<PlatformModel> platform = load_platform(*file);
+  if (!platform) {
+    return {platform.error()};
+  }
+  std::vector<Error> errors;
+  const auto& [name, cores, clock_hz, start_c] = scenario.platform;
+  if (start_c != 0.0 && !platform->thermal) {
+    errors.push_back({ErrorCode::invalid_input,
+                      "platform.start_temperature_c = " + toml_number(start_c) +
+                          place_of("platform.start_temperature_c", given) + " needs a platform " +
+                          "with a [thermal] table, and " + name +
+                          " has none; try: --set platform.name=jetson_tx2_passive"});
+  }
+  if (cores > platform->max_cores) {
+    errors.push_back({ErrorCode::invalid_input,
+                      "platform.cores = " + std::to_string(cores) +
+                          place_of("platform.cores", given) + " must be at most " +
+                          std::to_string(platform->max_cores) + ", all that " + name + " has"});
+  }
+  const auto is_clock = [wanted = clock_hz](Hertz clock) {
+    return std::abs(clock.value() - wanted) < 0.5;
+  };
+  if (std::none_of(platform->frequencies.begin(), platform->frequencies.end(), is_clock)) {
+    errors.push_back({ErrorCode::invalid_input, "platform.frequency_hz = " + toml_number(clock_hz) +
+                                                    place_of("platform.frequency_hz", given) +
+                                                    " is no clock of " + name +
+                                                    "; it has: " + clocks_of(*platform)});
+  }
+  return errors;
+}
+
+bool is_folder_name(const std::string& name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return std::all_of(name.begin(), name.end(), is_plain);
+}
+
+}  // namespace
+
+std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given) {
+  const auto mapper = make_mapper(scenario.kernels);
+  if (!mapper) {
+    return {};  // Named elsewhere.
+  }
+  const std::vector<double> cells_m = (*mapper)->resolutions_m();
+  const double wanted_m = scenario.map.resolution_m;
+  if (!cells_m.empty() && std::find(cells_m.begin(), cells_m.end(), wanted_m) == cells_m.end()) {
+    return {{ErrorCode::invalid_input,
+             "map.resolution_m = " + toml_number(wanted_m) + place_of("map.resolution_m", given) +
+                 " must be one of " + list_of(cells_m) + ", the cells of mapper \"" +
+                 scenario.kernels.mapper + "\""}};
+  }
+  // The mapper itself knows best how far it reaches: an empty scan is refused for its settings.
+  const auto tried =
+      (*mapper)->prepare(PointCloud{}, Pose::Identity(), {wanted_m, scenario.map.range_m});
+  if (!tried) {
+    return {{ErrorCode::invalid_input,
+             "mapper \"" + scenario.kernels.mapper + "\" refuses: " + tried.error().message}};
+  }
+  return {};
+}
+
+std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given) {
+  std::vector<Error> errors;
+  for (const NamedThing& thing : plug_ins_of(scenario)) {
+    if (!is_known(thing)) {
+      errors.push_back(unknown(thing, given));
+    }
+  }
+  for (const NamedThing& thing : files_of(scenario)) {
+    if (!is_known(thing) && !is_file(thing)) {
+      errors.push_back(unknown(thing, given));
+    }
+  }
+  for (Error& error : check_operating_point(scenario, given)) {
+    errors.push_back(std::move(error));
+  }
+  if (!is_folder_name(scenario.name)) {
+    errors.push_back(
+        {ErrorCode::invalid_input,
+         "name = " + scenario.name + place_of("name", given) +
+             " must be of letters, digits, _ and -, because flights go to a folder of this name"});
+  }
+  return errors;
+}
+
+}  // namespace flyball

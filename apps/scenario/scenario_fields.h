@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The one table of what a scenario holds. Reading, `--set`, checking, printing and writing all go
+/// through it, so that a new setting is one new line.
+
+#include "flyball/scenario/scenario.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flyball {
+
+/// Where a value lives in a scenario; its type is the kind of the setting.
+using FieldPlace = std::variant<double* (*)(Scenario&),
+                                int* (*)(Scenario&),
+                                std::uint64_t* (*)(Scenario&),
+                                bool* (*)(Scenario&),
+                                std::string* (*)(Scenario&)>;
+
+struct ScenarioField {
+  std::string key;  ///< `map.range_m`; the unit is its suffix.
+  FieldPlace place;
+  double min{};  ///< Numbers only; both ends are legal.
+  double max{};
+  std::string description;
+  std::vector<std::string> choices{};  ///< Texts only; none: any text, or checked elsewhere.
+};
+
+/// In the order in which they are printed. The world's own parameters are declared by its
+/// generator.
+[[nodiscard]] std::vector<ScenarioField> scenario_fields();
+
+/// What somebody wrote for a key, and where.
+struct GivenValue {
+  std::variant<double, std::int64_t, bool, std::string> value;
+  std::string origin;  ///< `mine.toml:12` or `--set`.
+  std::string text;    ///< As written, for messages and for texts given by `--set`.
+};
+
+/// Sets the field. Says what is wrong (wrong kind, out of range), in one sentence, when it cannot.
+[[nodiscard]] std::optional<Error> assign(Scenario& scenario,
+                                          const ScenarioField& field,
+                                          const GivenValue& given);
+/// A number that may stand for a real: integers do too. Empty when it is none or not finite.
+[[nodiscard]] std::optional<double> as_number(const GivenValue& given);
+/// A text that is not empty; on the command line `--set name=079` is one too.
+[[nodiscard]] std::optional<std::string> as_text(const GivenValue& given);
+
+/// The field's value as TOML writes it.
+[[nodiscard]] std::string toml_value(const Scenario& scenario, const ScenarioField& field);
+/// Shortest text that reads back to the same number.
+[[nodiscard]] std::string toml_number(double value);
+[[nodiscard]] std::string toml_text(const std::string& text);
+
+}  // namespace flyball

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/closed_loop.h"
+
+#include "flight/perception/perception_nodes.h"
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto energy_period = 10ms;      // Power changes with rotor lag (tens of ms).
+constexpr auto check_period = 10ms;       // At 15 m/s, 15 cm between two looks at the true world.
+constexpr auto navigation_period = 10ms;  // 100 Hz: what an autopilot streams.
+constexpr double clearance_limit_m = 5.0;
+constexpr double hover_below_m_s = 0.1;
+
+Vec3 start_position(const World& world, const Airframe& airframe) {
+  return world.start_W + Vec3::UnitZ() * (0.5 * airframe.body_height_m);
+}
+
+WindSpec wind_spec(const VehicleSettings& settings) {
+  return {{settings.wind_east_m_s, settings.wind_north_m_s, 0.0}, settings.gust_wind_m_s};
+}
+
+/// A colour camera hangs on one.
+std::optional<GimbalSpec> gimbal_of(const MissionContext& context) {
+  return context.colour_camera ? std::optional{GimbalSpec{}} : std::nullopt;
+}
+
+double start_yaw(const World& world) {
+  return yaw_of(world.goal_W - world.start_W);
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(MissionContext& context,
+                       const World& world,
+                       VirtualExecutor& executor,
+                       EventQueue& queue,
+                       const VehicleTopics& topics)
+    : context_{context},
+      executor_{executor},
+      queue_{queue},
+      topics_{topics},
+      vehicle_{context.airframe,
+               context.scenario.vehicle.payload_kg,
+               start_position(world, context.airframe),
+               start_yaw(world),
+               world.ground_z_m,
+               gimbal_of(context)},
+      controller_{context.airframe, world.ground_z_m},
+      regression_{context.airframe},
+      battery_{context.airframe.battery_cells, context.airframe.battery_ah,
+               context.scenario.vehicle.battery_charge},
+      camera_{world, context.scenario.camera, context.scenario.seed},
+      gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
+      barometer_{context.scenario.barometer, EarthOrigin{}.height_m, context.scenario.seed},
+      imu_{ImuSpec{}, context.scenario.seed},
+      clearance_{world},
+      movers_{world.movers},
+      people_{world.people},
+      wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
+  log_.min_clearance_m = clearance_limit_m;
+}
+
+void ClosedLoop::start() {
+  executor_.subscribe<FlightCommand>(topics_.command,
+                                     [this](const FlightCommand& command) { obey(command); });
+  executor_.subscribe<Setpoint>(topics_.setpoint, [this](const Setpoint& setpoint) {
+    if (context_.phase == MissionPhase::cruise) {
+      controller_.follow(setpoint);
+    }
+  });
+  const Duration step = from_seconds(context_.scenario.vehicle.physics_step_s);
+  queue_.every(MissionTime{step}, step, EventOrder::physics, [this] { physics_step(); });
+  queue_.every(MissionTime{energy_period}, energy_period, EventOrder::sensor,
+               [this] { energy_step(); });
+  queue_.every(MissionTime{check_period}, check_period, EventOrder::sensor,
+               [this] { check_step(); });
+  queue_.every(MissionTime{navigation_period}, navigation_period, EventOrder::sensor,
+               [this] { publish_navigation(); });
+  const Duration frame = from_seconds(1.0 / context_.scenario.camera.rate_hz);
+  queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
+  if (context_.colour_camera) {
+    executor_.subscribe<GimbalAngles>(topics_.gimbal,
+                                      [this](const GimbalAngles& angles) { vehicle_.aim(angles); });
+    const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
+    queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
+  }
+  start_localizer();
+}
+
+/// It is told where the vehicle stands. Its inertial sensor is read by a driver, not by a job.
+void ClosedLoop::start_localizer() {
+  const auto& localizer = context_.kernels.localizer;
+  if (!localizer) {
+    return;
+  }
+  localizer->place(vehicle_.state().X_WB);
+  if (localizer->inputs().imu) {
+    const Duration interval = from_seconds(1.0 / ImuSpec{}.rate_hz);
+    queue_.every(MissionTime{interval}, interval, EventOrder::sensor, [this] {
+      context_.kernels.localizer->feel(imu_.sample(vehicle_.state(), queue_.now()));
+    });
+  }
+}
+
+void ClosedLoop::physics_step() {
+  const double dt_s = context_.scenario.vehicle.physics_step_s;
+  const RotorSpeeds command =
+      controller_.update(vehicle_.state(), vehicle_.mass_kg(), queue_.now(), dt_s);
+  vehicle_.step(dt_s, command, wind_.velocity_W());
+}
+
+void ClosedLoop::energy_step() {
+  const double dt_s = to_seconds(Duration{energy_period});
+  const VehicleState& state = vehicle_.state();
+  // As often as power: the shortest gusts are 3 m long, .2 s at 15 m/s.
+  wind_.advance(dt_s, state.X_WB.translation().z() - context_.brief.ground_z_m, state.v_WB);
+  log_.rotor_w = context_.scenario.vehicle.rotor_power == "thrust"
+                     ? thrust_power_w(vehicle_, context_.scenario.vehicle.drive_efficiency)
+                     : regression_.update(state, vehicle_.carried_kg(), wind_.velocity_W(), dt_s);
+  const double busy_core_s = executor_.busy_core_s();
+  const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
+  last_busy_core_s_ = busy_core_s;
+  log_.computer_w = context_.platform.power(executor_.operating_point(), busy).value();
+  log_.energy_rotor_j += log_.rotor_w * dt_s;
+  log_.energy_computer_j += log_.computer_w * dt_s;
+  battery_.draw(log_.rotor_w + log_.computer_w, dt_s);
+  const double speed = state.v_WB.norm();
+  log_.distance_m += speed * dt_s;
+  log_.max_speed_m_s = std::max(log_.max_speed_m_s, speed);
+  if (is_airborne()) {
+    log_.airborne_s += dt_s;
+    log_.hover_time_s += speed < hover_below_m_s ? dt_s : 0.0;
+  }
+}
+
+void ClosedLoop::check_step() {
+  const MissionTime now = queue_.now();
+  const bool near_ground = controller_.mode() == FlightMode::take_off ||
+                           controller_.mode() == FlightMode::land ||
+                           controller_.mode() == FlightMode::idle;
+  const Vec3& p_WB = vehicle_.state().X_WB.translation();
+  const Cylinder body = context_.airframe.body();
+  const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
+  const double moving_m = clearance_m(movers_, now, p_WB, body, still_m);
+  const double distance_m = distance_to_people_m(people_, now, p_WB, body, moving_m);
+  if (is_airborne()) {
+    log_.min_clearance_m = std::min(log_.min_clearance_m, distance_m);
+  }
+  if (distance_m <= 0.0) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::collision);
+  }
+  if (battery_.is_empty()) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::battery_empty);
+  }
+  if (to_seconds(now) > context_.scenario.mission.time_limit_s) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::time_limit);
+  }
+}
+
+void ClosedLoop::publish_navigation() {
+  const auto per_fix = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(std::lround(
+             1.0 / (context_.scenario.gps.rate_hz * to_seconds(Duration{navigation_period})))));
+  const bool with_fix = navigation_count_++ % per_fix == 0;
+  NavigationSample sample = gps_.sample(vehicle_.state(), queue_.now(), with_fix);
+  sample.pressure_pa = barometer_.sample(vehicle_.state().X_WB.translation().z(), queue_.now());
+  executor_.publish(topics_.navigation, sample);
+  executor_.publish(topics_.status,
+                    FlightStatus{is_airborne(), controller_.is_done(vehicle_.state())});
+}
+
+void ClosedLoop::publish_depth() {
+  const Pose& X_WB = vehicle_.state().X_WB;
+  const Pose X_WC = camera_pose(X_WB, context_.scenario.camera);
+  const std::uint64_t number = frame_count_++;
+  const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
+  if (context_.view) {
+    const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
+    executor_.publish(*context_.view,
+                      View{depth, context_.eye->frame({X_WC, X_LC}, queue_.now(), number),
+                           X_WB.inverse() * X_WC});
+  }
+  executor_.publish(topics_.depth, depth);
+}
+
+void ClosedLoop::publish_colour() {
+  const Pose X_WC = vehicle_.camera_pose();
+  const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
+  const ColourFrame frame =
+      context_.colour_camera->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  executor_.publish(topics_.colour, frame);
+  executor_.publish(topics_.colour_buffer, frame);
+}
+
+void ClosedLoop::obey(const FlightCommand& command) {
+  switch (command.kind) {
+    case FlightCommand::Kind::take_off:
+      controller_.take_off(vehicle_.state(), command.height_m);
+      break;
+    case FlightCommand::Kind::land:
+      controller_.land(vehicle_.state());
+      break;
+    case FlightCommand::Kind::hold:
+      controller_.hold(vehicle_.state());
+      break;
+    case FlightCommand::Kind::release_payload:
+      vehicle_.set_payload(0.0);
+      break;
+  }
+}
+
+bool ClosedLoop::is_airborne() const {
+  return controller_.mode() != FlightMode::idle;
+}
+
+}  // namespace flyball

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/flight_recorder.h"
+
+#include "flyball/runtime/observation_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace flyball {
+
+FlightRecorder::FlightRecorder(MissionContext& context,
+                               const Graph& graph,
+                               const ClosedLoop& loop,
+                               const Navigator* navigator)
+    : context_{context}, graph_{graph}, loop_{loop}, navigator_{navigator} {}
+
+void FlightRecorder::record_state(MissionTime now) {
+  const VehicleState& state = loop_.vehicle().state();
+  const Vec3& p = state.X_WB.translation();
+  std::vector<Field> row{{"x_m", p.x()},
+                         {"y_m", p.y()},
+                         {"z_m", p.z()},
+                         {"yaw_rad", yaw_of(state.X_WB.linear().col(0))},
+                         {"speed_m_s", state.v_WB.norm()},
+                         {"resolution_m", context_.knobs.value("map.resolution_m")},
+                         {"frequency_hz", context_.knobs.value("cpu.frequency_hz")},
+                         {"rotor_w", loop_.log().rotor_w},
+                         {"computer_w", loop_.log().computer_w},
+                         {"battery_percent", loop_.battery().percent()},
+                         {"battery_v", loop_.battery().voltage_v()},
+                         {"phase", std::string{to_string(context_.phase)}}};
+  if (navigator_ != nullptr) {
+    row.push_back({"set_speed_m_s", navigator_->follower().target_speed_m_s()});
+    row.push_back({"known_free_m", navigator_->follower().known_free_m()});
+    row.push_back({"latency_bound_s", to_seconds(navigator_->follower().latency_bound())});
+    const TrackingError& error = navigator_->tracking_error();
+    row.push_back({"tracking_error_m", error.size_m});
+    row.push_back({"across_error_m", error.across_m});
+    row.push_back({"height_error_m", error.height_m});
+  }
+  context_.recorder.record(now, "state", row);
+}
+
+void FlightRecorder::record_job(const JobRecord& job) {
+  const NodeSpec& node = graph_.nodes()[static_cast<std::size_t>(job.node)].spec;
+  if (node.cost.empty() || (job.work.items().empty() && !job.killed)) {
+    return;
+  }
+  auto& calls = calls_[node.cost];
+  calls.mission_ms.push_back(1e3 * to_seconds(job.ended - job.started));
+  calls.host_s += job.host_s;
+  // The two that run 100 and 50 times a second would drown the others.
+  if (node.name == "localize" || node.name == "follow") {
+    return;
+  }
+  context_.recorder.record(job.ended, "job",
+                           {{"node", node.name},
+                            {"released_s", to_seconds(job.released)},
+                            {"started_s", to_seconds(job.started)},
+                            {"busy_s", to_seconds(job.busy)},
+                            {"missed", static_cast<std::int64_t>(job.missed)}});
+}
+
+std::map<std::string, KernelStatistics> FlightRecorder::kernels() const {
+  std::map<std::string, KernelStatistics> all;
+  for (const auto& [name, calls] : calls_) {
+    const auto n = static_cast<double>(calls.mission_ms.size());
+    const double sum = std::accumulate(calls.mission_ms.begin(), calls.mission_ms.end(), 0.0);
+    all[name] = {calls.mission_ms.size(), sum / n, quantile(calls.mission_ms, 0.95),
+                 1e3 * calls.host_s / n};
+  }
+  return all;
+}
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  std::sort(values.begin(), values.end());
+  const double at = p * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(at));
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+}  // namespace flyball

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What goes into the trace while a mission flies, and the statistics of its jobs.
+
+#include "flight/navigation/navigator.h"
+#include "simulation/closed_loop.h"
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+class FlightRecorder {
+ public:
+  /// All arguments outlive the recorder; `navigator` may be null.
+  FlightRecorder(MissionContext& context,
+                 const Graph& graph,
+                 const ClosedLoop& loop,
+                 const Navigator* navigator);
+
+  /// One row of channel `state`.
+  void record_state(MissionTime now);
+  /// Statistics of every job; a row of channel `job` for those that are not mere routine.
+  void record_job(const JobRecord& job);
+  [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
+
+ private:
+  struct Calls {
+    std::vector<double> mission_ms;
+    double host_s{};
+  };
+  MissionContext& context_;
+  const Graph& graph_;
+  const ClosedLoop& loop_;
+  const Navigator* navigator_;
+  std::map<std::string, Calls> calls_;
+};
+
+/// The p-quantile (0..1) by linear interpolation between order statistics; 0 for no values.
+[[nodiscard]] double quantile(std::vector<double> values, double p);
+
+}  // namespace flyball

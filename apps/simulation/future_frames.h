@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What frames will cost that nobody has taken yet: the simulator's own knowledge, for policies
+/// that ask for it and never fly outside.
+
+#include "flyball/governors/foresight.h"
+#include "flyball/sim/depth_camera.h"
+
+#include "flight/mission_context.h"
+#include "flight/navigation/path_follower.h"
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace flyball {
+
+/// Takes frames in the true world, at places ahead, and lets the mission's own mapper say what work
+/// each would be with each setting; nothing of them gets into the map. Places in the same cell of
+/// 4 m that are looked at from in nearly the same direction share a frame.
+class FutureFrames {
+ public:
+  /// The context outlives this.
+  /// @pre `context.truth` and `context.true_computer` are there, and the scenario's mapper is one.
+  FutureFrames(const MissionContext& context, std::vector<MapSetting> settings);
+
+  /// Along the path and, beyond its end, straight to the goal. Stays until the next look.
+  [[nodiscard]] const Foresight& look(const PathFollower& follower);
+  [[nodiscard]] std::size_t frames_taken() const { return durations_s_.size(); }
+
+ private:
+  struct Spot {
+    Vec3 p_W{Vec3::Zero()};
+    Vec3 tangent_W{Vec3::Zero()};
+  };
+  [[nodiscard]] Spot spot(const PathFollower& follower, double ahead_m) const;
+  [[nodiscard]] PlaceAhead place(const PathFollower& follower,
+                                 const Spot& spot,
+                                 double ahead_m) const;
+  [[nodiscard]] const std::vector<double>& durations_s(const Spot& spot);
+  [[nodiscard]] std::vector<double> taken_at(const Spot& spot);
+  [[nodiscard]] double duration_s(const Work& points, const Work& map, Hertz clock) const;
+
+  const MissionContext& context_;
+  std::vector<MapSetting> settings_;
+  DepthCamera camera_;
+  std::unique_ptr<Mapper> mapper_;
+  std::map<std::array<int, 4>, std::vector<double>> durations_s_{};  ///< By cell and direction.
+  Foresight foresight_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/mission_setup.h"
+
+#include "flyball/flight/workload.h"
+#include "flyball/kernels/kernels.h"
+#include "flyball/policies/policies.h"
+#include "flyball/scenario/files.h"
+#include "flyball/scenario/policy_choice.h"
+#include "flyball/sim/platform_file.h"
+#include "flyball/sim/worlds.h"
+#include "flyball/simulation/mission.h"
+
+#include "scenario/scenario_check.h"
+#include "scenario/scenario_parameters.h"
+#include "simulation/seeing_setup.h"
+
+namespace flyball {
+namespace {
+
+Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario) {
+  const auto file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return file.error();
+  }
+  auto model = load_platform(*file);
+  if (!model) {
+    return model.error();
+  }
+  return std::make_unique<ModeledPlatform>(std::move(*model));
+}
+
+Result<World> make_world(const Scenario& scenario) {
+  const auto generator = all_plugins().make<WorldGenerator>(scenario.world.generator);
+  if (!generator) {
+    return unknown("world", scenario.world.generator, "worlds");
+  }
+  const auto parameters = resolved("world \"" + scenario.world.generator + "\"",
+                                   generator->parameters(), scenario.world.parameters);
+  if (!parameters) {
+    return parameters.error();
+  }
+  return generator->make(*parameters, scenario.seed);
+}
+
+/// Makes one kernel, or adds a sentence to `missing`.
+template <class Family>
+void make(std::unique_ptr<Family>& kernel,
+          const std::string& family,
+          const std::string& name,
+          std::vector<Error>& missing) {
+  kernel = all_plugins().make<Family>(name);
+  if (!kernel) {
+    missing.push_back(unknown(family, name, "kernels"));
+  }
+}
+
+Result<MissionKernels> make_kernels(const KernelSettings& names) {
+  MissionKernels kernels;
+  std::vector<Error> missing;
+  make(kernels.point_cloud, "point cloud kernel", names.point_cloud, missing);
+  if (auto mapper = make_mapper(names)) {
+    kernels.mapper = std::move(*mapper);
+  } else {
+    missing.push_back(mapper.error());
+  }
+  make(kernels.collision_check, "collision check", names.collision_check, missing);
+  make(kernels.planner, "planner", names.planner, missing);
+  make(kernels.smoother, "smoother", names.smoother, missing);
+  make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
+  if (auto localizer = make_localizer(names)) {
+    kernels.localizer = std::move(*localizer);
+  } else {
+    missing.push_back(localizer.error());
+  }
+  make(kernels.coverage, "coverage planner", names.coverage, missing);
+  make(kernels.explorer, "explorer", names.explorer, missing);
+  if (!missing.empty()) {
+    return joined(missing);
+  }
+  kernels.localizer->start(GeodeticOrigin{});
+  return kernels;
+}
+
+Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
+                                                      const KnobSettings& knobs) {
+  auto policy = start_policy(scenario.governor.policy, scenario.seed,
+                             from_seconds(scenario.governor.period_s), knobs);
+  if (!policy) {
+    return policy.error();
+  }
+  // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
+  // it.
+  return std::make_unique<PolicyGovernor>(std::move(*policy), knobs, PolicyGovernorSettings{},
+                                          nullptr);
+}
+
+Registry& plugins() {
+  static Registry registry = [] {
+    Registry all;
+    register_kernels(all);
+    register_policies(all);
+    register_worlds(all);
+    register_workloads(all);
+    return all;
+  }();
+  return registry;
+}
+
+}  // namespace
+
+const Registry& all_plugins() {
+  return plugins();
+}
+
+void add_plugins(const std::function<void(Registry&)>& add) {
+  add(plugins());
+}
+
+Result<MissionSetup> set_up(const Scenario& scenario) {
+  MissionSetup setup;
+  auto platform = make_platform(scenario);
+  if (!platform) {
+    return platform.error();
+  }
+  setup.platform = std::move(*platform);
+  const auto file = find_shipped("airframes", scenario.vehicle.airframe);
+  auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
+  if (!airframe) {
+    return airframe.error();
+  }
+  if (scenario.vehicle.rotor_power == "regression" && !airframe->has_regression()) {
+    return Error{
+        ErrorCode::invalid_input,
+        "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and airframe \"" +
+            scenario.vehicle.airframe + "\" has none; set vehicle.rotor_power to \"thrust\""};
+  }
+  setup.equipment.airframe = std::move(*airframe);
+  auto world = make_world(scenario);
+  if (!world) {
+    return world.error();
+  }
+  setup.world = std::move(*world);
+  auto kernels = make_kernels(scenario.kernels);
+  if (!kernels) {
+    return kernels.error();
+  }
+  setup.equipment.kernels = std::move(*kernels);
+  if (const Status seeing = equip_to_see(scenario, *setup.platform, setup.world, setup.equipment);
+      !seeing) {
+    return seeing.error();
+  }
+  if (const auto errors = check_map(scenario, {}); !errors.empty()) {
+    return joined(errors);
+  }
+  const std::string priced_as = mapper_cost(scenario.kernels);
+  if (!setup.platform->knows(priced_as)) {
+    return Error{ErrorCode::invalid_input,
+                 "platform \"" + scenario.platform.name + "\" has no price for mapper \"" +
+                     priced_as + "\", so its map would cost no time; set " +
+                     "kernels.mapper_parameters.cost_of to \"octomap\", or add [kernels." +
+                     priced_as + "] to the platform file"};
+  }
+  setup.equipment.knobs = KnobSettings{
+      standard_knobs(scenario, *setup.platform, setup.equipment.kernels.mapper->resolutions_m())};
+  auto governor = make_governor(scenario, setup.equipment.knobs);
+  if (!governor) {
+    return governor.error();
+  }
+  setup.governor = std::move(*governor);
+  return setup;
+}
+
+}  // namespace flyball

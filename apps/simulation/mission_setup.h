@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Turns the names in a scenario into things: platform, airframe, world, kernels, governor.
+
+#include "flyball/governors/policy_governor.h"
+#include "flyball/scenario/knobs.h"
+
+#include "flight/mission_context.h"
+#include <memory>
+
+namespace flyball {
+
+struct MissionSetup {
+  std::unique_ptr<ModeledPlatform> platform;
+  World world;
+  MissionEquipment equipment;
+  std::unique_ptr<PolicyGovernor> governor;
+};
+
+/// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
+[[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);
+
+}  // namespace flyball

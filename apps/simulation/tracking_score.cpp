@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/tracking_score.h"
+
+#include "flyball/records/pictures.h"
+#include "flyball/records/text_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+namespace {
+
+constexpr double least_overlap = 0.2;
+constexpr double longest_gap_s = 1.0;
+constexpr double keep_every_s = 15.0;
+
+/// From the middle of the frame, 1 in its corners.
+double centre_error(const Target& target) {
+  const double half_x = 0.5 * target.frame.camera.width_px;
+  const double half_y = 0.5 * target.frame.camera.height_px;
+  const double x = target.box->centre_x_px() - half_x;
+  const double y = target.box->centre_y_px() - half_y;
+  return std::sqrt((x * x + y * y) / (half_x * half_x + half_y * half_y));
+}
+
+}  // namespace
+
+void TrackingScore::count(MissionTime now, const Target& target) {
+  double best_overlap = 0.0;
+  if (target.box) {
+    ++frames_with_box_;
+    for (const Person& person : context_.truth->people) {
+      const auto truth =
+          box_of(person, target.frame.captured, target.frame.X_WC_truth, target.frame.camera);
+      best_overlap = std::max(best_overlap, truth ? overlap(*truth, *target.box) : 0.0);
+    }
+  }
+  const bool on_target = best_overlap >= least_overlap;
+  if (on_target) {
+    ++frames_on_target_;
+    centre_error_sum_ += centre_error(target);
+    if (last_on_target_ && to_seconds(target.frame.captured - *last_on_target_) <= longest_gap_s) {
+      tracked_s_ += to_seconds(target.frame.captured - *last_on_target_);
+    }
+    last_on_target_ = target.frame.captured;
+  }
+  if (target.box) {
+    keep({target, on_target});
+  }
+  const ImageBox box = target.box.value_or(ImageBox{});
+  context_.recorder.record(now, "target",
+                           {{"captured_s", to_seconds(target.frame.captured)},
+                            {"x_px", box.x_px},
+                            {"y_px", box.y_px},
+                            {"width_px", box.width_px},
+                            {"height_px", box.height_px},
+                            {"overlap", best_overlap}});
+}
+
+void TrackingScore::keep(const Kept& seen) {
+  const MissionTime at = seen.target.frame.captured;
+  const bool is_due = !kept_at_ || to_seconds(at - *kept_at_) >= keep_every_s;
+  if (!kept_.empty() && kept_.back().target.frame.captured != *kept_at_) {
+    kept_.pop_back();
+  }
+  kept_.push_back(seen);
+  kept_at_ = is_due ? at : *kept_at_;
+}
+
+std::vector<MissionFrame> TrackingScore::frames() const {
+  std::vector<MissionFrame> frames;
+  for (const Kept& kept : kept_) {
+    const ColourFrame& frame = kept.target.frame;
+    frames.push_back(boxed(frame.image.value(), *kept.target.box, kept.on_target,
+                           "at " + rounded(to_seconds(frame.captured), 1) + " s, " +
+                               (kept.on_target ? "on the person" : "beside the person")));
+  }
+  return frames;
+}
+
+std::map<std::string, double> TrackingScore::figures() const {
+  const auto share = [](double part, std::uint64_t whole) {
+    return whole == 0 ? 0.0 : 100.0 * part / static_cast<double>(whole);
+  };
+  const std::uint64_t wrong = frames_with_box_ - frames_on_target_;
+  return {{"tracked_s", tracked_s_},
+          {"mean_centre_error_percent", share(centre_error_sum_, frames_on_target_)},
+          {"wrong_box_percent", share(static_cast<double>(wrong), frames_with_box_)}};
+}
+
+}  // namespace flyball

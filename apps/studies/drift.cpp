@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/studies/drift.h"
+
+#include "scenario/scenario_fields.h"
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+std::vector<std::string> event(int number,
+                               double at_s,
+                               const std::string& kind,
+                               const std::vector<std::string>& rest) {
+  const std::string key = "events." + std::to_string(number) + ".";
+  std::vector<std::string> settings{key + "kind=" + kind, key + "at_s=" + toml_number(at_s)};
+  for (const std::string& setting : rest) {
+    settings.push_back(key + setting);
+  }
+  return settings;
+}
+
+void take_row(const nlohmann::json& row, DriftRecord& record) {
+  if (row.at("channel").get_ref<const std::string&>() == "promise") {
+    const MissionTime at{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
+    record.push_back(
+        {at, row.at("issued").get<std::uint64_t>(), row.at("late").get<std::uint64_t>()});
+  }
+}
+
+}  // namespace
+
+std::vector<DriftCase> drift_cases(double at_s) {
+  std::vector<std::string> hot = event(1, at_s, "cooling", {"resistance_k_w=20", "ambient_c=45"});
+  hot.insert(hot.end(), {"platform.name=jetson_tx2_passive", "platform.start_temperature_c=78"});
+  return {
+      {"none", "nothing happens", {}},
+      {"slowdown", "all kernels cost 3 times what the platform's file says",
+       event(1, at_s, "slowdown", {"factor=3"})},
+      {"co_runner", "somebody takes 3 of 4 cores and half of the memory's bandwidth",
+       event(1, at_s, "co_runner", {"cores=3", "memory_share=0.5"})},
+      {"heat", "the heat sink gets bad (20 K/W, air of 45 degrees Celsius)", hot},
+  };
+}
+
+DriftRecord drift_record(const MemoryRecorder& trace) {
+  DriftRecord record;
+  for (const MemoryRecorder::Row& row : trace.rows()) {
+    const auto count = [&row](std::size_t field) {
+      return static_cast<std::uint64_t>(std::get<std::int64_t>(row.fields[field].value));
+    };
+    if (row.channel == "promise") {
+      record.push_back({row.at, count(0), count(1)});
+    }
+  }
+  return record;
+}
+
+Result<DriftRecord> read_drift_record(const std::string& run_folder) {
+  const std::string path = run_folder + "/trace.jsonl";
+  std::ifstream file{path};
+  if (!file) {
+    return Error{ErrorCode::not_found, "no record \"" + path + "\""};
+  }
+  DriftRecord record;
+  try {
+    for (std::string line; std::getline(file, line);) {
+      take_row(nlohmann::json::parse(line), record);
+    }
+  } catch (const std::exception& broken) {
+    return Error{ErrorCode::invalid_input, "record \"" + path + "\": " + broken.what()};
+  }
+  return record;
+}
+
+DriftCount count_promises(const DriftRecord& record,
+                          MissionTime event,
+                          std::uint64_t first,
+                          std::uint64_t last) {
+  // Those that were issued before the event and were still open count from it on, too.
+  PromiseRow before;
+  DriftCount count;
+  PromiseRow previous;
+  for (const PromiseRow& row : record) {
+    if (row.at < event) {
+      before = row;
+    } else if (row.issued >= before.issued + first && row.issued <= before.issued + last) {
+      count.decisions += row.issued - previous.issued;
+      count.late += row.late - previous.late;
+    }
+    previous = row;
+  }
+  return count;
+}
+
+}  // namespace flyball

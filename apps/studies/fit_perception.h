@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What the recorded scenes have in common: a vehicle that is put somewhere and looks.
+
+#include "flyball/sim/depth_camera.h"
+
+#include "flight/mission_context.h"
+#include "studies/fit_scenes.h"
+
+namespace flyball {
+
+[[nodiscard]] Pose looking(const Vec3& p_W, double yaw_rad);
+[[nodiscard]] MissionBrief brief_of(const World& world);
+
+/// Camera, point cloud and map: what is done with one view.
+class Perception {
+ public:
+  /// Context and world outlive it.
+  Perception(MissionContext& context, const World& world)
+      : context_{context}, camera_{world, context.scenario.camera, context.scenario.seed} {}
+
+  /// Looks from `X_WB`; the frame is in the map afterwards.
+  Status look(const Pose& X_WB, KernelLoads& loads);
+  /// The newest view at another resolution; the map stays as it is.
+  Result<Work> prepare(double resolution_m);
+
+ private:
+  [[nodiscard]] double range_m() const { return context_.scenario.map.range_m; }
+
+  MissionContext& context_;
+  DepthCamera camera_;
+  PointCloudFrame view_{};
+  Pose X_WC_{Pose::Identity()};
+  std::uint64_t frames_{};
+};
+
+}  // namespace flyball

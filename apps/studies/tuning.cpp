@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/studies/tuning.h"
+
+#include "flyball/records/text_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+/// The shortest text that reads back as this number.
+std::string number_text(double value) {
+  std::string text(32, '\0');
+  const auto [end, failed] = std::to_chars(text.data(), text.data() + text.size(), value);
+  text.resize(failed == std::errc{} ? static_cast<std::size_t>(end - text.data()) : 0);
+  return text;
+}
+
+Error wrong(const std::string& text, const std::string& why) {
+  return {ErrorCode::invalid_input,
+          "--try " + text + " " + why + "; give for example range_m=7,15,25"};
+}
+
+bool has_succeeded(const Summary& flight) {
+  return flight.status == MissionStatus::succeeded;
+}
+
+std::string parameters_text(const Candidate& candidate) {
+  std::string text;
+  for (const auto& [name, value] : candidate.parameters) {
+    text += (text.empty() ? "" : " ") + name + "=" + number_text(value);
+  }
+  return text;
+}
+
+std::string quoted(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    safe += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  }
+  return '"' + safe + '"';
+}
+
+}  // namespace
+
+Result<TriedParameter> read_tried(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  TriedParameter tried;
+  tried.name = text.substr(0, equals);
+  if (equals == std::string::npos || tried.name.empty()) {
+    return wrong(text, "names no parameter");
+  }
+  for (std::size_t at = equals + 1; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    double value = 0.0;
+    const auto [end, failed] = std::from_chars(text.data() + at, text.data() + comma, value);
+    if (failed != std::errc{} || end != text.data() + comma) {
+      return wrong(text, "has a value that is no number");
+    }
+    tried.values.push_back(value);
+    at = comma + 1;
+  }
+  const std::set<double> distinct(tried.values.begin(), tried.values.end());
+  if (distinct.size() != tried.values.size()) {
+    return wrong(text, "has a value twice");
+  }
+  return tried;
+}
+
+int Candidate::failures() const {
+  return static_cast<int>(flights.size() - static_cast<std::size_t>(std::count_if(
+                                               flights.begin(), flights.end(), has_succeeded)));
+}
+
+double Candidate::mean_energy_j() const {
+  double sum_j = 0.0;
+  double count = 0.0;
+  for (const Summary& flight : flights) {
+    if (has_succeeded(flight)) {
+      sum_j += flight.energy_total_j();
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum_j / count : 0.0;
+}
+
+std::vector<Candidate> combinations(const std::vector<TriedParameter>& tried) {
+  std::vector<Candidate> all(1);
+  for (const TriedParameter& parameter : tried) {
+    std::vector<Candidate> longer;
+    for (const Candidate& candidate : all) {
+      for (const double value : parameter.values) {
+        longer.push_back(candidate);
+        longer.back().parameters[parameter.name] = value;
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+bool is_better(const Candidate& a, const Candidate& b) {
+  const int more = a.failures() - b.failures();
+  return more != 0 ? more < 0 : a.mean_energy_j() < b.mean_energy_j();
+}
+
+std::vector<TuningRound> tuning_rounds(std::size_t candidates, std::size_t seeds) {
+  std::size_t halvings = 0;
+  while ((candidates >> (halvings + 1U)) >= 2 && (seeds >> (halvings + 1U)) >= 1) {
+    ++halvings;
+  }
+  std::vector<TuningRound> rounds;
+  for (std::size_t i = 0; i <= halvings; ++i) {
+    const std::size_t half = std::size_t{1} << i;
+    rounds.push_back(
+        {std::max<std::size_t>(1, seeds >> (halvings - i)), (candidates + half - 1) / half});
+  }
+  return rounds;
+}
+
+std::string preset_text(const std::string& policy,
+                        const std::string& description,
+                        const Candidate& candidate) {
+  std::string text = "description = " + quoted(description) + "\npolicy = " + quoted(policy) +
+                     "\n\n[parameters]\n";
+  for (const auto& [name, value] : candidate.parameters) {
+    text += name + " = " + number_text(value) + "\n";
+  }
+  return text;
+}
+
+std::string to_text(const std::vector<Candidate>& ranked) {
+  std::vector<std::vector<std::string>> lines{{"success", "energy kJ", "parameters"}};
+  for (const Candidate& candidate : ranked) {
+    const auto flown = static_cast<int>(candidate.flights.size());
+    lines.push_back(
+        {std::to_string(flown - candidate.failures()) + "/" + std::to_string(flown),
+         candidate.failures() == flown ? "-" : rounded(candidate.mean_energy_j() * 1e-3, 2),
+         parameters_text(candidate)});
+  }
+  return aligned(lines);
+}
+
+std::string to_json(const std::string& scenario,
+                    const std::string& policy,
+                    const std::vector<Candidate>& ranked) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"scenario", scenario}, {"policy", policy}, {"candidates", Json::array()}};
+  for (const Candidate& candidate : ranked) {
+    const auto flown = static_cast<int>(candidate.flights.size());
+    json["candidates"].push_back(
+        {{"parameters", candidate.parameters},
+         {"n", flown},
+         {"succeeded", flown - candidate.failures()},
+         {"mean_energy_j",
+          candidate.failures() == flown ? Json{nullptr} : Json(candidate.mean_energy_j())}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace flyball

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Stock OctoMap's map of several resolutions: each has cells of its own, which every ray that
+/// crosses them frees, and `LayeredView` makes one map of them. Trees or bricks keep the cells: a
+/// `Store`. The work is counted as stock does it.
+///
+/// A store has
+///   Store(cell_m), cells()             what LayeredView looks at; empty at first
+///   write(masks)                       of one scan
+///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
+///   add_to(clear)                      tells all that it knows
+///   counts(), bytes()                  as in MapContents
+///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
+
+#include "flyball/kernels/mapper.h"
+
+#include "bricks/bits.h"
+#include "maps/layered_view.h"
+#include "maps/octomap_tree.h"
+#include "maps/shown_cells.h"
+#include "scans/clear_cells.h"
+#include "scans/exact_scan.h"
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+
+namespace flyball {
+
+/// p = .9: three hits. Log-odds of a wall that stays, also where rays pass beside it.
+inline constexpr float confirmed_log_odds = 2.2F;
+
+template <class Store>
+class LayeredMapper final : public Mapper {
+ public:
+  Result<Work> prepare(const PointCloud& cloud_C,
+                       const Pose& X_WC,
+                       const MapperSettings& settings) override {
+    if (auto status = check_points(cloud_C, X_WC); !status) {
+      pending_ = nullptr;
+      return status.error();
+    }
+    return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
+      return exact.walk(cloud_C, X_WC, settings.range_m);
+    });
+  }
+  Result<Work> prepare_frame(const PointCloudFrame& frame,
+                             const Pose& X_WC,
+                             const MapperSettings& settings) override {
+    if (!frame.pixels) {
+      return prepare(frame.cloud_C.value(), X_WC, settings);
+    }
+    return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
+      return exact.compute(frame, X_WC, settings.range_m);
+    });
+  }
+
+  void commit() override {
+    if (pending_ != nullptr) {
+      pending_->store.write(masks_->bricks);
+      if (pending_->is_coarse()) {
+        pending_->clear.add(masks_->bricks);
+        for (const auto& [centre_W, space] : view_.declared().all()) {
+          pending_->clear.declare(centre_W, space);
+        }
+      }
+      if (pending_->is_wide()) {
+        pending_->confirm(masks_->bricks);
+      }
+      pending_->show_in(view_);
+      pending_ = nullptr;
+    }
+  }
+
+  void declare_clear(const Vec3& centre_W, const Cylinder& space) override {
+    view_.declare_clear(centre_W, space);
+  }
+
+  [[nodiscard]] const OccupancyView& view() const override { return view_; }
+
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return shown_cells(view_); }
+
+  [[nodiscard]] MapContents contents() const override {
+    MapContents contents;
+    for (const Layer* layer : by_resolution()) {
+      contents.levels.push_back(layer->store.counts());
+      contents.bytes += layer->store.bytes() + layer->clear.bytes() + layer->walls.bytes();
+    }
+    return contents;
+  }
+
+  [[nodiscard]] Status write(const std::string& path,
+                             std::optional<double> resolution_m) const override {
+    try {
+      for (const Layer* layer : by_resolution()) {
+        if (!resolution_m || std::abs(layer->cell_m - *resolution_m) < 1e-9) {
+          return layer->store.write_file(path);
+        }
+      }
+      return Error{
+          ErrorCode::invalid_input,
+          "nothing has been mapped" +
+              (resolution_m ? " at " + std::to_string(*resolution_m) + " m" : std::string{})};
+    } catch (const std::exception& e) {
+      return failure(e);
+    }
+  }
+
+  [[nodiscard]] Status read(const std::string& path) override {
+    auto store = Store::read_file(path);
+    if (!store) {
+      return store.error();
+    }
+    view_.forget_layers();
+    layers_.clear();
+    pending_ = nullptr;
+    auto& layer = *layers_.emplace_back(std::make_unique<Layer>(std::move(*store)));
+    if (layer.is_coarse()) {
+      layer.store.add_to(layer.clear);
+    }
+    layer.show_in(view_);
+    return Done{};
+  }
+
+ private:
+  // A finer map trusts only those free cells of this size and wider that surely hold no wall.
+  static constexpr double coarse_cell_m = 0.3;
+  // In a cell wider than this the body can fly beside the wall that the cell contains, and rays
+  // that pass there without touching it would free the cell: stock OctoMap forgets the wall.
+  static constexpr double wide_cell_m = 0.3;
+
+  /// The cells of one resolution as stock insertion makes them, and for wide cells the walls in
+  /// it: those cells that were once occupied beyond doubt. The view asks the walls first; obstacles
+  /// are static. For coarse cells also which of them surely hold no wall at all.
+  struct Layer {
+    explicit Layer(Store of_cells)
+        : cell_m{of_cells.cell_m()},
+          exact{cell_m},
+          store{std::move(of_cells)},
+          clear{cell_m},
+          walls{cell_m} {}
+    [[nodiscard]] bool is_coarse() const { return cell_m >= coarse_cell_m; }
+    [[nodiscard]] bool is_wide() const { return cell_m > wide_cell_m; }
+
+    void show_in(LayeredView<typename Store::Cells>& view) const {
+      view.activate({&store.cells(), is_coarse() ? &clear.cells() : nullptr});
+      if (is_wide()) {
+        view.activate(walls.cells());
+      }
+    }
+
+    void confirm(const std::vector<BrickMasks>& changes) {
+      for (const BrickMasks& change : changes) {
+        for (std::uint64_t left = change.hit; left != 0; left &= left - 1) {
+          const CellKey cell = cell_of(change.brick, static_cast<unsigned>(lowest_bit(left)));
+          if (store.is_confirmed(cell) && !walls.is_confirmed(cell)) {
+            walls.confirm(cell);
+          }
+        }
+      }
+    }
+
+    double cell_m;
+    ExactScan exact;
+    Store store;
+    ClearCells clear;
+    Store walls;
+  };
+
+  /// @param masks_of  What a front-end makes of the scan.
+  template <class MasksOf>
+  Result<Work> integrate(const Pose& X_WC, const MapperSettings& settings, MasksOf&& masks_of) {
+    pending_ = nullptr;
+    constexpr double half_keys = 32768.0;  // OctoMap's keys have 16 bits
+    const double edge_m = (half_keys - 4.0) * settings.resolution_m - settings.range_m;
+    if (auto status = check_view(X_WC, settings, settings.resolution_m, edge_m); !status) {
+      return status.error();
+    }
+    try {
+      Layer& layer = layer_of(settings.resolution_m);
+      masks_ = &masks_of(layer.exact);
+      pending_ = &layer;
+      Work work;
+      work.add("frame", 1.0);
+      work.add("rays", masks_->rays);
+      work.add("traversals", masks_->traversals);
+      work.add("updates", masks_->updates);
+      return work;
+    } catch (const std::exception& e) {
+      return failure(e);
+    }
+  }
+
+  static Error failure(const std::exception& e) {
+    return {ErrorCode::failed, std::string{"octomap: "} + e.what()};
+  }
+
+  /// Finest first.
+  [[nodiscard]] std::vector<const Layer*> by_resolution() const {
+    std::vector<const Layer*> layers;
+    for (const auto& layer : layers_) {
+      layers.push_back(layer.get());
+    }
+    std::sort(layers.begin(), layers.end(),
+              [](const Layer* a, const Layer* b) { return a->cell_m < b->cell_m; });
+    return layers;
+  }
+
+  Layer& layer_of(double resolution_m) {
+    for (const auto& layer : layers_) {
+      if (std::abs(layer->cell_m - resolution_m) < 1e-9) {
+        return *layer;
+      }
+    }
+    return *layers_.emplace_back(std::make_unique<Layer>(Store{resolution_m}));
+  }
+
+  std::vector<std::unique_ptr<Layer>> layers_{};
+  LayeredView<typename Store::Cells> view_{};
+  const ScanMasks* masks_{};  ///< Of the pending layer.
+  Layer* pending_{};
+};
+
+}  // namespace flyball

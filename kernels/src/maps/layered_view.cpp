@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: octomap_view
+#include "maps/layered_view.h"
+
+#include "bricks/box_words.h"
+#include "bricks/brick_walk.h"
+#include "bricks/obstacle_columns.h"
+#include "maps/octree_walk.h"
+#include <algorithm>
+#include <limits>
+
+namespace flyball {
+namespace {
+
+// What a layer is asked, of a tree and of bricks.
+
+double cell_m(const octomap::OcTree& tree) {
+  return tree.getResolution();
+}
+double cell_m(const BrickMap& map) {
+  return map.lattice().cell_m(0);
+}
+
+CellState state_in(const octomap::OcTree& tree, const Vec3& p_W) {
+  octomap::OcTreeKey key;
+  const octomap::OcTreeNode* node =
+      tree.coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key) ? tree.search(key) : nullptr;
+  return node == nullptr             ? CellState::unknown
+         : tree.isNodeOccupied(node) ? CellState::occupied
+                                     : CellState::free;
+}
+CellState state_in(const BrickMap& map, const Vec3& p_W) {
+  return map.lattice().contains(p_W) ? map.state(map.lattice().cell(p_W), 0) : CellState::unknown;
+}
+
+OctreeWalk walk_in(const octomap::OcTree& tree) {
+  return OctreeWalk{tree};
+}
+BrickWalk walk_in(const BrickMap& map) {
+  return BrickWalk{map, 0};
+}
+
+/// What a box of cells in a map has, as far as a look at bricks tells.
+struct Glance {
+  bool may_have_occupied{true};
+  bool may_have_unknown{true};
+};
+
+Glance glance_at(const octomap::OcTree& /*tree*/, const Aabb& /*box*/) {
+  return {};
+}
+Glance glance_at(const BrickMap& map, const Aabb& box) {
+  KeyBox keys;
+  if (!keys_in(map.lattice(), box, touch_m, keys) || keys.is_empty()) {
+    return {};
+  }
+  const BoxBricks bricks{keys};
+  if (!bricks.fits()) {
+    return {};
+  }
+  const BoxWords words{map, 0, bricks};
+  Glance seen{words.may_have_occupied(), words.may_have_unknown()};
+  if (seen.may_have_occupied || seen.may_have_unknown) {
+    seen = {false, false};
+    (void)words.any_brick([&](const CellKey&, std::uint64_t occupied, std::uint64_t unknown) {
+      seen.may_have_occupied = seen.may_have_occupied || occupied != 0;
+      seen.may_have_unknown = seen.may_have_unknown || unknown != 0;
+      return seen.may_have_occupied && seen.may_have_unknown;
+    });
+  }
+  return seen;
+}
+
+template <class Visit>
+void for_each_cube(const octomap::OcTree& tree, Visit&& visit) {
+  const Vec3 far = Vec3::Constant(std::numeric_limits<double>::max());
+  const BoxShape everywhere{{-far, far}};
+  (void)walk_in(tree).any_occupied(everywhere.bounds(), everywhere, visit);
+}
+template <class Visit>
+void for_each_cube(const BrickMap& map, Visit&& visit) {
+  for (const auto& chunk : map.chunks()) {
+    (void)walk_in(map).any_occupied(BoxShape{map.lattice().cube(chunk->key, chunk_level)}, visit);
+  }
+}
+
+}  // namespace
+
+template <class Cells>
+void LayeredView<Cells>::activate(const Layer& layer) {
+  const auto is_it = [&](const Layer& other) { return other.cells == layer.cells; };
+  layers_.erase(std::remove_if(layers_.begin(), layers_.end(), is_it), layers_.end());
+  layers_.insert(layers_.begin(), layer);
+}
+
+template <class Cells>
+double LayeredView<Cells>::resolution_m() const {
+  return layers_.empty() ? initial_resolution_m : cell_m(*layers_.front().cells);
+}
+
+template <class Cells>
+CellState LayeredView<Cells>::state(const Vec3& p_W) const {
+  if (!p_W.allFinite()) {
+    return CellState::unknown;
+  }
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    const CellState seen = state_in(*layers_[layer].cells, p_W);
+    if (seen == CellState::occupied && !is_vague(layer, Use::move)) {
+      return seen;
+    }
+    const octomap::OcTree* free_cells = trusted(layer, Use::move);
+    if (seen == CellState::free &&
+        (free_cells == nullptr || state_in(*free_cells, p_W) == CellState::free)) {
+      return seen;
+    }
+  }
+  return clear_.contains(p_W) ? CellState::free : CellState::unknown;
+}
+
+template <class Cells>
+CellState LayeredView<Cells>::body_state(const Vec3& p_WB, const Cylinder& body) const {
+  if (!p_WB.allFinite()) {
+    return CellState::unknown;
+  }
+  const BodyShape shape{p_WB, body};
+  if (is_plainly_free(shape.bounds())) {
+    return CellState::free;
+  }
+  if (hits(shape, Use::move)) {
+    return CellState::occupied;
+  }
+  const auto is_open = [&](const Aabb& part) { return !clear_.cover(part, shape); };
+  return any_gap({layers_.size(), Use::move}, shape.bounds(), shape, is_open) ? CellState::unknown
+                                                                              : CellState::free;
+}
+
+/// The usual case in the open: maps without an obstacle there, up to one that knows all of it.
+template <class Cells>
+bool LayeredView<Cells>::is_plainly_free(const Aabb& box) const {
+  for (std::size_t layer = 0; layer < layers_.size() && !is_vague(layer, Use::move); ++layer) {
+    const Glance seen = glance_at(*layers_[layer].cells, box);
+    if (seen.may_have_occupied || !seen.may_have_unknown) {
+      return !seen.may_have_occupied;
+    }
+  }
+  return false;
+}
+
+template <class Cells>
+bool LayeredView<Cells>::has_occupied(const Aabb& box) const {
+  return hits(BoxShape{box}, Use::move);
+}
+
+template <class Cells>
+bool LayeredView<Cells>::segment_hits(const Vec3& from,
+                                      const Vec3& to,
+                                      const Cylinder& body) const {
+  return !from.allFinite() || !to.allFinite() || hits(SweepShape{from, to, body}, Use::move);
+}
+
+template <class Cells>
+double LayeredView<Cells>::obstacle_density(const Vec3& p_W,
+                                            double radius_m,
+                                            double half_band_m) const {
+  return ObstacleColumns{p_W, radius_m, half_band_m}.density(
+      [this](const Aabb& box) { return hits(BoxShape{box}, Use::look); });
+}
+
+template <class Cells>
+double LayeredView<Cells>::nearest_obstacle_m(const Vec3& p_W,
+                                              double limit_m,
+                                              double half_band_m) const {
+  NearestShape shape{p_W, limit_m, half_band_m};
+  (void)any_obstacle(shape, Use::look, [&](const Aabb& part) {
+    shape.shrink_to(part);
+    return false;
+  });
+  return shape.nearest_m();
+}
+
+template <class Cells>
+void LayeredView<Cells>::for_each_occupied(
+    const std::function<void(const Aabb& cube)>& show) const {
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    for_each_cube(*layers_[layer].cells, [&](const Aabb& cube) {
+      if (any_gap({layer, Use::look}, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
+        show(cube);
+      }
+      return false;
+    });
+  }
+}
+
+template <class Cells>
+bool LayeredView<Cells>::is_vague(std::size_t layer, Use use) const {
+  constexpr double same = 1.001;
+  return use == Use::move && cell_m(*layers_[layer].cells) > same * cell_m(*layers_.front().cells);
+}
+
+template <class Cells>
+const octomap::OcTree* LayeredView<Cells>::trusted(std::size_t layer, Use use) const {
+  return is_vague(layer, use) ? layers_[layer].trusted_by_finer : nullptr;
+}
+
+template <class Cells>
+template <class Shape, class Show>
+bool LayeredView<Cells>::any_gap(Layers layers,
+                                 const Aabb& region,
+                                 const Shape& shape,
+                                 Show&& show) const {
+  return any_gap_from(0, layers, region, shape, show);
+}
+
+template <class Cells>
+template <class Shape, class Show>
+bool LayeredView<Cells>::any_gap_from(
+    std::size_t layer, Layers layers, const Aabb& region, const Shape& shape, Show& show) const {
+  if (layer == layers.count) {
+    return show(region);
+  }
+  const auto deeper = [&](const Aabb& part) {
+    return any_gap_from(layer + 1, layers, part, shape, show);
+  };
+  if (const octomap::OcTree* free_cells = trusted(layer, layers.use)) {
+    const OctreeWalk walk{*free_cells};
+    return walk.any_unknown(region, shape, deeper) || walk.any_occupied(region, shape, deeper);
+  }
+  const auto walk = walk_in(*layers_[layer].cells);
+  return walk.any_unknown(region, shape, deeper) ||
+         (is_vague(layer, layers.use) && walk.any_occupied(region, shape, deeper));
+}
+
+template <class Cells>
+template <class Shape, class Show>
+bool LayeredView<Cells>::any_obstacle(const Shape& shape, Use use, Show&& show) const {
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    const auto show_visible = [&](const Aabb& part) {
+      return any_gap({layer, use}, part, shape, show);
+    };
+    const Cells& cells = *layers_[layer].cells;
+    if (!is_vague(layer, use) && glance_at(cells, shape.bounds()).may_have_occupied &&
+        walk_in(cells).any_occupied(shape.bounds(), shape, show_visible)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Cells>
+template <class Shape>
+bool LayeredView<Cells>::hits(const Shape& shape, Use use) const {
+  return any_obstacle(shape, use, [](const Aabb&) { return true; });
+}
+
+template class LayeredView<octomap::OcTree>;
+template class LayeredView<BrickMap>;
+
+}  // namespace flyball

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planning/frontier_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace flyball {
+namespace {
+
+constexpr double cube_m = 1.2;
+constexpr double same_place_m = 0.4;
+constexpr double same_heading_rad = 0.35;
+constexpr double given_up_m = 0.5;
+// What a view costs beside the way to it (turning, mapping, the next decision) takes as long as
+// this way at indoor speed.
+constexpr double fixed_way_m = 3.0;
+constexpr std::size_t looked_at_together = 12;
+
+struct Gathered {
+  double faces{};
+  Vec3 sum_W{Vec3::Zero()};
+  std::vector<GridCell> cells{};
+};
+
+double unknown_faces(const StateGrid& grid, const GridCell& cell, const Aabb& volume_W) {
+  double faces = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 1}) {
+      GridCell next = cell;
+      next[axis] += step;
+      const bool is_inside = grid.contains(next) && volume_W.contains(grid.centre(next));
+      faces += is_inside && grid.at(next) == CellState::unknown ? 1.0 : 0.0;
+    }
+  }
+  return faces;
+}
+
+GridCell nearest_to(const Vec3& p_W, const StateGrid& grid, const std::vector<GridCell>& cells) {
+  return *std::min_element(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
+    return (grid.centre(a) - p_W).squaredNorm() < (grid.centre(b) - p_W).squaredNorm();
+  });
+}
+
+class Search {
+ public:
+  Search(const ExploreRequest& request, const StateGrid& grid, const StandingPlaces& places)
+      : request_{request}, grid_{grid}, places_{places} {}
+
+  /// The nearest place from which the frontier is in sight.
+  [[nodiscard]] std::optional<FrontierView> view_of(const Frontier& frontier) {
+    const Vec3 target_W = grid_.centre(frontier.cell);
+    for (const Place& place : places_.thinned()) {
+      const Vec3 eye_W = grid_.centre(place.cell);
+      const Viewpoint view{eye_W, yaw_of(target_W - eye_W)};
+      if (is_in_sight(target_W - eye_W) && !is_spent(request_, view) &&
+          grid_.sees(eye_W, frontier.cell, ray_cells_)) {
+        return FrontierView{view, place.way_m, 0.0};
+      }
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] double ray_cells() const { return ray_cells_; }
+
+ private:
+  // The frontier's middle, and something behind it, lies in the field; half a metre away it does
+  // not matter which cell of it is looked at.
+  [[nodiscard]] bool is_in_sight(const Vec3& to) const {
+    constexpr double behind_m = 1.0;
+    const double across_m = to.head<2>().norm();
+    return across_m > 0.5 &&
+           std::abs(to.z()) < std::tan(0.5 * request_.field.vertical_rad) * across_m &&
+           to.norm() < request_.field.range_m - behind_m;
+  }
+
+  const ExploreRequest& request_;
+  const StateGrid& grid_;
+  const StandingPlaces& places_;
+  double ray_cells_{};
+};
+
+double worth(double seen, double way_m) {
+  return seen / (way_m + fixed_way_m);
+}
+
+}  // namespace
+
+std::vector<Frontier> find_frontiers(const StateGrid& grid, const Aabb& volume_W) {
+  std::map<GridCell, Gathered> cubes;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const GridCell cell = grid.cell_at(i);
+    const Vec3 p_W = grid.centre(cell);
+    if (grid.at(cell) != CellState::free || !volume_W.contains(p_W)) {
+      continue;
+    }
+    if (const double faces = unknown_faces(grid, cell, volume_W); faces > 0.0) {
+      Gathered& cube = cubes[grid_cell_of(p_W, cube_m)];
+      cube.faces += faces;
+      cube.sum_W += p_W;
+      cube.cells.push_back(cell);
+    }
+  }
+  std::vector<Frontier> frontiers;
+  for (const auto& [key, cube] : cubes) {
+    const Vec3 middle_W = cube.sum_W / static_cast<double>(cube.cells.size());
+    frontiers.push_back({nearest_to(middle_W, grid, cube.cells), cube.faces});
+  }
+  return frontiers;
+}
+
+bool is_spent(const ExploreRequest& request, const Viewpoint& view) {
+  const auto is_same = [&](const Viewpoint& old) {
+    return (old.p_W - view.p_W).norm() < same_place_m &&
+           std::abs(wrap_angle(old.yaw_rad - view.yaw_rad)) < same_heading_rad;
+  };
+  const auto is_near = [&](const Vec3& p_W) { return (p_W - view.p_W).norm() < given_up_m; };
+  return std::any_of(request.taken.begin(), request.taken.end(), is_same) ||
+         std::any_of(request.unreachable_W.begin(), request.unreachable_W.end(), is_near);
+}
+
+std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
+                                               const StateGrid& grid,
+                                               const StandingPlaces& places,
+                                               ViewGain& gain,
+                                               double least_gain_m3,
+                                               double& ray_cells) {
+  Search search{request, grid, places};
+  std::vector<std::pair<double, FrontierView>> candidates;
+  for (const Frontier& frontier : find_frontiers(grid, request.volume_W)) {
+    if (const auto view = search.view_of(frontier)) {
+      candidates.emplace_back(worth(frontier.faces, view->way_m), *view);
+    }
+  }
+  ray_cells += search.ray_cells();
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::optional<FrontierView> best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (best && i % looked_at_together == 0) {
+      break;
+    }
+    FrontierView& view = candidates[i].second;
+    view.gain_m3 = gain.gain_m3(view.view);
+    if (view.gain_m3 >= least_gain_m3 &&
+        (!best || worth(view.gain_m3, view.way_m) > worth(best->gain_m3, best->way_m))) {
+      best = view;
+    }
+  }
+  return best;
+}
+
+}  // namespace flyball

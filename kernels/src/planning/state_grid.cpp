@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planning/state_grid.h"
+
+namespace flyball {
+
+StateGrid::StateGrid(const OccupancyView& map, const Aabb& box_W) : cell_m_{map.resolution_m()} {
+  first_ = cell_of(box_W.min);
+  // A box that ends on a border does not reach into the next cell.
+  last_ = cell_of(box_W.max - Vec3::Constant(1e-6));
+  std::size_t count = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    last_[i] = std::max(last_[i], first_[i]);
+    count *= static_cast<std::size_t>(last_[i] - first_[i] + 1);
+  }
+  states_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    states_[i] = map.state(centre(cell_at(i)));
+  }
+}
+
+GridCell StateGrid::cell_at(std::size_t index) const {
+  const auto wide = static_cast<std::size_t>(last_[0] - first_[0] + 1);
+  const auto deep = static_cast<std::size_t>(last_[1] - first_[1] + 1);
+  return {first_[0] + static_cast<int>(index % wide),
+          first_[1] + static_cast<int>(index / wide % deep),
+          first_[2] + static_cast<int>(index / (wide * deep))};
+}
+
+bool StateGrid::sees(const Vec3& from_W, const GridCell& cell, double& crossed) const {
+  return walk_cells(from_W, centre(cell), cell_m_, [&](const GridCell& on_way) {
+    crossed += 1.0;
+    return on_way == cell || at(on_way) != CellState::occupied;
+  });
+}
+
+}  // namespace flyball

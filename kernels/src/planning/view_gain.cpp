@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planning/view_gain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+ViewGain::ViewGain(const StateGrid& grid, const Aabb& volume_W, const ViewField& field)
+    : grid_{grid},
+      first_{grid.cell_of(volume_W.min)},
+      last_{grid.cell_of(volume_W.max - Vec3::Constant(1e-6))},
+      range_m_{field.range_m},
+      tan_across_{std::tan(0.5 * field.horizontal_rad)},
+      tan_up_{std::tan(0.5 * field.vertical_rad)} {
+  for (std::size_t i = 0; i < 3; ++i) {
+    first_[i] = std::max(first_[i], grid.first()[i]);
+    last_[i] = std::min(last_[i], grid.last()[i]);
+  }
+}
+
+bool ViewGain::is_in_field(const Viewpoint& view, const GridCell& cell) const {
+  const Vec3 to = grid_.centre(cell) - view.p_W;
+  const double forward = std::cos(view.yaw_rad) * to.x() + std::sin(view.yaw_rad) * to.y();
+  const double left = std::cos(view.yaw_rad) * to.y() - std::sin(view.yaw_rad) * to.x();
+  return forward > 0.0 && std::abs(left) <= tan_across_ * forward &&
+         std::abs(to.z()) <= tan_up_ * forward && to.squaredNorm() <= range_m_ * range_m_;
+}
+
+double ViewGain::gain_m3(const Viewpoint& view) {
+  const Vec3 reach = Vec3::Constant(range_m_);
+  GridCell low = grid_.cell_of(view.p_W - reach);
+  GridCell high = grid_.cell_of(view.p_W + reach);
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = std::max(low[i], first_[i]);
+    high[i] = std::min(high[i], last_[i]);
+  }
+  const Vec3 heading{std::cos(view.yaw_rad), std::sin(view.yaw_rad), 0.0};
+  double seen = 0.0;
+  for (int y = low[1]; y <= high[1]; ++y) {
+    for (int x = low[0]; x <= high[0]; ++x) {
+      seen += seen_in_column(view.p_W, heading, {x, y, low[2]}, high[2]);
+    }
+  }
+  return seen * grid_.cell_m() * grid_.cell_m() * grid_.cell_m();
+}
+
+// The cells of a column share their bearing, so what is out of sight costs little.
+double ViewGain::seen_in_column(const Vec3& eye_W, const Vec3& heading, GridCell cell, int top) {
+  const Vec3 to = grid_.centre(cell) - eye_W;
+  const double forward = heading.x() * to.x() + heading.y() * to.y();
+  const double left = heading.x() * to.y() - heading.y() * to.x();
+  const double spare_m2 = range_m_ * range_m_ - to.head<2>().squaredNorm();
+  if (forward <= 0.0 || std::abs(left) > tan_across_ * forward || spare_m2 < 0.0) {
+    return 0.0;
+  }
+  const double up_m = std::min(tan_up_ * forward, std::sqrt(spare_m2));
+  double seen = 0.0;
+  for (double z_m = to.z(); cell[2] <= top; ++cell[2], z_m += grid_.cell_m()) {
+    if (std::abs(z_m) <= up_m) {
+      cells_ += 1.0;
+      const bool is_new = grid_.at(cell) == CellState::unknown;
+      seen += is_new && grid_.sees(eye_W, cell, ray_cells_) ? 1.0 : 0.0;
+    }
+  }
+  return seen;
+}
+
+}  // namespace flyball

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How much unknown space a view would show.
+
+#include "flyball/kernels/explorer.h"
+
+#include "planning/state_grid.h"
+
+namespace flyball {
+
+class ViewGain {
+ public:
+  /// The grid outlives it.
+  ViewGain(const StateGrid& grid, const Aabb& volume_W, const ViewField& field);
+
+  /// Volume of the unknown cells of the volume that the camera would see, with the occupied ones in
+  /// the way: Bircher et al. 2016 (doi:10.1109/ICRA.2016.7487281), eq. 3's Visible(M, xi).
+  [[nodiscard]] double gain_m3(const Viewpoint& view);
+  /// Whether the centre of the cell lies in the pyramid.
+  [[nodiscard]] bool is_in_field(const Viewpoint& view, const GridCell& cell) const;
+
+  /// Looked at so far, and crossed by rays.
+  [[nodiscard]] double cells() const { return cells_; }
+  [[nodiscard]] double ray_cells() const { return ray_cells_; }
+
+ private:
+  /// From `cell` up to the one at height `top`.
+  [[nodiscard]] double seen_in_column(const Vec3& eye_W,
+                                      const Vec3& heading,
+                                      GridCell cell,
+                                      int top);
+
+  const StateGrid& grid_;
+  GridCell first_{};  ///< Of the volume.
+  GridCell last_{};
+  double range_m_;
+  double tan_across_;
+  double tan_up_;
+  double cells_{};
+  double ray_cells_{};
+};
+
+}  // namespace flyball

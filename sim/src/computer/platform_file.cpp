@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/sim/platform_file.h"
+
+#include "computer/platform_table.h"
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+namespace flyball {
+namespace {
+
+std::vector<MemoryClock> read_memory_clocks(TableReader& reader,
+                                            std::vector<std::string>& problems) {
+  std::vector<MemoryClock> clocks;
+  for (const toml::table* one : reader.tables_or_none("memory_clocks")) {
+    TableReader items{*one, reader.path("memory_clocks"), problems};
+    const MemoryClock step{Hertz{items.number("from_hz", 0.0, 1e11)},
+                           Hertz{items.number("memory_hz", 0.0, 1e11)}};
+    items.reject_unknown();
+    if (!clocks.empty() && !(clocks.back().from < step.from)) {
+      reader.complain("memory_clocks", "are not ascending");
+    }
+    clocks.push_back(step);
+  }
+  return clocks;
+}
+
+PowerCost read_power(TableReader& reader, std::vector<std::string>& problems) {
+  PowerCost power;
+  power.board_w = reader.number("board_w", 0.0, 1000.0);
+  power.converter = reader.number("converter", 1.0, 10.0);
+  power.soc_w = reader.number("soc_w", 0.0, 1000.0);
+  power.memory_w = reader.number("memory_w", 0.0, 1000.0);
+  power.cpu_constant_w = reader.number("cpu_constant_w", 0.0, 1000.0);
+  power.cpu_linear_w = reader.number("cpu_linear_w", 0.0, 1000.0);
+  power.core_linear_w = reader.number("core_linear_w", 0.0, 1000.0);
+  power.core_cubic_w = reader.number("core_cubic_w", 0.0, 1000.0);
+  power.memory_linear_w = reader.number_or("memory_linear_w", 0.0, 0.0, 1000.0);
+  power.memory_clocks = read_memory_clocks(reader, problems);
+  if (power.memory_linear_w > 0.0 && power.memory_clocks.empty()) {
+    reader.complain("memory_linear_w", "needs memory_clocks");
+  }
+  reader.reject_unknown();
+  return power;
+}
+
+KernelCost read_kernel(TableReader& reader, std::vector<std::string>& problems) {
+  KernelCost cost;
+  cost.scale = reader.number_or("scale", 1.0, 0.0, 1e9);
+  cost.a = reader.number_or("a", 1.0, 0.0, 1e3);
+  cost.b = reader.number_or("b", 0.0, 0.0, 1e3);
+  cost.parallel_fraction = reader.number_or("parallel_fraction", 0.0, 0.0, 1.0);
+  if (const toml::table* prices = reader.table("seconds_per")) {
+    TableReader items{*prices, reader.path("seconds_per"), problems};
+    for (const auto& [key, node] : *prices) {
+      const std::string name{key.str()};
+      cost.seconds_per[name] = items.number(name, 0.0, 1e6);
+    }
+    if (prices->empty()) {
+      reader.complain("seconds_per", "names no work");
+    }
+  }
+  // Both zero would make every job free without anybody noticing.
+  if (cost.a + cost.b <= 0.0 || cost.scale <= 0.0) {
+    reader.complain("scale, a + b", "must be positive");
+  }
+  reader.reject_unknown();
+  return cost;
+}
+
+std::map<std::string, KernelCost, std::less<>> read_kernels(const toml::table& table,
+                                                            TableReader& reader,
+                                                            std::vector<std::string>& problems) {
+  std::map<std::string, KernelCost, std::less<>> kernels;
+  for (const auto& [key, node] : table) {
+    const std::string name{key.str()};
+    if (const toml::table* kernel = reader.table(name)) {
+      TableReader items{*kernel, reader.path(name), problems};
+      kernels[name] = read_kernel(items, problems);
+    }
+  }
+  return kernels;
+}
+
+ThermalTrip read_trip(TableReader& reader) {
+  ThermalTrip trip;
+  trip.at_c = reader.number("at_c", -50.0, 200.0);
+  trip.hysteresis_k = reader.number("hysteresis_k", 0.0, 100.0);
+  trip.cap = Hertz{reader.number("cap_hz", 1e6, 1e11)};
+  reader.reject_unknown();
+  return trip;
+}
+
+ThermalModel read_thermal(TableReader& reader, std::vector<std::string>& problems) {
+  ThermalModel thermal;
+  thermal.ambient_c = reader.number("ambient_c", -60.0, 90.0);
+  thermal.resistance_k_w = reader.number("resistance_k_w", 0.01, 1000.0);
+  thermal.time_constant_s = reader.number("time_constant_s", 0.1, 1e5);
+  for (const toml::table* one : reader.tables_or_none("trips")) {
+    TableReader items{*one, reader.path("trips"), problems};
+    const ThermalTrip trip = read_trip(items);
+    if (!thermal.trips.empty() && thermal.trips.back().at_c >= trip.at_c) {
+      reader.complain("trips", "are not ascending");
+    }
+    thermal.trips.push_back(trip);
+  }
+  reader.reject_unknown();
+  return thermal;
+}
+
+PlatformModel read_model(const toml::table& file, std::vector<std::string>& problems) {
+  TableReader reader{file, "", problems};
+  PlatformModel model;
+  model.name = reader.text("name");
+  const double cores = reader.number("max_cores", 1.0, 1024.0);
+  if (cores != std::floor(cores)) {
+    reader.complain("max_cores", "is no whole number");
+  }
+  model.max_cores = static_cast<int>(cores);
+  for (const double hz : reader.numbers("frequencies_hz", 1e6, 1e11)) {
+    if (!model.frequencies.empty() && !(model.frequencies.back() < Hertz{hz})) {
+      reader.complain("frequencies_hz", "is not ascending");
+    }
+    model.frequencies.emplace_back(hz);
+  }
+  model.switching_time = from_seconds(reader.number("switching_time_s", 0.0, 10.0));
+  if (const toml::table* power = reader.table("power")) {
+    TableReader items{*power, "power", problems};
+    model.power = read_power(items, problems);
+  }
+  if (const toml::table* kernels = reader.table("kernels")) {
+    TableReader items{*kernels, "kernels", problems};
+    model.kernels = read_kernels(*kernels, items, problems);
+  }
+  if (file.contains("thermal")) {
+    if (const toml::table* thermal = reader.table("thermal")) {
+      TableReader items{*thermal, "thermal", problems};
+      model.thermal = read_thermal(items, problems);
+    }
+  }
+  reader.reject_unknown();
+  return model;
+}
+
+/// The file that this one is like; empty when it stands alone.
+std::string base_path(const toml::table& file, const std::string& path) {
+  const auto base = file["like"].value<std::string>();
+  return base ? (std::filesystem::path{path}.parent_path() / (*base + ".toml")).string() : "";
+}
+
+/// With what it takes over from the file that it is like.
+toml::table completed(toml::table own, const std::string& path) {
+  const std::string base = base_path(own, path);
+  own.erase("like");
+  if (base.empty()) {
+    return own;
+  }
+  toml::table all = toml::parse_file(base);
+  const auto take_over = [](const toml::table& from, toml::table& into) {
+    for (const auto& [key, node] : from) {
+      into.insert_or_assign(key.str(), node);
+    }
+  };
+  // Kernel by kernel: whoever prices one anew keeps the others.
+  if (own["kernels"].is_table() && all["kernels"].is_table()) {
+    take_over(*own["kernels"].as_table(), *all["kernels"].as_table());
+    own.erase("kernels");
+  }
+  take_over(own, all);
+  return all;
+}
+
+std::string joined(const std::vector<std::string>& problems) {
+  std::string all;
+  for (const std::string& problem : problems) {
+    all += (all.empty() ? "" : "; ") + problem;
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<PlatformModel> load_platform(const std::string& path) {
+  std::ifstream stream{path};
+  if (!stream) {
+    return Error{ErrorCode::not_found,
+                 "no platform file \"" + path + "\"; try: flyball list platforms"};
+  }
+  try {
+    toml::table own = toml::parse(stream, path);
+    if (own.contains("like") && !std::filesystem::is_regular_file(base_path(own, path))) {
+      return Error{ErrorCode::invalid_input,
+                   "platform file \"" + path + "\" must be like another platform beside it, and " +
+                       "there is no \"" + base_path(own, path) + "\""};
+    }
+    const toml::table file = completed(std::move(own), path);
+    std::vector<std::string> problems;
+    PlatformModel model = read_model(file, problems);
+    if (!problems.empty()) {
+      return Error{ErrorCode::invalid_input, "platform file \"" + path + "\": " + joined(problems)};
+    }
+    return model;
+  } catch (const toml::parse_error& error) {
+    std::ostringstream what;
+    what << "platform file \"" << (error.source().path ? *error.source().path : path) << "\", line "
+         << error.source().begin.line << ": " << error.description();
+    return Error{ErrorCode::invalid_input, what.str()};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::failed, "platform file \"" + path + "\": " + error.what()};
+  }
+}
+
+std::vector<std::string> files_of_platform(const std::string& path) {
+  std::vector<std::string> files{path};
+  try {
+    const std::string base = base_path(toml::parse_file(path), path);
+    if (!base.empty()) {
+      files.push_back(base);
+    }
+  } catch (const toml::parse_error&) {
+    return files;  // Reading it says what is wrong.
+  }
+  return files;
+}
+
+}  // namespace flyball

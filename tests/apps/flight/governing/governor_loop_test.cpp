@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+#include "flight/governing/governor_loop.h"
+
+#include "short_delivery.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(GovernorLoop, decides_at_its_period_and_applies_the_wish_once) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.period_s = 0.5;
+  const MissionRecord record = kit::flown(scenario);
+  const auto decisions = static_cast<double>(record.summary.decisions);
+  EXPECT_NEAR(decisions, record.summary.mission_time_s / 0.5, 1.5);
+  // fixed_coarse turns one knob, at the first decision, away from the scenario's .15 m.
+  EXPECT_EQ(record.summary.knob_changes, 1U);
+  EXPECT_EQ(record.summary.policy_faults, 0U);
+}
+
+TEST(GovernorLoop, a_wish_that_this_mission_does_not_have_is_moved_and_recorded_once) {
+  Scenario scenario = kit::short_delivery();  // fixed_coarse asks for .80 m
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
+  const MissionRecord record = kit::flown(scenario);
+  int notes = 0;
+  double resolution_m = 0.0;
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& [name, value] : row.fields) {
+      const auto* text = std::get_if<std::string>(&value);
+      notes += text != nullptr && *text == "map.resolution_m 0.8 is not legal here, 0.6 instead";
+      if (row.channel == "decision" && name == std::string{"value"}) {
+        resolution_m = std::get<double>(value);
+      }
+    }
+  }
+  EXPECT_EQ(notes, 1);
+  EXPECT_EQ(resolution_m, 0.6);
+}
+
+TEST(GovernorLoop, records_what_each_decision_knew) {
+  const MissionRecord record = kit::flown(kit::short_delivery());
+  std::uint64_t observations = 0;
+  for (const auto& row : record.trace->rows()) {
+    observations += row.channel == "observation" ? 1 : 0;
+  }
+  EXPECT_EQ(observations, record.summary.decisions);
+}
+
+TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_own_pace) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.policy = "ondemand_10ms";
+  const MissionRecord record = kit::flown(scenario);
+  const double time_s = record.summary.mission_time_s;
+  EXPECT_NEAR(static_cast<double>(record.summary.decisions), time_s / 0.010, 2.5);
+  std::uint64_t observations = 0;
+  for (const auto& row : record.trace->rows()) {
+    observations += row.channel == "observation" ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(observations), time_s / scenario.governor.period_s, 1.5);
+  EXPECT_GE(record.summary.knob_changes, 2U);
+}
+
+TEST(GovernorLoop, the_computer_runs_at_the_clock_that_was_wished) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.policy = "performance";
+  const MissionRecord fast = kit::flown(scenario);
+  scenario.governor.policy = "powersave";
+  const MissionRecord slow = kit::flown(scenario);
+  // The platform file: a command takes 1 ms at 2.0352 GHz, in proportion to 1 / f.
+  EXPECT_NEAR(fast.summary.kernels.at("track").mission_ms_mean, 1.0, 0.01);
+  EXPECT_NEAR(slow.summary.kernels.at("track").mission_ms_mean, 2.0352 / 0.3456, 0.05);
+  const double fast_w = fast.summary.energy_computer_j / fast.summary.mission_time_s;
+  const double slow_w = slow.summary.energy_computer_j / slow.summary.mission_time_s;
+  EXPECT_LT(slow_w, fast_w);
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What becomes of a way that was found and cannot be flown into.
+#include "flight/navigation/navigator.h"
+#include "navigator_trip.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using kit::straight;
+using kit::Trip;
+
+// Seconds of search are not lost because the vehicle has flown on meanwhile.
+TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks_for_none) {
+  Trip trip;
+  const auto late = trip.fly_until_blocked();
+  ASSERT_FALSE(late->known.has_value());
+  trip.tick(40);
+  PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
+  planned.way = {{late->start_W, Vec3{30, 0.1, 1.5}, late->goal_W}, {0.4, 0.2}};
+  trip.navigator.path_planned(trip.now, planned);
+  const double speed_m_s = trip.navigator.follower().speed_m_s();
+  ASSERT_GT(speed_m_s, 1.0) << "it has not stopped yet";
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again.has_value());
+  ASSERT_TRUE(again->known.has_value());
+  EXPECT_EQ(again->known->waypoints_W, planned.way.waypoints_W);
+  EXPECT_EQ(again->known->body.radius_m, 0.4);
+  EXPECT_GT(again->start_W.x(), trip.navigator.follower().position_W().x());
+  trip.navigator.path_planned(trip.now,
+                              {again->id, straight(again->start_W, Vec3{40, 0, 1.5}), ""});
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "it has been taken";
+  trip.tick(50);
+  EXPECT_GE(trip.navigator.follower().speed_m_s(), speed_m_s);
+}
+
+// Else a search that takes longer than the vehicle takes to stop is made again and again.
+TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
+  for (const int ticks : {300, 1500}) {  // 6 and 30 s.
+    Trip trip;
+    const auto late = trip.fly_until_blocked();
+    trip.tick(ticks);
+    PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
+    const Vec3 aside_W = 0.5 * (late->start_W + late->goal_W) + Vec3{0, 60, 0};
+    planned.way = {{late->start_W, aside_W, late->goal_W}, {0.4, 0.2}};
+    const double cost_s = detour_m(planned.way.waypoints_W) /
+                          trip.rig.context->speed_limit_m_s(trip.navigator.follower().position_W());
+    ASSERT_GT(cost_s, 6.0);
+    ASSERT_LT(cost_s, 30.0);
+    trip.navigator.path_planned(trip.now, planned);
+    const auto again = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(again->known.has_value(), ticks == 1500);
+  }
+}
+
+TEST(NavigatorJoins, plans_anew_where_a_known_way_does_not_join_and_counts_no_failure) {
+  Trip trip;
+  const auto late = trip.fly_until_blocked();
+  trip.tick(40);
+  PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
+  planned.way = {{late->start_W, late->goal_W}, {0.4, 0.2}};
+  trip.navigator.path_planned(trip.now, planned);
+  const auto joined = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(joined->known.has_value());
+  trip.navigator.path_planned(trip.now, {joined->id, {}, "edge 0 hits"});
+  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 0);
+  const auto anew = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(anew.has_value());
+  EXPECT_FALSE(anew->known.has_value());
+}
+
+}  // namespace
+}  // namespace flyball

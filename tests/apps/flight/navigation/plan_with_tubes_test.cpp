@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/navigation/plan_with_tubes.h"
+
+#include "mission_rig.h"
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+kit::GridMap room_with_gap(double gap_m) {
+  kit::GridMap map{{Vec3{-3, -3, 0}, Vec3{9, 3, 3}}, 0.15, CellState::free};
+  map.fill({Vec3{3, -3, 0}, Vec3{3.15, -0.5 * gap_m, 3}}, CellState::occupied);
+  map.fill({Vec3{3, 0.5 * gap_m, 0}, Vec3{3.15, 3, 3}}, CellState::occupied);
+  return map;
+}
+
+/// Finds nothing, and counts how often it was asked.
+class CountingPlanner final : public PathPlanner {
+ public:
+  Plan plan(const PlanRequest&, const OccupancyView&) override {
+    Plan none;
+    none.failure = "none";
+    none.work.add("tubes", 1.0);
+    return none;
+  }
+};
+
+struct Planning {
+  explicit Planning(const kit::GridMap& map) : rig{map} {
+    rig.context->kernels.planner = all_plugins().make<PathPlanner>("rrt_connect");
+    fly_within({Vec3{-2.5, -2.5, 1.0}, Vec3{8.5, 2.5, 1.6}});
+    query.id = 1;
+    query.start_W = Vec3{0, 0, 1.3};
+    query.goal_W = Vec3{6, 1, 1.3};
+  }
+  void fly_within(const Aabb& bounds_W) {
+    MissionBrief brief;
+    brief.bounds_W = bounds_W;
+    MissionEquipment equipment{rig.context->airframe, rig.context->knobs,
+                               std::move(rig.context->kernels)};
+    rig.context = std::make_unique<MissionContext>(rig.scenario, rig.platform, rig.trace, brief,
+                                                   std::move(equipment));
+  }
+  kit::MissionRig rig;
+  PlanQuery query{};
+};
+
+TEST(PlanWithTubes, keeps_as_much_room_to_obstacles_as_there_is) {
+  const std::array<double, 2> gaps_m{3.0, 1.5};
+  const std::array<double, 2> rooms_m{0.6, 0.0};  // Around the tube of cruise speed.
+  for (std::size_t i = 0; i < gaps_m.size(); ++i) {
+    const kit::GridMap map = room_with_gap(gaps_m[i]);
+    Planning planning{map};
+    Cylinder body;
+    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+    const double cruise_m_s = planning.rig.scenario.mission.max_speed_m_s;
+    EXPECT_DOUBLE_EQ(body.radius_m,
+                     planning.rig.context->body_at(cruise_m_s).radius_m + rooms_m[i]);
+  }
+}
+
+TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_way) {
+  const kit::GridMap map = room_with_gap(0.0);
+  Planning planning{map};
+  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 1600).ok());
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.waypoints_W.empty());
+  EXPECT_LE(plan.work.count("iterations"), 1600.0);
+}
+
+TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
+  const kit::GridMap map = room_with_gap(0.75);  // The middle tube's body measures .77 m.
+  Planning planning{map};
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
+  EXPECT_GT(plan.work.count("iterations"), 0.0);
+}
+
+// Two eighths of the budget would go to tubes that no opening lets through.
+TEST(PlanWithTubes, spends_nothing_on_tubes_that_cannot_pass) {
+  const auto iterations = [](double gap_m) {
+    const kit::GridMap map = room_with_gap(gap_m);
+    Planning planning{map};
+    planning.rig.context->kernels.planner = std::make_unique<CountingPlanner>();
+    planning.query.goal_W.y() = 0.0;  // Square to the wall, as lines are that look for openings.
+    Cylinder body;
+    return plan_with_tubes(*planning.rig.context, planning.query, body).work.count("tubes");
+  };
+  EXPECT_EQ(iterations(4.5), 3.0);
+  EXPECT_EQ(iterations(0.45), 1.0);
+}
+
+// A wall of 9 m with a door of .75 m in its middle: around it is twice as far as through it.
+TEST(PlanWithTubes, prefers_a_door_to_a_detour) {
+  kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{9, 10, 3}}, 0.15, CellState::free};
+  map.fill({Vec3{3, -9, 0}, Vec3{3.15, -0.375, 3}}, CellState::occupied);
+  map.fill({Vec3{3, 0.375, 0}, Vec3{3.15, 9, 3}}, CellState::occupied);
+  Planning planning{map};
+  planning.fly_within({Vec3{-2.5, -9.9, 1.0}, Vec3{8.5, 9.9, 1.6}});
+  for (std::uint64_t id = 1; id <= 10; ++id) {
+    planning.query.id = id;
+    Cylinder body;
+    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    EXPECT_LT(length_m(plan.waypoints_W), 8.0) << id;
+    EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
+  }
+}
+
+// A tenth of these searches find one: a slow computer flies the detour sooner than it looks on.
+TEST(PlanWithTubes, looks_for_a_shorter_way_no_longer_than_that_may_save) {
+  kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{9, 10, 3}}, 0.15, CellState::free};
+  map.fill({Vec3{3, -9, 0}, Vec3{3.15, 9.3, 3}}, CellState::occupied);
+  Planning planning{map};
+  planning.fly_within({Vec3{-2.5, -9.9, 1.0}, Vec3{8.5, 9.9, 1.6}});
+  const auto iterations = [&](double iteration_s) {
+    planning.query.iteration_s = iteration_s;
+    Cylinder body;
+    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    EXPECT_TRUE(plan.failure.empty()) << plan.failure;
+    return plan.work.count("iterations");
+  };
+  const double bare = iterations(10.0);
+  EXPECT_EQ(iterations(1e-9), bare + 400.0);
+  EXPECT_GT(iterations(1e-3), bare);
+  EXPECT_LT(iterations(1e-3), bare + 400.0);
+}
+
+TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
+  const kit::GridMap map = room_with_gap(0.0);
+  Planning planning{map};
+  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 2000).ok());
+  Cylinder body;
+  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  EXPECT_TRUE(plan.waypoints_W.empty());
+  EXPECT_FALSE(plan.failure.empty());
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/recordings/detection_run.h"
+
+#include "flyball/records/pictures.h"
+
+#include "scratch_folder.h"
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+std::string grey_png() {
+  ColourImage image;
+  image.camera = {160, 160, 0.0, 0.0, 0.0};
+  image.rgb.assign(3 * 160 * 160, 120);
+  return *png_of(image);
+}
+
+class Detecting : public testing::Test {
+ protected:
+  Status detect() {
+    return run_detection(run, [this](const DetectedFrame& frame) {
+      frames.push_back(frame);
+      return frames.size() < most;
+    });
+  }
+  const ScratchFolder folder;
+  DetectionRun run{folder.file("grey.png", grey_png())};
+  std::vector<DetectedFrame> frames;
+  std::size_t most{100};
+};
+
+TEST_F(Detecting, looks_at_a_picture_and_writes_it_where_it_is_asked_to) {
+  run.out = folder.path("out");
+  const Status done = detect();
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_TRUE(frames[0].people.empty());
+  EXPECT_GT(frames[0].work.count("windows"), 0.0);
+  EXPECT_EQ(frames[0].picture, folder.path("out") + "/grey.png");
+  EXPECT_EQ(folder.content("out/grey.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Detecting, stops_when_nobody_wants_more) {
+  (void)folder.file("other.png", grey_png());
+  run.input = folder.path();
+  most = 1;
+  EXPECT_TRUE(detect().ok());
+  EXPECT_EQ(frames.size(), 1U);
+}
+
+TEST_F(Detecting, refuses_an_unknown_detector_parameter_and_file) {
+  run.detector = "owl";
+  EXPECT_NE(detect().error().message.find("\"owl\""), std::string::npos);
+  run.detector = "hog";
+  run.parameters = {{"treshold", 0.5}};
+  EXPECT_NE(detect().error().message.find("treshold"), std::string::npos);
+  run.parameters = {};
+  run.input = folder.path("absent.png");
+  EXPECT_NE(detect().error().message.find("absent.png"), std::string::npos);
+  EXPECT_TRUE(frames.empty());
+}
+
+TEST_F(Detecting, says_all_of_it_as_one_line_of_json) {
+  DetectedFrame frame{"a.avi", 7, {{{1.0, 2.0, 3.0, 4.0}, 0.5}}, {}, 1.5, ""};
+  frame.work.add("windows", 12.0);
+  const std::string line = to_json(frame);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const auto read = nlohmann::json::parse(line);
+  EXPECT_EQ(read["frame"], 7);
+  EXPECT_EQ(read["people"][0]["height_px"], 4.0);
+  EXPECT_EQ(read["work"]["windows"], 12.0);
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/records/report.h"
+
+#include "made_flights.h"
+#include "scratch_folder.h"
+#include <cstring>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+TEST(RunFolder, holds_the_mission_its_summary_its_trace_and_a_page) {
+  const ScratchFolder scratch;
+  Scenario scenario;
+  scenario.seed = 5;
+  ASSERT_TRUE(write_run(scratch.path("deep/run"), scenario, made_record("a", 5)).ok());
+  Summary summary;
+  EXPECT_TRUE(from_json(scratch.content("deep/run/summary.json"), summary));
+  EXPECT_EQ(summary.seed, 5U);
+  EXPECT_EQ(scratch.content("deep/run/mission.toml"), mission_file(scenario));
+  EXPECT_NE(scratch.content("deep/run/report.html").find("<canvas"), std::string::npos);
+  EXPECT_NE(scratch.content("deep/run/report.html").find("<th>area covered percent</th>"),
+            std::string::npos);
+  for (const auto& entry : std::filesystem::directory_iterator{scratch.path("deep/run")}) {
+    EXPECT_NE(entry.path().extension(), ".part");
+  }
+}
+
+TEST(RunFolder, the_mission_file_reads_back) {
+  const ScratchFolder scratch;
+  Scenario scenario;
+  scenario.map.range_m = 6.25;
+  const auto loaded = load_scenario(scratch.file("mission.toml", mission_file(scenario)), {});
+  ASSERT_TRUE(std::holds_alternative<LoadedScenario>(loaded))
+      << std::get<1>(loaded).front().message;
+  EXPECT_EQ(std::get<LoadedScenario>(loaded).scenario.map.range_m, 6.25);
+}
+
+TEST(RunFolder, trace_lines_read_back_to_the_same_bits) {
+  const ScratchFolder scratch;
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, made_record("a", 5)).ok());
+  std::istringstream lines{scratch.content("trace.jsonl")};
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(nlohmann::json::parse(line)["channel"], "mission");
+  std::getline(lines, line);
+  const auto first = nlohmann::json::parse(line);
+  EXPECT_EQ(first["channel"], "state");
+  const double y_m = first["y_m"];
+  const double third = 1.0 / 3.0;
+  EXPECT_EQ(std::memcmp(&y_m, &third, sizeof y_m), 0);
+  nlohmann::json last;
+  int count = 1;
+  for (; std::getline(lines, line); ++count) {
+    last = nlohmann::json::parse(line);
+  }
+  EXPECT_EQ(count, 22);
+  EXPECT_EQ(last["what"], "\"</script>\" ends\nit");
+}
+
+TEST(RunFolder, a_finished_run_is_known_by_its_mission) {
+  const ScratchFolder scratch;
+  Scenario scenario;
+  const MissionRecord record = made_record("a", 5);
+  EXPECT_FALSE(finished_run(scratch.path("run"), scenario).has_value());
+  ASSERT_TRUE(write_run(scratch.path("run"), scenario, record).ok());
+  const auto found = finished_run(scratch.path("run"), scenario);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->summary.trace_hash, record.summary.trace_hash);
+  EXPECT_EQ(found->json, picture_of(record).json);
+  scenario.map.range_m += 1e-12;
+  EXPECT_FALSE(finished_run(scratch.path("run"), scenario).has_value()) << "another mission";
+}
+
+TEST(RunFolder, an_interrupted_run_is_marked_and_not_finished) {
+  const ScratchFolder scratch;
+  MissionRecord record = made_record("a", 5);
+  record.summary.status = MissionStatus::interrupted;
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, record).ok());
+  EXPECT_EQ(scratch.content("mission.toml").rfind("# Interrupted", 0), 0U);
+  EXPECT_FALSE(finished_run(scratch.path(), Scenario{}).has_value());
+}
+
+TEST(RunFolder, a_place_that_cannot_be_written_is_refused_and_left_alone) {
+  const ScratchFolder scratch;
+  const std::string in_the_way = scratch.file("file", "precious");
+  for (const std::string& folder : {in_the_way, in_the_way + "/below"}) {
+    const auto prepared = prepare_folder(folder);
+    ASSERT_FALSE(prepared.ok()) << folder;
+    EXPECT_EQ(prepared.error().code, ErrorCode::unavailable);
+    EXPECT_NE(prepared.error().message.find(folder), std::string::npos);
+    EXPECT_NE(prepared.error().message.find("--out"), std::string::npos);
+    EXPECT_FALSE(write_run(folder, Scenario{}, made_record("a", 1)).ok());
+  }
+  EXPECT_EQ(scratch.content("file"), "precious");
+}
+
+TEST(RunFolder, preparing_can_be_undone) {
+  const ScratchFolder scratch;
+  const auto made = prepare_folder(scratch.path("a/b/c"));
+  ASSERT_TRUE(made.ok());
+  EXPECT_EQ(made->size(), 3U);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path("a/b/c")));
+  (void)scratch.file("a/kept", "precious");
+  remove_empty(*made);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("a/b")));
+  EXPECT_EQ(scratch.content("a/kept"), "precious");
+}
+
+TEST(RunFolder, a_file_that_cannot_be_replaced_keeps_its_content) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch.path("name"));
+  (void)scratch.file("name/inside", "precious");
+  EXPECT_FALSE(write_file(scratch.path("name"), "new").ok());
+  EXPECT_EQ(scratch.content("name/inside"), "precious");
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("name.part")));
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/scenario/policy_choice.h"
+
+#include "flyball/governors/policy_conformance.h"
+
+#include "scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(PolicyChoice, is_a_preset_a_policy_or_a_file) {
+  const ScratchFolder scratch;
+  const std::string mine =
+      scratch.file("mine.toml", "policy = 'fixed'\n[parameters]\nresolution_m = 0.3\n");
+  for (const std::string& name : {std::string{"two_level"}, std::string{"density"}, mine}) {
+    const auto choice = choose_policy(name, 1);
+    ASSERT_TRUE(choice.ok()) << choice.error().message;
+    EXPECT_TRUE(choice->started(conformance_knobs()).ok()) << name;
+  }
+}
+
+TEST(PolicyChoice, that_does_not_exist_is_named_with_the_way_out) {
+  EXPECT_EQ("no policy \"just_in_tme\"; try: flyball list policies",
+            choose_policy("just_in_tme", 1).error().message);
+  const std::string message = choose_policy("./gone.lua", 1).error().message;
+  EXPECT_NE(std::string::npos, message.find("no file \"./gone.lua\" to read the policy from; give "
+                                            "a path to a .toml, .lua or .so file"))
+      << message;
+}
+
+}  // namespace
+}  // namespace flyball

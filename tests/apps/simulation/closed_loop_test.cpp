@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+#include "simulation/closed_loop.h"
+
+#include "short_delivery.h"
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+double number(const MemoryRecorder::Row& row, std::string_view name) {
+  for (const auto& field : row.fields) {
+    if (field.name == name) {
+      return std::get<double>(field.value);
+    }
+  }
+  ADD_FAILURE() << "no field " << name;
+  return 0.0;
+}
+
+TEST(ClosedLoop, energy_is_the_integral_of_the_recorded_power) {
+  const MissionRecord record = kit::flown(kit::short_delivery());
+  double rotor_j = 0.0;
+  double computer_j = 0.0;
+  for (const auto& row : record.trace->rows()) {
+    if (row.channel == "state") {
+      rotor_j += 0.1 * number(row, "rotor_w");
+      computer_j += 0.1 * number(row, "computer_w");
+    }
+  }
+  // Rows stand 10 to the second, the sum is taken at 100: rotor power moves within a row.
+  EXPECT_NEAR(rotor_j, record.summary.energy_rotor_j, 0.02 * rotor_j);
+  EXPECT_NEAR(computer_j, record.summary.energy_computer_j, 0.03 * computer_j);
+}
+
+TEST(ClosedLoop, battery_loses_about_what_rotors_and_computer_took) {
+  const Summary summary = kit::flown(kit::short_delivery()).summary;
+  const double capacity_j = 22.2 * 4.5 * 3600.0;  // TB47D: nominal volts times rated charge.
+  const double used_j =
+      0.01 * (summary.battery_start_percent - summary.battery_end_percent) * capacity_j;
+  // A full pack stands at 24.6 V, a tenth above nominal: fewer coulombs for the same joules.
+  EXPECT_NEAR(used_j / summary.energy_total_j(), 22.2 / 24.2, 0.04);
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/mission_setup.h"
+
+#include "flyball/governors/power_model.h"
+#include "flyball/scenario/files.h"
+
+#include "scratch_folder.h"
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+std::string refusal(const Scenario& scenario) {
+  const auto setup = set_up(scenario);
+  return setup ? "" : setup.error().message;
+}
+
+TEST(MissionSetup, makes_everything_that_the_default_scenario_names) {
+  const auto setup = set_up(Scenario{});
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  EXPECT_EQ(setup->platform->name(), "jetson_tx2");
+  EXPECT_NE(setup->equipment.kernels.mapper, nullptr);
+  EXPECT_NE(setup->governor, nullptr);
+}
+
+TEST(MissionSetup, flies_a_computer_whose_power_policies_know) {
+  const auto setup = set_up(Scenario{});
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  const ComputerPower known;
+  for (const Hertz clock : setup->platform->frequencies()) {
+    for (const double busy : {0.0, 1.5, 4.0}) {
+      EXPECT_NEAR(known.power(clock, busy).value(),
+                  setup->platform->power({4, clock}, busy).value(), 1e-9)
+          << clock.value();
+    }
+  }
+}
+
+TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
+  Scenario scenario;
+  scenario.kernels.planner = "teleport";
+  scenario.kernels.mapper = "crayon";
+  const std::string why = refusal(scenario);
+  EXPECT_NE(why.find("\"teleport\""), std::string::npos) << why;
+  EXPECT_NE(why.find("\"crayon\""), std::string::npos) << why;
+  EXPECT_NE(why.find("flyball list kernels"), std::string::npos) << why;
+  scenario = Scenario{};
+  scenario.world.generator = "moon";
+  EXPECT_NE(refusal(scenario).find("flyball list worlds"), std::string::npos);
+  scenario = Scenario{};
+  scenario.governor.policy = "just_in_tme";
+  EXPECT_NE(refusal(scenario).find("flyball list policies"), std::string::npos);
+}
+
+TEST(MissionSetup, may_fly_an_applications_policy_with_a_clock_rule_beside_it) {
+  const ScratchFolder folder;
+  Scenario scenario;
+  scenario.governor.policy =
+      folder.file("both.toml", "application = 'fixed_coarse'\nclock = 'powersave'\n");
+  const auto setup = set_up(scenario);
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  std::map<std::string, double> wished;
+  for (const auto& [knob, value] : setup->governor->decide({})) {
+    wished[std::string{knob}] = value;
+  }
+  EXPECT_EQ(wished["map.resolution_m"], 0.80);
+  EXPECT_EQ(wished["cpu.frequency_hz"], setup->platform->frequencies().front().value());
+  scenario.governor.policy = folder.file(
+      "twice.toml", "application = '" + scenario.governor.policy + "'\nclock = 'powersave'\n");
+  EXPECT_NE(refusal(scenario).find("combination itself"), std::string::npos);
+}
+
+/// The shipped platform without a price for the brick map.
+std::string older_platform() {
+  std::ifstream in{find_shipped("platforms", "jetson_tx2").value()};
+  std::string text{std::istreambuf_iterator<char>{in}, {}};
+  for (const std::string heading : {"[kernels.flyball]", "[kernels.flyball.seconds_per]"}) {
+    text.replace(text.find(heading) + 9, 7, "another");
+  }
+  return text;
+}
+
+TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
+  const ScratchFolder folder;
+  Scenario scenario;
+  scenario.platform.name = folder.file("older.toml", older_platform());
+  scenario.kernels.mapper = "flyball";
+  const auto unpriced = set_up(scenario);
+  ASSERT_FALSE(unpriced.ok());
+  EXPECT_NE(unpriced.error().message.find("no price for mapper \"flyball\""), std::string::npos)
+      << unpriced.error().message;
+  scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
+  EXPECT_TRUE(set_up(scenario).ok());
+}
+
+TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
+  Scenario scenario;
+  scenario.vehicle.airframe = "f450";
+  EXPECT_NE(refusal(scenario).find("thrust"), std::string::npos);
+  scenario.vehicle.rotor_power = "thrust";
+  EXPECT_EQ(refusal(scenario), "");
+}
+
+}  // namespace
+}  // namespace flyball

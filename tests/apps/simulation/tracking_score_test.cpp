@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/tracking_score.h"
+
+#include "grid_map.h"
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+/// A person 7 m ahead of the camera, in the middle of its image.
+class Score : public testing::Test {
+ protected:
+  Score() {
+    Person person;
+    person.walk = {{0.0, {7.0, 0.0, 0.0}}};
+    world.people = {person};
+    rig.context->truth = &world;
+  }
+  Target target_at(double t_s, bool on_person) {
+    Target target;
+    target.frame.captured = MissionTime{from_seconds(t_s)};
+    target.frame.camera = ColourCameraSpec{}.intrinsics();
+    target.frame.X_WC_truth = camera_in_level_frame({});
+    target.frame.X_WC_truth.translation().z() = 0.875;
+    target.box = box_of(world.people.front(), target.frame.captured, target.frame.X_WC_truth,
+                        target.frame.camera);
+    if (!on_person) {
+      target.box->x_px += 100.0;
+    }
+    return target;
+  }
+  void count(double t_s, bool on_person) {
+    score.count(MissionTime{from_seconds(t_s)}, target_at(t_s, on_person));
+  }
+  kit::GridMap map = kit::corridor(10.0);
+  kit::MissionRig rig{map};
+  World world;
+  TrackingScore score{*rig.context};
+};
+
+TEST_F(Score, counts_the_time_in_which_the_box_is_on_the_person) {
+  for (int i = 0; i <= 40; ++i) {
+    count(1.0 + 0.05 * i, true);
+  }
+  EXPECT_NEAR(score.tracked_s(), 2.0, 1e-9);
+  EXPECT_NEAR(score.figures().at("mean_centre_error_percent"), 0.0, 1e-6);
+  EXPECT_EQ(score.figures().at("wrong_box_percent"), 0.0);
+}
+
+TEST_F(Score, does_not_count_a_box_on_something_else) {
+  for (int i = 0; i <= 40; ++i) {
+    count(0.05 * i, false);
+  }
+  EXPECT_EQ(score.tracked_s(), 0.0);
+  EXPECT_EQ(score.figures().at("wrong_box_percent"), 100.0);
+}
+
+TEST_F(Score, bridges_a_short_gap_and_no_long_one) {
+  count(1.0, true);
+  count(1.8, true);
+  EXPECT_NEAR(score.tracked_s(), 0.8, 1e-9);
+  count(5.0, true);
+  EXPECT_NEAR(score.tracked_s(), 0.8, 1e-9);
+}
+
+TEST_F(Score, keeps_the_first_frame_one_every_15_s_and_the_last) {
+  for (int i = 0; i <= 40; ++i) {
+    count(1.0 + 0.5 * i, i < 40);
+  }
+  const auto frames = score.frames();
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].caption, "at 1.0 s, on the person");
+  EXPECT_EQ(frames[1].caption, "at 16.0 s, on the person");
+  EXPECT_EQ(frames[2].caption, "at 21.0 s, beside the person");
+}
+
+TEST_F(Score, records_each_frame) {
+  count(1.0, true);
+  ASSERT_EQ(rig.trace.rows().size(), 1U);
+  EXPECT_EQ(rig.trace.rows().front().channel, "target");
+}
+
+}  // namespace
+}  // namespace flyball

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+
+#include "flyball/studies/drift.h"
+
+#include "short_delivery.h"
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+constexpr double event_s = 30.0;
+
+MissionTime after(double s) {
+  return MissionTime{from_seconds(s)};
+}
+
+TEST(Drift, promises_are_counted_from_the_event_on) {
+  DriftRecord record;
+  for (std::uint64_t i = 1; i <= 100; ++i) {  // Every fourth one is late.
+    record.push_back({after(static_cast<double>(i)), i, i / 4});
+  }
+  const DriftCount count = count_promises(record, after(20.5), 11, 30);
+  EXPECT_EQ(count.decisions, 20U);  // 31 to 50.
+  EXPECT_EQ(count.late, 50U / 4U - 30U / 4U);
+  EXPECT_EQ(count_promises(record, after(20.5), 71, 500).decisions, 10U) << "the mission ended";
+  EXPECT_EQ(count_promises(record, after(500.0), 1, 9).decisions, 0U);
+}
+
+TEST(Drift, every_case_is_settings_of_a_scenario) {
+  for (const DriftCase& one : drift_cases(event_s)) {
+    const auto loaded = load_scenario("delivery_congestion", one.settings);
+    EXPECT_TRUE(std::holds_alternative<LoadedScenario>(loaded)) << one.name;
+  }
+}
+
+/// Over open ground, long enough for 450 decisions; small pictures, which are what costs host time.
+MissionRecord flown_with(const std::string& policy, const DriftCase& drift) {
+  std::vector<std::string> settings{
+      "world.generator=empty",    "world.goal_distance_m=900",
+      "mission.max_speed_m_s=6",  "mission.time_limit_s=150",
+      "kernels.mapper=flyball",   "kernels.mapper_parameters.cost_of=octomap",
+      "planner.horizon_m=50",     "map.range_m=25",
+      "camera.max_range_m=25",    "camera.rgbd_noise=false",
+      "camera.width_px=64",       "camera.height_px=36",
+      "governor.policy=" + policy};
+  settings.insert(settings.end(), drift.settings.begin(), drift.settings.end());
+  auto loaded = load_scenario("delivery_congestion", settings);
+  return kit::flown(std::get<LoadedScenario>(loaded).scenario);
+}
+
+DriftCount late_after(const MissionRecord& record) {
+  return count_promises(drift_record(*record.trace), after(event_s), 51, 450);
+}
+
+// The share that is asked for is 5 %.
+TEST(Drift, a_calibrated_bound_holds_when_costs_triple_and_one_calibrated_once_does_not) {
+  const DriftCase slowdown = drift_cases(event_s)[1];
+  ASSERT_EQ(slowdown.name, "slowdown");
+  const MissionRecord calibrated = flown_with("mission_energy", slowdown);
+  EXPECT_NE(calibrated.summary.failure, MissionFailure::collision);
+  EXPECT_EQ(late_after(calibrated).decisions, 400U);
+  EXPECT_LE(late_after(calibrated).late_share(), 2.0 * 0.05);
+  const MissionRecord once = flown_with("mission_energy_once", slowdown);
+  EXPECT_NE(once.summary.failure, MissionFailure::collision);
+  EXPECT_GT(late_after(once).late_share(), 2.0 * 0.05);
+}
+
+}  // namespace
+}  // namespace flyball

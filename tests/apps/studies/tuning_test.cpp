@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/studies/tuning.h"
+
+#include "flyball/governors/preset.h"
+
+#include "made_flights.h"
+#include "scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+Candidate flown(std::initializer_list<double> energies_j, int failures = 0) {
+  Candidate candidate;
+  for (const double energy_j : energies_j) {
+    candidate.flights.push_back(made_summary("a", candidate.flights.size()));
+    candidate.flights.back().energy_rotor_j = energy_j;
+    candidate.flights.back().energy_computer_j = 0.0;
+  }
+  for (int i = 0; i < failures; ++i) {
+    candidate.flights.push_back(made_summary("a", candidate.flights.size()));
+    candidate.flights.back().status = MissionStatus::failed;
+  }
+  return candidate;
+}
+
+TEST(Tuning, reads_what_to_try) {
+  const auto tried = read_tried("range_m=7,15.5,25");
+  ASSERT_TRUE(tried);
+  EXPECT_EQ(tried->name, "range_m");
+  EXPECT_EQ(tried->values, (std::vector<double>{7.0, 15.5, 25.0}));
+  for (const char* text : {"range_m", "=7", "range_m=", "range_m=7,", "range_m=7,x", "a=1,2,1"}) {
+    const auto refused = read_tried(text);
+    ASSERT_FALSE(refused) << text;
+    EXPECT_NE(refused.error().message.find(text), std::string::npos);
+  }
+}
+
+TEST(Tuning, tries_every_combination) {
+  const auto all = combinations({{"a", {1.0, 2.0}}, {"b", {3.0, 4.0, 5.0}}});
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all[1].parameters, (std::map<std::string, double>{{"a", 1.0}, {"b", 4.0}}));
+  EXPECT_EQ(combinations({}).size(), 1U);
+}
+
+TEST(Tuning, success_comes_before_energy) {
+  EXPECT_TRUE(is_better(flown({9e3, 9e3}), flown({1e3}, 1)));
+  EXPECT_TRUE(is_better(flown({1e3, 3e3}), flown({2e3, 2.5e3})));
+  EXPECT_FALSE(is_better(flown({2e3}), flown({2e3})));
+}
+
+TEST(Tuning, halves_the_candidates_while_the_seeds_double) {
+  const auto rounds = tuning_rounds(12, 8);
+  ASSERT_EQ(rounds.size(), 3U);
+  EXPECT_EQ(rounds[0].candidates, 12U);
+  EXPECT_EQ(rounds[0].seeds, 2U);
+  EXPECT_EQ(rounds[1].candidates, 6U);
+  EXPECT_EQ(rounds[1].seeds, 4U);
+  EXPECT_EQ(rounds[2].candidates, 3U);
+  EXPECT_EQ(rounds[2].seeds, 8U);
+  const auto one = tuning_rounds(1, 5);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].seeds, 5U);
+  EXPECT_EQ(tuning_rounds(100, 1).size(), 1U);
+}
+
+TEST(Tuning, writes_a_preset_that_reads_back) {
+  const ScratchFolder folder;
+  Candidate candidate;
+  candidate.parameters = {{"range_m", 7.0}, {"resolution_m", 0.15}};
+  const auto preset = load_preset(
+      folder.file("tuned.toml", preset_text("fixed", "Tuned for \"x\" \\ y", candidate)));
+  ASSERT_TRUE(preset) << preset.error().message;
+  EXPECT_EQ(preset->policy, "fixed");
+  EXPECT_EQ(preset->description, "Tuned for \"x\" \\ y");
+  EXPECT_EQ(std::get<double>(preset->parameters.at("resolution_m")), 0.15);
+}
+
+TEST(Tuning, shows_what_never_succeeded_without_a_figure) {
+  const std::string text = to_text({flown({2e3, 4e3}), flown({}, 2)});
+  EXPECT_NE(text.find("3.00"), std::string::npos) << text;
+  EXPECT_NE(text.find("0/2"), std::string::npos) << text;
+  EXPECT_NE(to_json("s", "fixed", {flown({}, 2)}).find("null"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flyball
