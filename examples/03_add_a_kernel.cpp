@@ -6,6 +6,7 @@
 // This program checks the detector on a painted picture and then follows a person with it.
 
 #include "flyball/kernels/detector.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/simulation/mission.h"
 
 #include <algorithm>

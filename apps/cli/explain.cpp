@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/records/replay.h"
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/studies/replay.h"
 
 #include "commands.h"
 #include "console.h"

@@ -6,8 +6,8 @@
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/platform_file.h"
-#include "flyball/simulation/mission.h"
 
 #include "commands.h"
 #include "console.h"

@@ -2,7 +2,7 @@
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/records/text_table.h"
-#include "flyball/simulation/mission.h"
+#include "flyball/scenario/plugins.h"
 
 #include "commands.h"
 #include "console.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/records/replay.h"
+#include "flyball/studies/replay.h"
 
 #include "flyball/records/text_table.h"
 

@@ -2,23 +2,23 @@
 #include "flight/mission_context.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace flyball {
 
-MissionContext::MissionContext(const Scenario& scenario_in,
+MissionContext::MissionContext(FlightSettings settings_in,
                                const Platform& platform_in,
                                Recorder& recorder_in,
                                MissionBrief brief_in,
                                MissionEquipment equipment)
-    : scenario{scenario_in},
+    : settings{std::move(settings_in)},
       platform{platform_in},
       brief{std::move(brief_in)},
-      airframe{std::move(equipment.airframe)},
+      body{equipment.body},
       knobs{std::move(equipment.knobs)},
       kernels{std::move(equipment.kernels)},
-      colour_camera{std::move(equipment.colour_camera)},
       recorder{recorder_in},
-      eye{std::move(equipment.eye)} {}
+      has_rgb_camera{equipment.has_rgb_camera} {}
 
 double MissionContext::speed_limit_m_s(const Vec3& p_W) const {
   double limit = knobs.value("mission.max_speed_m_s");
@@ -32,7 +32,6 @@ double MissionContext::speed_limit_m_s(const Vec3& p_W) const {
 
 Cylinder MissionContext::body_at(double speed_m_s) const {
   const double tube_m = tube.radius_m(speed_m_s);
-  const Cylinder body = airframe.body();
   return {body.radius_m + tube_m, body.half_height_m + tube_m + tube.extra_height_m};
 }
 

@@ -4,6 +4,8 @@
 /// @file
 /// What the parts of one mission share: the brief, the knobs, the kernels, the record.
 
+#include "flyball/flight/flight_settings.h"
+#include "flyball/flight/mission_end.h"
 #include "flyball/kernels/collision_check.h"
 #include "flyball/kernels/coverage_planner.h"
 #include "flyball/kernels/detector.h"
@@ -15,19 +17,14 @@
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/kernels/smoother.h"
 #include "flyball/kernels/tracker.h"
-#include "flyball/records/summary.h"
+#include "flyball/runtime/gimbal.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/observation.h"
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/recorder.h"
-#include "flyball/runtime/registry.h"
-#include "flyball/scenario/scenario.h"
-#include "flyball/sim/airframe.h"
-#include "flyball/sim/colour_camera.h"
-#include "flyball/sim/gimbal.h"
-#include "flyball/sim/world.h"
+#include "flyball/runtime/speed_zone.h"
 
 #include "flight/perception/localization_watch.h"
 #include "flight/perception/view.h"
@@ -42,6 +39,7 @@ inline constexpr double slow_m_s = 1.0;  ///< In narrow passages and rooms.
 /// What the scenario declares to the vehicle before take-off. Nothing else of the true world is
 /// known on board.
 struct MissionBrief {
+  std::string place{};  ///< Its name, for messages.
   Aabb bounds_W{};
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
@@ -93,11 +91,10 @@ struct MissionKernels {
 
 /// What is on board.
 struct MissionEquipment {
-  Airframe airframe{};
+  Cylinder body{};  ///< Of the airframe.
   KnobSettings knobs{};
   MissionKernels kernels{};
-  std::unique_ptr<ColourCamera> colour_camera{};  ///< Null where nobody looks for people.
-  std::unique_ptr<ColourCamera> eye{};            ///< Null with a localizer that sees nothing.
+  bool has_rgb_camera{};  ///< Through the lens of the depth camera, for a localizer that needs it.
 };
 
 /// A map as it was published.
@@ -123,10 +120,12 @@ struct FlightRestraint {
   bool must_hover{};
 };
 
+struct World;
+
 class MissionContext {
  public:
-  /// Scenario, platform and recorder outlive the context.
-  MissionContext(const Scenario& scenario,
+  /// Platform and recorder outlive the context.
+  MissionContext(FlightSettings settings,
                  const Platform& platform,
                  Recorder& recorder,
                  MissionBrief brief,
@@ -148,26 +147,24 @@ class MissionContext {
   }
   [[nodiscard]] MissionFailure failure() const { return failure_; }
 
-  const Scenario& scenario;
+  const FlightSettings settings;
   const Platform& platform;
   const MissionBrief brief;
-  const Airframe airframe;
+  const Cylinder body;
   TrackingTube tube{};  ///< A workload may widen it before the flight.
   /// False: the graph has no map. Then space is free where the scenario declares it clear and
   /// nowhere else, and that is believed to any distance.
   bool maps_obstacles{true};
   KnobSettings knobs;
   MissionKernels kernels;
-  std::unique_ptr<ColourCamera> colour_camera;
   Recorder& recorder;
   LocalizationWatch localization{};
-  std::unique_ptr<ColourCamera> eye;  ///< Through the lens of the depth camera; may be null.
+  const bool has_rgb_camera;          ///< Through the lens of the depth camera.
   std::optional<Topic<View>> view{};  ///< What it sees.
   MissionCounters counters{};
   MissionPhase phase{MissionPhase::wait};
-  const World* truth{};  ///< For whoever judges the mission; nothing that flies looks at it.
-  const Platform* true_computer{};  ///< With its drift; for whoever may know it.
-  Vec3 goal_now_W{Vec3::Zero()};    ///< At cruise height.
+  const World* truth{};           ///< For whoever judges the mission; nothing that flies may look.
+  Vec3 goal_now_W{Vec3::Zero()};  ///< At cruise height.
   FlightRestraint restraint{};
 
  private:

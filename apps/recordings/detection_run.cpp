@@ -4,7 +4,7 @@
 #include "flyball/records/pictures.h"
 #include "flyball/records/report.h"
 
-#include "simulation/seeing_setup.h"
+#include "scenario/scenario_parameters.h"
 #include <chrono>
 #include <cstdio>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "flyball/recordings/localization_run.h"
 
 #include "flyball/kernels/localizer.h"
-#include "flyball/simulation/mission.h"
+#include "flyball/scenario/plugins.h"
 
 #include <algorithm>
 

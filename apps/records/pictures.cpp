@@ -22,13 +22,6 @@ OpenPictures load_module() {
   return reinterpret_cast<OpenPictures>(entry);  // NOLINT: what dlsym is for
 }
 
-void set_pixel(ColourImage& image, int x, int y, const Rgb& colour) {
-  if (x >= 0 && y >= 0 && x < image.camera.width_px && y < image.camera.height_px) {
-    const int pixel = y * image.camera.width_px + x;
-    std::copy(colour.begin(), colour.end(), &image.rgb[3 * static_cast<std::size_t>(pixel)]);
-  }
-}
-
 }  // namespace
 
 Result<std::unique_ptr<PictureReader>> open_pictures(const std::string& path) {
@@ -47,23 +40,6 @@ Result<std::unique_ptr<PictureReader>> open_pictures(const std::string& path) {
                  "\"" + path + "\" is no picture, no video and no folder of pictures"};
   }
   return reader;
-}
-
-void draw_box(ColourImage& image, const ImageBox& box, const Rgb& colour) {
-  const int left = static_cast<int>(std::lround(box.x_px));
-  const int top = static_cast<int>(std::lround(box.y_px));
-  const int right = static_cast<int>(std::lround(box.x_px + box.width_px)) - 1;
-  const int bottom = static_cast<int>(std::lround(box.y_px + box.height_px)) - 1;
-  for (int inset = 0; inset < 2; ++inset) {
-    for (int x = left; x <= right; ++x) {
-      set_pixel(image, x, top + inset, colour);
-      set_pixel(image, x, bottom - inset, colour);
-    }
-    for (int y = top; y <= bottom; ++y) {
-      set_pixel(image, left + inset, y, colour);
-      set_pixel(image, right - inset, y, colour);
-    }
-  }
 }
 
 Result<std::string> png_of(const ColourImage& image) {

@@ -135,42 +135,6 @@ void read_computing(const Json& json, Summary& summary) {
 
 }  // namespace
 
-const char* to_string(MissionStatus status) {
-  switch (status) {
-    case MissionStatus::succeeded:
-      return "succeeded";
-    case MissionStatus::failed:
-      return "failed";
-    case MissionStatus::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
-}
-
-const char* to_string(MissionFailure failure) {
-  switch (failure) {
-    case MissionFailure::none:
-      return "none";
-    case MissionFailure::collision:
-      return "collision";
-    case MissionFailure::battery_empty:
-      return "battery_empty";
-    case MissionFailure::no_plan:
-      return "no_plan";
-    case MissionFailure::time_limit:
-      return "time_limit";
-    case MissionFailure::target_lost:
-      return "target_lost";
-    case MissionFailure::localization_lost:
-      return "localization_lost";
-    case MissionFailure::not_found:
-      return "not_found";
-    case MissionFailure::incomplete:
-      return "incomplete";
-  }
-  return "unknown";
-}
-
 std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {
   return faults == 0 ? ""
                      : "failed in " + std::to_string(faults) + " of " + std::to_string(decisions) +

@@ -17,8 +17,8 @@
 #include "flyball/kernels/smoother.h"
 #include "flyball/kernels/tracker.h"
 #include "flyball/scenario/files.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/world.h"
-#include "flyball/simulation/mission.h"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #include "flyball/governors/combined_policy.h"
 #include "flyball/governors/preset.h"
 #include "flyball/scenario/files.h"
-#include "flyball/simulation/mission.h"
+#include "flyball/scenario/plugins.h"
 
 #include "scenario/scenario_parameters.h"
 #include <filesystem>

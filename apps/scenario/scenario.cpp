@@ -200,4 +200,25 @@ std::string to_toml(const Scenario& scenario) {
   return text + events_toml(scenario);
 }
 
+FlightSettings flight_settings(const Scenario& scenario) {
+  FlightSettings settings;
+  settings.name = scenario.name;
+  settings.seed = scenario.seed;
+  settings.mission = scenario.mission;
+  settings.camera = scenario.camera;
+  if (scenario.kernels.localizer == "gps") {
+    settings.fix_error_m = std::hypot(scenario.gps.white_noise_m, scenario.gps.wander_m);
+  }
+  settings.kernels = scenario.kernels;
+  settings.map = scenario.map;
+  settings.planner = scenario.planner;
+  settings.scan = scenario.scan;
+  settings.explore = scenario.explore;
+  settings.detector = scenario.detector;
+  settings.photography = scenario.photography;
+  settings.watch = scenario.watch;
+  settings.governor = scenario.governor;
+  return settings;
+}
+
 }  // namespace flyball

@@ -6,7 +6,6 @@
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
-#include "flyball/simulation/mission.h"
 
 #include "scenario/scenario_keys.h"
 #include "scenario/scenario_parameters.h"

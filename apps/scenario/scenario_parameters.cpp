@@ -3,8 +3,9 @@
 #include "scenario/scenario_parameters.h"
 
 #include "flyball/kernels/detector.h"
+#include "flyball/scenario/models.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/world.h"
-#include "flyball/simulation/mission.h"
 
 #include "scenario/scenario_keys.h"
 #include <utility>
@@ -159,11 +160,24 @@ Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels)
   return make_configured<Localizer>("localizer", kernels.localizer, kernels.localizer_parameters);
 }
 
-std::string mapper_cost(const KernelSettings& kernels) {
-  const auto named = kernels.mapper_parameters.find("cost_of");
-  const auto* kernel =
-      named == kernels.mapper_parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
-  return kernel == nullptr ? kernels.mapper : *kernel;
+Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario) {
+  const std::string& name = scenario.kernels.detector;
+  auto detector = all_plugins().make<Detector>(name);
+  if (!detector) {
+    return unknown("detector", name, "kernels");
+  }
+  const auto chosen = resolved("detector \"" + name + "\"", detector->parameters(),
+                               scenario.kernels.detector_parameters);
+  if (!chosen) {
+    return chosen.error();
+  }
+  const Status started = detector->start(*chosen, [&scenario](const std::string& file) {
+    return find_model(file, scenario.detector.models_folder);
+  });
+  if (!started) {
+    return started.error();
+  }
+  return detector;
 }
 
 }  // namespace flyball

@@ -5,6 +5,7 @@
 /// Settings that a plug-in declares for itself: those of the world's generator (`world.spread_m`)
 /// and of kernels (`kernels.mapper_parameters.front_end`).
 
+#include "flyball/kernels/detector.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 
@@ -54,9 +55,9 @@ struct ParameterGroup {
 [[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels);
 /// The same for the localizer.
 [[nodiscard]] Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels);
-
-/// Whose cost the map's work is charged as on the modeled computer: the mapper's own, or that of
-/// the kernel that its parameter `cost_of` names.
-[[nodiscard]] std::string mapper_cost(const KernelSettings& kernels);
+/// The detector that the scenario names, started.
+///
+/// @error `not_found` (no such detector; weights, cascades), `invalid_input` (a parameter).
+[[nodiscard]] Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario);
 
 }  // namespace flyball

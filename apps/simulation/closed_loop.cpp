@@ -25,8 +25,8 @@ WindSpec wind_spec(const VehicleSettings& settings) {
 }
 
 /// A colour camera hangs on one.
-std::optional<GimbalSpec> gimbal_of(const MissionContext& context) {
-  return context.colour_camera ? std::optional{GimbalSpec{}} : std::nullopt;
+std::optional<GimbalSpec> gimbal_of(const ColourCameras& cameras) {
+  return cameras.gimbal ? std::optional{GimbalSpec{}} : std::nullopt;
 }
 
 double start_yaw(const World& world) {
@@ -36,32 +36,36 @@ double start_yaw(const World& world) {
 }  // namespace
 
 ClosedLoop::ClosedLoop(MissionContext& context,
-                       const World& world,
+                       const Scenario& scenario,
+                       const SimulatedThings& things,
                        VirtualExecutor& executor,
                        EventQueue& queue,
                        const VehicleTopics& topics)
     : context_{context},
+      scenario_{scenario},
+      airframe_{things.airframe},
+      cameras_{things.cameras},
       executor_{executor},
       queue_{queue},
       topics_{topics},
-      vehicle_{context.airframe,
-               context.scenario.vehicle.payload_kg,
-               start_position(world, context.airframe),
-               start_yaw(world),
-               world.ground_z_m,
-               gimbal_of(context)},
-      controller_{context.airframe, world.ground_z_m},
-      regression_{context.airframe},
-      battery_{context.airframe.battery_cells, context.airframe.battery_ah,
-               context.scenario.vehicle.battery_charge},
-      camera_{world, context.scenario.camera, context.scenario.seed},
-      gps_{context.scenario.gps, EarthOrigin{}, context.scenario.seed},
-      barometer_{context.scenario.barometer, EarthOrigin{}.height_m, context.scenario.seed},
-      imu_{ImuSpec{}, context.scenario.seed},
-      clearance_{world},
-      movers_{world.movers},
-      people_{world.people},
-      wind_{wind_spec(context.scenario.vehicle), context.scenario.seed} {
+      vehicle_{things.airframe,
+               scenario.vehicle.payload_kg,
+               start_position(things.world, things.airframe),
+               start_yaw(things.world),
+               things.world.ground_z_m,
+               gimbal_of(things.cameras)},
+      controller_{things.airframe, things.world.ground_z_m},
+      regression_{things.airframe},
+      battery_{things.airframe.battery_cells, things.airframe.battery_ah,
+               scenario.vehicle.battery_charge},
+      camera_{things.world, scenario.camera, scenario.seed},
+      gps_{scenario.gps, EarthOrigin{}, scenario.seed},
+      barometer_{scenario.barometer, EarthOrigin{}.height_m, scenario.seed},
+      imu_{ImuSpec{}, scenario.seed},
+      clearance_{things.world},
+      movers_{things.world.movers},
+      people_{things.world.people},
+      wind_{wind_spec(scenario.vehicle), scenario.seed} {
   log_.min_clearance_m = clearance_limit_m;
 }
 
@@ -73,7 +77,7 @@ void ClosedLoop::start() {
       controller_.follow(setpoint);
     }
   });
-  const Duration step = from_seconds(context_.scenario.vehicle.physics_step_s);
+  const Duration step = from_seconds(scenario_.vehicle.physics_step_s);
   queue_.every(MissionTime{step}, step, EventOrder::physics, [this] { physics_step(); });
   queue_.every(MissionTime{energy_period}, energy_period, EventOrder::sensor,
                [this] { energy_step(); });
@@ -81,12 +85,12 @@ void ClosedLoop::start() {
                [this] { check_step(); });
   queue_.every(MissionTime{navigation_period}, navigation_period, EventOrder::sensor,
                [this] { publish_navigation(); });
-  const Duration frame = from_seconds(1.0 / context_.scenario.camera.rate_hz);
+  const Duration frame = from_seconds(1.0 / scenario_.camera.rate_hz);
   queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
-  if (context_.colour_camera) {
+  if (cameras_.gimbal) {
     executor_.subscribe<GimbalAngles>(topics_.gimbal,
                                       [this](const GimbalAngles& angles) { vehicle_.aim(angles); });
-    const Duration picture = from_seconds(1.0 / context_.scenario.colour_camera.rate_hz);
+    const Duration picture = from_seconds(1.0 / scenario_.colour_camera.rate_hz);
     queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { publish_colour(); });
   }
   start_localizer();
@@ -108,7 +112,7 @@ void ClosedLoop::start_localizer() {
 }
 
 void ClosedLoop::physics_step() {
-  const double dt_s = context_.scenario.vehicle.physics_step_s;
+  const double dt_s = scenario_.vehicle.physics_step_s;
   const RotorSpeeds command =
       controller_.update(vehicle_.state(), vehicle_.mass_kg(), queue_.now(), dt_s);
   vehicle_.step(dt_s, command, wind_.velocity_W());
@@ -119,8 +123,8 @@ void ClosedLoop::energy_step() {
   const VehicleState& state = vehicle_.state();
   // As often as power: the shortest gusts are 3 m long, .2 s at 15 m/s.
   wind_.advance(dt_s, state.X_WB.translation().z() - context_.brief.ground_z_m, state.v_WB);
-  log_.rotor_w = context_.scenario.vehicle.rotor_power == "thrust"
-                     ? thrust_power_w(vehicle_, context_.scenario.vehicle.drive_efficiency)
+  log_.rotor_w = scenario_.vehicle.rotor_power == "thrust"
+                     ? thrust_power_w(vehicle_, scenario_.vehicle.drive_efficiency)
                      : regression_.update(state, vehicle_.carried_kg(), wind_.velocity_W(), dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
@@ -144,7 +148,7 @@ void ClosedLoop::check_step() {
                            controller_.mode() == FlightMode::land ||
                            controller_.mode() == FlightMode::idle;
   const Vec3& p_WB = vehicle_.state().X_WB.translation();
-  const Cylinder body = context_.airframe.body();
+  const Cylinder body = airframe_.body();
   const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
   const double moving_m = clearance_m(movers_, now, p_WB, body, still_m);
   const double distance_m = distance_to_people_m(people_, now, p_WB, body, moving_m);
@@ -157,15 +161,15 @@ void ClosedLoop::check_step() {
   if (battery_.is_empty()) {
     context_.finish(now, MissionStatus::failed, MissionFailure::battery_empty);
   }
-  if (to_seconds(now) > context_.scenario.mission.time_limit_s) {
+  if (to_seconds(now) > scenario_.mission.time_limit_s) {
     context_.finish(now, MissionStatus::failed, MissionFailure::time_limit);
   }
 }
 
 void ClosedLoop::publish_navigation() {
   const auto per_fix = std::max<std::uint64_t>(
-      1, static_cast<std::uint64_t>(std::lround(
-             1.0 / (context_.scenario.gps.rate_hz * to_seconds(Duration{navigation_period})))));
+      1, static_cast<std::uint64_t>(
+             std::lround(1.0 / (scenario_.gps.rate_hz * to_seconds(Duration{navigation_period})))));
   const bool with_fix = navigation_count_++ % per_fix == 0;
   NavigationSample sample = gps_.sample(vehicle_.state(), queue_.now(), with_fix);
   sample.pressure_pa = barometer_.sample(vehicle_.state().X_WB.translation().z(), queue_.now());
@@ -176,13 +180,13 @@ void ClosedLoop::publish_navigation() {
 
 void ClosedLoop::publish_depth() {
   const Pose& X_WB = vehicle_.state().X_WB;
-  const Pose X_WC = camera_pose(X_WB, context_.scenario.camera);
+  const Pose X_WC = camera_pose(X_WB, scenario_.camera);
   const std::uint64_t number = frame_count_++;
   const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
   if (context_.view) {
     const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
     executor_.publish(*context_.view,
-                      View{depth, context_.eye->frame({X_WC, X_LC}, queue_.now(), number),
+                      View{depth, cameras_.forward->frame({X_WC, X_LC}, queue_.now(), number),
                            X_WB.inverse() * X_WC});
   }
   executor_.publish(topics_.depth, depth);
@@ -191,8 +195,7 @@ void ClosedLoop::publish_depth() {
 void ClosedLoop::publish_colour() {
   const Pose X_WC = vehicle_.camera_pose();
   const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
-  const ColourFrame frame =
-      context_.colour_camera->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  const ColourFrame frame = cameras_.gimbal->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
   executor_.publish(topics_.colour, frame);
   executor_.publish(topics_.colour_buffer, frame);
 }

@@ -5,6 +5,7 @@
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
 #include "flyball/runtime/virtual_executor.h"
+#include "flyball/scenario/scenario.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/battery.h"
 #include "flyball/sim/depth_camera.h"
@@ -16,6 +17,7 @@
 #include "flyball/sim/wind.h"
 
 #include "flight/mission_context.h"
+#include "simulation/simulated_things.h"
 #include <memory>
 
 namespace flyball {
@@ -37,7 +39,8 @@ class ClosedLoop {
  public:
   /// All arguments outlive the loop.
   ClosedLoop(MissionContext& context,
-             const World& world,
+             const Scenario& scenario,
+             const SimulatedThings& things,
              VirtualExecutor& executor,
              EventQueue& queue,
              const VehicleTopics& topics);
@@ -62,6 +65,9 @@ class ClosedLoop {
   [[nodiscard]] bool is_airborne() const;
 
   MissionContext& context_;
+  const Scenario& scenario_;
+  const Airframe& airframe_;
+  const ColourCameras& cameras_;
   VirtualExecutor& executor_;
   EventQueue& queue_;
   VehicleTopics topics_;

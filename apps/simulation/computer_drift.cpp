@@ -21,24 +21,30 @@ std::string degrees(double temperature_c) {
 }  // namespace
 
 ComputerDrift::ComputerDrift(MissionContext& context,
+                             const Scenario& scenario,
                              DriftingPlatform& platform,
                              VirtualExecutor& executor,
                              EventQueue& queue,
                              const ClosedLoop& loop)
-    : context_{context}, platform_{platform}, executor_{executor}, queue_{queue}, loop_{loop} {}
+    : context_{context},
+      scenario_{scenario},
+      platform_{platform},
+      executor_{executor},
+      queue_{queue},
+      loop_{loop} {}
 
 void ComputerDrift::start(const std::optional<ThermalModel>& thermal) {
   nominal_ = thermal;
   if (thermal) {
     heat_.emplace(*thermal, platform_.power(executor_.operating_point(), 0.0));
-    if (const double warm_c = context_.scenario.platform.start_temperature_c; warm_c != 0.0) {
+    if (const double warm_c = scenario_.platform.start_temperature_c; warm_c != 0.0) {
       heat_->set_temperature(warm_c);
     }
     obey_trips();
     queue_.every(queue_.now() + heat_period, heat_period, EventOrder::sensor,
                  [this] { heat_step(); });
   }
-  for (const ComputerEvent& event : context_.scenario.events) {
+  for (const ComputerEvent& event : scenario_.events) {
     schedule(event);
   }
 }
@@ -57,7 +63,7 @@ void ComputerDrift::change(const ComputerEvent& event, bool begins) {
 }
 
 void ComputerDrift::strain() {
-  Strain strain = strain_at(context_.scenario.events, queue_.now());
+  Strain strain = strain_at(scenario_.events, queue_.now());
   strain.clock_cap = cap_;
   platform_.set(strain);
   executor_.platform_changed();
@@ -70,7 +76,7 @@ void ComputerDrift::cool() {
   }
   double ambient_c = nominal_->ambient_c;
   double resistance_k_w = nominal_->resistance_k_w;
-  for (const ComputerEvent& event : context_.scenario.events) {
+  for (const ComputerEvent& event : scenario_.events) {
     if (event.kind == "cooling" && is_active(event, queue_.now())) {
       ambient_c = event.ambient_c;
       resistance_k_w = event.resistance_k_w;

@@ -21,6 +21,7 @@ class ComputerDrift {
  public:
   /// All arguments outlive the drift; `executor` runs on `platform`.
   ComputerDrift(MissionContext& context,
+                const Scenario& scenario,
                 DriftingPlatform& platform,
                 VirtualExecutor& executor,
                 EventQueue& queue,
@@ -45,6 +46,7 @@ class ComputerDrift {
   void obey_trips();
 
   MissionContext& context_;
+  const Scenario& scenario_;
   DriftingPlatform& platform_;
   VirtualExecutor& executor_;
   EventQueue& queue_;

@@ -7,6 +7,8 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/sim/observable_space.h"
 
+#include "flight/mission_context.h"
+#include <memory>
 #include <vector>
 
 namespace flyball {
@@ -31,5 +33,8 @@ class ExplorationJudge {
   ObservableSpace space_;
   std::vector<GridCell> unknown_{};
 };
+
+/// The mission's own judge. @pre The context knows the true world.
+[[nodiscard]] std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context);
 
 }  // namespace flyball

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: mission
 #include "simulation/flight_recorder.h"
 
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/runtime/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,17 +73,6 @@ std::map<std::string, KernelStatistics> FlightRecorder::kernels() const {
                  1e3 * calls.host_s / n};
   }
   return all;
-}
-
-double quantile(std::vector<double> values, double p) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  std::sort(values.begin(), values.end());
-  const double at = p * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(at));
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 }  // namespace flyball

@@ -4,6 +4,8 @@
 /// @file
 /// What goes into the trace while a mission flies, and the statistics of its jobs.
 
+#include "flyball/records/summary.h"
+
 #include "flight/navigation/navigator.h"
 #include "simulation/closed_loop.h"
 #include <map>
@@ -37,8 +39,5 @@ class FlightRecorder {
   const Navigator* navigator_;
   std::map<std::string, Calls> calls_;
 };
-
-/// The p-quantile (0..1) by linear interpolation between order statistics; 0 for no values.
-[[nodiscard]] double quantile(std::vector<double> values, double p);
 
 }  // namespace flyball

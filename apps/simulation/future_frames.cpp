@@ -34,13 +34,15 @@ Vec3 level(const Vec3& direction_W) {
 
 }  // namespace
 
-FutureFrames::FutureFrames(const MissionContext& context, std::vector<MapSetting> settings)
+FutureFrames::FutureFrames(const MissionContext& context,
+                           const World& world,
+                           const Platform& computer,
+                           std::vector<MapSetting> settings)
     : context_{context},
+      computer_{computer},
       settings_{std::move(settings)},
-      camera_{*context.truth, context.scenario.camera, context.scenario.seed},
-      mapper_{made(context.scenario.kernels)} {
-  FLYBALL_ASSERT(context.true_computer != nullptr, "there is no computer to ask");
-}
+      camera_{world, context.settings.camera, context.settings.seed},
+      mapper_{made(context.settings.kernels)} {}
 
 FutureFrames::Spot FutureFrames::spot(const PathFollower& follower, double ahead_m) const {
   Vec3 end_W = follower.position_W();
@@ -85,11 +87,10 @@ PlaceAhead FutureFrames::place(const PathFollower& follower,
 
 /// The cloud that the map takes next was captured at most one frame before it begins.
 double FutureFrames::duration_s(const Work& points, const Work& map, Hertz clock) const {
-  const Platform& computer = *context_.true_computer;
-  const KernelSettings& kernels = context_.scenario.kernels;
-  const double map_s = to_seconds(computer.job_time(mapper_cost(kernels), map, clock));
-  const double frame_s = 1.0 / context_.scenario.camera.rate_hz;
-  return to_seconds(computer.job_time(kernels.point_cloud, points, clock)) + map_s +
+  const KernelSettings& kernels = context_.settings.kernels;
+  const double map_s = to_seconds(computer_.job_time(mapper_cost(kernels), map, clock));
+  const double frame_s = 1.0 / context_.settings.camera.rate_hz;
+  return to_seconds(computer_.job_time(kernels.point_cloud, points, clock)) + map_s +
          (map_s > frame_s ? frame_s : 0.0);
 }
 
@@ -98,7 +99,7 @@ std::vector<double> FutureFrames::taken_at(const Spot& spot) {
   X_WB.translation() = spot.p_W;
   const double yaw_rad = yaw_of(spot.tangent_W);
   X_WB.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix();
-  const Pose X_WC = camera_pose(X_WB, context_.scenario.camera);
+  const Pose X_WC = camera_pose(X_WB, context_.settings.camera);
   const DepthFrame frame = camera_.frame(X_WC, MissionTime{}, durations_s_.size());
   std::vector<double> durations_s(settings_.size());
   std::map<std::pair<double, double>, std::pair<Work, Work>> works;  // By cells and range.

@@ -8,6 +8,7 @@
 #include "flyball/governors/foresight.h"
 #include "flyball/sim/depth_camera.h"
 
+#include "flight/governing/governor_loop.h"
 #include "flight/mission_context.h"
 #include "flight/navigation/path_follower.h"
 #include <array>
@@ -20,14 +21,15 @@ namespace flyball {
 /// Takes frames in the true world, at places ahead, and lets the mission's own mapper say what work
 /// each would be with each setting; nothing of them gets into the map. Places in the same cell of
 /// 4 m that are looked at from in nearly the same direction share a frame.
-class FutureFrames {
+class FutureFrames final : public ForesightSource {
  public:
-  /// The context outlives this.
-  /// @pre `context.truth` and `context.true_computer` are there, and the scenario's mapper is one.
-  FutureFrames(const MissionContext& context, std::vector<MapSetting> settings);
+  /// All arguments outlive this but `settings`. @pre The scenario's mapper is one.
+  FutureFrames(const MissionContext& context,
+               const World& world,
+               const Platform& computer,
+               std::vector<MapSetting> settings);
 
-  /// Along the path and, beyond its end, straight to the goal. Stays until the next look.
-  [[nodiscard]] const Foresight& look(const PathFollower& follower);
+  [[nodiscard]] const Foresight& look(const PathFollower& follower) override;
   [[nodiscard]] std::size_t frames_taken() const { return durations_s_.size(); }
 
  private:
@@ -44,6 +46,7 @@ class FutureFrames {
   [[nodiscard]] double duration_s(const Work& points, const Work& map, Hertz clock) const;
 
   const MissionContext& context_;
+  const Platform& computer_;  ///< With its drift.
   std::vector<MapSetting> settings_;
   DepthCamera camera_;
   std::unique_ptr<Mapper> mapper_;

@@ -3,13 +3,17 @@
 
 #include "flyball/flight/workload.h"
 #include "flyball/records/version.h"
+#include "flyball/runtime/quantile.h"
+#include "flyball/scenario/plugins.h"
 
 #include "flight/governing/governor_loop.h"
 #include "records/fingerprint.h"
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
+#include "simulation/future_frames.h"
 #include "simulation/mission_setup.h"
+#include "simulation/simulated_board.h"
 #include <cstdio>
 #include <filesystem>
 
@@ -21,36 +25,40 @@ using namespace std::chrono_literals;
 constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
-MissionBrief brief_of(const World& world) {
-  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
-          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
-}
-
 /// Everything that one flight needs, in the order in which it must be made.
 struct Flight {
   Flight(const Scenario& scenario,
          MissionSetup& setup,
          MemoryRecorder& trace,
          std::unique_ptr<Workload> made)
-      : context{scenario, *setup.platform, trace, brief_of(setup.world),
-                std::move(setup.equipment)},
+      : context{flight_settings(scenario), *setup.platform, trace,
+                brief_of(setup.things.world, scenario.world.generator), std::move(setup.equipment)},
         workload{std::move(made)},
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         computer{setup.platform->model()},
-        topics{add_vehicle_topics(graph, context.colour_camera != nullptr)} {
-    context.truth = &setup.world;
-    context.true_computer = &computer;
+        topics{add_vehicle_topics(graph, setup.things.cameras.gimbal != nullptr)} {
+    context.truth = &setup.things.world;
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, computer, queue,
         OperatingPoint{scenario.platform.cores, Hertz{scenario.platform.frequency_hz}});
-    loop = std::make_unique<ClosedLoop>(context, setup.world, *executor, queue, topics);
-    drift = std::make_unique<ComputerDrift>(context, computer, *executor, queue, *loop);
-    governor = std::make_unique<GovernorLoop>(context, *setup.governor, *executor, *loop,
-                                              workload->navigator());
-    governor->watch_heat(*drift);
+    loop = std::make_unique<ClosedLoop>(context, scenario, setup.things, *executor, queue, topics);
+    drift = std::make_unique<ComputerDrift>(context, scenario, computer, *executor, queue, *loop);
+    board = std::make_unique<SimulatedBoard>(*executor, *loop, drift.get());
+    future = foresight(*setup.governor, setup.things.world);
+    governor = std::make_unique<GovernorLoop>(context, *setup.governor, *board,
+                                              workload->navigator(), future.get());
     recorder = std::make_unique<FlightRecorder>(context, graph, *loop, workload->navigator());
+  }
+
+  [[nodiscard]] std::unique_ptr<FutureFrames> foresight(const PolicyGovernor& asks,
+                                                        const World& world) const {
+    std::vector<MapSetting> settings = asks.policy().foresees();
+    if (settings.empty() || workload->navigator() == nullptr || !context.maps_obstacles) {
+      return nullptr;
+    }
+    return std::make_unique<FutureFrames>(context, world, computer, std::move(settings));
   }
 
   EventQueue queue;
@@ -63,6 +71,8 @@ struct Flight {
   std::unique_ptr<VirtualExecutor> executor;
   std::unique_ptr<ClosedLoop> loop;
   std::unique_ptr<ComputerDrift> drift;
+  std::unique_ptr<SimulatedBoard> board;
+  std::unique_ptr<FutureFrames> future;  ///< Null for a policy that does not ask.
   std::unique_ptr<GovernorLoop> governor;
   std::unique_ptr<FlightRecorder> recorder;
 };
@@ -153,7 +163,9 @@ Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
 Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
   auto workload = named_workload(scenario);
   if (workload) {
-    if (const Status possible = (*workload)->check(scenario, brief_of(world)); !possible) {
+    if (const Status possible = (*workload)->check(flight_settings(scenario),
+                                                   brief_of(world, scenario.world.generator));
+        !possible) {
       return possible.error();
     }
   }
@@ -192,7 +204,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
-  auto workload = make_workload(scenario, setup->world);
+  auto workload = make_workload(scenario, setup->things.world);
   if (!workload) {
     return workload.error();
   }
@@ -210,7 +222,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   }
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
-  record.world = setup->world;
+  record.world = setup->things.world;
   Flight flight{scenario, *setup, *record.trace, std::move(*workload)};
   connect(flight, scenario, hooks);
   flight.queue.run([&] { return flight.context.is_over() || (hooks.stop && hooks.stop()); });

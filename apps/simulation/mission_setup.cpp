@@ -2,13 +2,11 @@
 #include "simulation/mission_setup.h"
 
 #include "flyball/flight/workload.h"
-#include "flyball/kernels/kernels.h"
-#include "flyball/policies/policies.h"
 #include "flyball/scenario/files.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/sim/platform_file.h"
 #include "flyball/sim/worlds.h"
-#include "flyball/simulation/mission.h"
 
 #include "scenario/scenario_check.h"
 #include "scenario/scenario_parameters.h"
@@ -94,26 +92,12 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                           nullptr);
 }
 
-Registry& plugins() {
-  static Registry registry = [] {
-    Registry all;
-    register_kernels(all);
-    register_policies(all);
-    register_worlds(all);
-    register_workloads(all);
-    return all;
-  }();
-  return registry;
-}
-
 }  // namespace
 
-const Registry& all_plugins() {
-  return plugins();
-}
-
-void add_plugins(const std::function<void(Registry&)>& add) {
-  add(plugins());
+MissionBrief brief_of(const World& world, const std::string& name) {
+  return {name,          world.bounds_W,        world.zones,      world.start_W,
+          world.goal_W,  world.cruise_height_m, world.ground_z_m, world.open_above_m,
+          world.volume_W};
 }
 
 Result<MissionSetup> set_up(const Scenario& scenario) {
@@ -134,21 +118,23 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
         "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and airframe \"" +
             scenario.vehicle.airframe + "\" has none; set vehicle.rotor_power to \"thrust\""};
   }
-  setup.equipment.airframe = std::move(*airframe);
+  setup.things.airframe = std::move(*airframe);
+  setup.equipment.body = setup.things.airframe.body();
   auto world = make_world(scenario);
   if (!world) {
     return world.error();
   }
-  setup.world = std::move(*world);
+  setup.things.world = std::move(*world);
   auto kernels = make_kernels(scenario.kernels);
   if (!kernels) {
     return kernels.error();
   }
   setup.equipment.kernels = std::move(*kernels);
-  if (const Status seeing = equip_to_see(scenario, *setup.platform, setup.world, setup.equipment);
-      !seeing) {
-    return seeing.error();
+  auto cameras = equip_to_see(scenario, *setup.platform, setup.things.world, setup.equipment);
+  if (!cameras) {
+    return cameras.error();
   }
+  setup.things.cameras = std::move(*cameras);
   if (const auto errors = check_map(scenario, {}); !errors.empty()) {
     return joined(errors);
   }

@@ -8,16 +8,20 @@
 #include "flyball/scenario/knobs.h"
 
 #include "flight/mission_context.h"
+#include "simulation/simulated_things.h"
 #include <memory>
 
 namespace flyball {
 
 struct MissionSetup {
   std::unique_ptr<ModeledPlatform> platform;
-  World world;
+  SimulatedThings things;
   MissionEquipment equipment;
   std::unique_ptr<PolicyGovernor> governor;
 };
+
+/// What a world's file declares to the vehicle before take-off.
+[[nodiscard]] MissionBrief brief_of(const World& world, const std::string& name);
 
 /// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
 [[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);

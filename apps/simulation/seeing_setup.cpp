@@ -2,8 +2,7 @@
 #include "simulation/seeing_setup.h"
 
 #include "flyball/flight/workload.h"
-#include "flyball/scenario/models.h"
-#include "flyball/simulation/mission.h"
+#include "flyball/scenario/plugins.h"
 
 #include "flight/perception/visual_nodes.h"
 #include "scenario/scenario_parameters.h"
@@ -25,7 +24,7 @@ Result<std::unique_ptr<Tracker>> make_tracker(const std::string& name) {
 }
 
 Status check_price(const Scenario& scenario, const Platform& platform) {
-  const std::string priced_as = detector_cost(scenario);
+  const std::string priced_as = detector_cost(flight_settings(scenario));
   if (platform.knows(priced_as)) {
     return Done{};
   }
@@ -36,13 +35,14 @@ Status check_price(const Scenario& scenario, const Platform& platform) {
                                              priced_as + "] to the platform file"};
 }
 
-Status open_eye(const Scenario& scenario,
-                const Platform& platform,
-                const World& world,
-                MissionEquipment& equipment) {
+/// Null with a localizer that takes no images.
+Result<std::unique_ptr<ColourCamera>> make_forward_camera(const Scenario& scenario,
+                                                          const Platform& platform,
+                                                          const World& world,
+                                                          const MissionEquipment& equipment) {
   const auto& localizer = equipment.kernels.localizer;
   if (!localizer || !localizer->inputs().images) {
-    return Done{};
+    return std::unique_ptr<ColourCamera>{};
   }
   const std::string priced_as = frame_cost(scenario.kernels.localizer);
   if (!platform.knows(priced_as)) {
@@ -51,50 +51,34 @@ Status open_eye(const Scenario& scenario,
                      scenario.kernels.localizer + "\", so its frames would cost no time; add " +
                      "[kernels." + priced_as + "] to the platform file"};
   }
-  auto eye = ColourCamera::make(world, colour_beside(scenario.camera));
-  if (!eye) {
-    return eye.error();
-  }
-  equipment.eye = std::move(*eye);
-  return Done{};
+  return ColourCamera::make(world, colour_beside(scenario.camera));
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario) {
-  const std::string& name = scenario.kernels.detector;
-  auto detector = all_plugins().make<Detector>(name);
-  if (!detector) {
-    return unknown("detector", name, "kernels");
-  }
-  const auto chosen = resolved("detector \"" + name + "\"", detector->parameters(),
-                               scenario.kernels.detector_parameters);
-  if (!chosen) {
-    return chosen.error();
-  }
-  const Status started = detector->start(*chosen, [&scenario](const std::string& file) {
-    return find_model(file, scenario.detector.models_folder);
-  });
-  if (!started) {
-    return started.error();
-  }
-  return detector;
+ColourCameraSpec colour_beside(const DepthCameraSpec& depth) {
+  ColourCameraSpec colour;
+  colour.width_px = depth.width_px;
+  colour.height_px = depth.height_px;
+  colour.horizontal_field_rad = depth.horizontal_field_rad;
+  colour.rate_hz = depth.rate_hz;
+  return colour;
 }
 
-std::string detector_cost(const Scenario& scenario) {
-  return scenario.detector.cost_of == "own" ? scenario.kernels.detector : scenario.detector.cost_of;
-}
-
-Status equip_to_see(const Scenario& scenario,
-                    const Platform& platform,
-                    const World& world,
-                    MissionEquipment& equipment) {
-  if (const Status opened = open_eye(scenario, platform, world, equipment); !opened) {
-    return opened.error();
+Result<ColourCameras> equip_to_see(const Scenario& scenario,
+                                   const Platform& platform,
+                                   const World& world,
+                                   MissionEquipment& equipment) {
+  ColourCameras cameras;
+  auto forward = make_forward_camera(scenario, platform, world, equipment);
+  if (!forward) {
+    return forward.error();
   }
+  cameras.forward = std::move(*forward);
+  equipment.has_rgb_camera = cameras.forward != nullptr;
   const auto workload = all_plugins().make<Workload>(scenario.mission.workload);
   if (!workload || !workload->looks_for_people()) {
-    return Done{};
+    return cameras;
   }
   if (const Status priced = check_price(scenario, platform); !priced) {
     return priced.error();
@@ -115,8 +99,8 @@ Status equip_to_see(const Scenario& scenario,
   if (!camera) {
     return camera.error();
   }
-  equipment.colour_camera = std::move(*camera);
-  return Done{};
+  cameras.gimbal = std::move(*camera);
+  return cameras;
 }
 
 }  // namespace flyball

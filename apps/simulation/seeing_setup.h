@@ -7,25 +7,21 @@
 #include "flyball/scenario/scenario.h"
 
 #include "flight/mission_context.h"
+#include "simulation/simulated_things.h"
 
 namespace flyball {
 
-/// The detector that the scenario names, started.
-///
-/// @error `not_found` (no such detector; weights, cascades), `invalid_input` (a parameter).
-[[nodiscard]] Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario);
+/// A colour camera with the depth camera's lens: an RGB-D camera's other half.
+[[nodiscard]] ColourCameraSpec colour_beside(const DepthCameraSpec& depth);
 
-/// Whose cost a detection is charged as on the modeled computer.
-[[nodiscard]] std::string detector_cost(const Scenario& scenario);
-
-/// Adds camera, detector and trackers to `equipment` if the scenario's workload looks for people,
-/// and an eye if its localizer sees.
+/// Adds detector and trackers to `equipment` if the scenario's workload looks for people, and a
+/// forward camera if its localizer takes images.
 ///
 /// @error As `make_detector`; and a mesh of somebody in the world that is missing, a detector,
-///        tracker or seeing localizer that the platform has no price for.
-[[nodiscard]] Status equip_to_see(const Scenario& scenario,
-                                  const Platform& platform,
-                                  const World& world,
-                                  MissionEquipment& equipment);
+///        tracker or localizer that takes images that the platform has no price for.
+[[nodiscard]] Result<ColourCameras> equip_to_see(const Scenario& scenario,
+                                                 const Platform& platform,
+                                                 const World& world,
+                                                 MissionEquipment& equipment);
 
 }  // namespace flyball

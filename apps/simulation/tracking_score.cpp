@@ -3,6 +3,8 @@
 
 #include "flyball/records/pictures.h"
 #include "flyball/records/text_table.h"
+#include "flyball/sim/colour_camera.h"
+#include "flyball/sim/world.h"
 
 #include <algorithm>
 #include <cmath>

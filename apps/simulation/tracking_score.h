@@ -4,7 +4,7 @@
 /// @file
 /// How well a person was followed, measured against where the person truly was.
 
-#include "flyball/records/mission_frame.h"
+#include "flyball/flight/mission_frame.h"
 
 #include "flight/people/target_nodes.h"
 #include <map>

@@ -63,7 +63,7 @@ double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
   const KnobSpec* range = setup.equipment.knobs.spec("map.range_m");
   return std::min(scenario.mission.max_speed_m_s,
                   safe_speed(scenario.mission.max_acceleration_m_s2, to_seconds(least),
-                             range->max - setup.equipment.airframe.body().radius_m));
+                             range->max - setup.equipment.body.radius_m));
 }
 
 /// The least of the zones that hold all of a cell, from its floor to its ceiling.
@@ -121,8 +121,8 @@ Result<EnergyBound> bound_energy(const Scenario& scenario) {
   if (!setup) {
     return setup.error();
   }
-  const World& world = setup->world;
-  const Airframe& airframe = setup->equipment.airframe;
+  const World& world = setup->things.world;
+  const Airframe& airframe = setup->things.airframe;
   const LeastPower power{scenario, airframe, *setup->platform};
   const double fastest = fastest_m_s(scenario, *setup);
   const WayCells cells{world, airframe.body()};

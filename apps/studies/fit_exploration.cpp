@@ -4,6 +4,7 @@
 
 #include "flight/exploration/exploration_flight.h"
 #include "flight/navigation/plan_with_tubes.h"
+#include "simulation/exploration_judge.h"
 #include "simulation/mission_setup.h"
 #include "studies/fit_perception.h"
 #include "studies/fit_sight.h"
@@ -139,10 +140,11 @@ Result<ExplorationLoads> record(const ExplorationScene& scene) {
     return setup.error();
   }
   MemoryRecorder events;
-  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
+                         brief_of(setup->things.world, scene.scenario.world.generator),
                          std::move(setup->equipment)};
-  context.truth = &setup->world;
-  return Exploration{scene, context, setup->world}.go();
+  context.truth = &setup->things.world;
+  return Exploration{scene, context, setup->things.world}.go();
 }
 
 }  // namespace flyball

@@ -14,25 +14,20 @@ Pose looking(const Vec3& p_W, double yaw_rad) {
   return X_WB;
 }
 
-MissionBrief brief_of(const World& world) {
-  return {world.bounds_W,        world.zones,      world.start_W,      world.goal_W,
-          world.cruise_height_m, world.ground_z_m, world.open_above_m, world.volume_W};
-}
-
 Status Perception::look(const Pose& X_WB, KernelLoads& loads) {
   Work points;
-  X_WC_ = camera_pose(X_WB, context_.scenario.camera);
+  X_WC_ = camera_pose(X_WB, context_.settings.camera);
   view_ = context_.kernels.point_cloud->build(camera_.frame(X_WC_, MissionTime{}, frames_++),
                                               range_m(), points);
-  loads[context_.scenario.kernels.point_cloud].calls.push_back(points);
+  loads[context_.settings.kernels.point_cloud].calls.push_back(points);
   Work slam;
   slam.add("pixels", points.count("pixels"));
   loads["visual_slam"].calls.push_back(slam);
-  const auto work = prepare(context_.scenario.map.resolution_m);
+  const auto work = prepare(context_.settings.map.resolution_m);
   if (!work) {
     return work.error();
   }
-  loads[mapper_cost(context_.scenario.kernels)].calls.push_back(*work);
+  loads[mapper_cost(context_.settings.kernels)].calls.push_back(*work);
   context_.kernels.mapper->commit();
   return Done{};
 }

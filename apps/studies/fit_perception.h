@@ -12,14 +12,13 @@
 namespace flyball {
 
 [[nodiscard]] Pose looking(const Vec3& p_W, double yaw_rad);
-[[nodiscard]] MissionBrief brief_of(const World& world);
 
 /// Camera, point cloud and map: what is done with one view.
 class Perception {
  public:
   /// Context and world outlive it.
   Perception(MissionContext& context, const World& world)
-      : context_{context}, camera_{world, context.scenario.camera, context.scenario.seed} {}
+      : context_{context}, camera_{world, context.settings.camera, context.settings.seed} {}
 
   /// Looks from `X_WB`; the frame is in the map afterwards.
   Status look(const Pose& X_WB, KernelLoads& loads);
@@ -27,7 +26,7 @@ class Perception {
   Result<Work> prepare(double resolution_m);
 
  private:
-  [[nodiscard]] double range_m() const { return context_.scenario.map.range_m; }
+  [[nodiscard]] double range_m() const { return context_.settings.map.range_m; }
 
   MissionContext& context_;
   DepthCamera camera_;

@@ -53,7 +53,7 @@ class Delivery {
     if (!is_indoors()) {
       return Error{ErrorCode::failed, "the recorded delivery does not reach its building"};
     }
-    if (const Status seen = see(stretches_, context_.scenario, world_, loads_.kernels); !seen) {
+    if (const Status seen = see(stretches_, scene_.scenario, world_, loads_.kernels); !seen) {
       return seen.error();
     }
     return std::move(loads_);
@@ -65,7 +65,7 @@ class Delivery {
   [[nodiscard]] Pose pose() const { return looking(here_W(), yaw_of(path_.at(s_m_).tangent_W)); }
 
   Status look() {
-    context_.kernels.mapper->declare_clear(here_W(), context_.airframe.body());
+    context_.kernels.mapper->declare_clear(here_W(), context_.body);
     if (const Status seen = perception_.look(pose(), loads_.kernels); !seen) {
       return seen.error();
     }
@@ -83,13 +83,13 @@ class Delivery {
     const Path ahead = Path::polyline({here_W(), path_.at(end_m).p_W});
     Work priced;
     check(ahead, 0.0, priced);
-    loads_.kernels[context_.scenario.kernels.collision_check].calls.push_back(priced);
+    loads_.kernels[context_.settings.kernels.collision_check].calls.push_back(priced);
     Work all;
     return check(path_, s_m_, all).blocked_at_m ? plan() : Done{};
   }
 
   PathCheck check(const Path& path, double from_m, Work& work) {
-    const PathSpan span{&path, from_m, context_.scenario.map.range_m};
+    const PathSpan span{&path, from_m, context_.settings.map.range_m};
     return context_.kernels.collision_check->check(context_.map(), span, context_.narrow_body(),
                                                    work);
   }
@@ -108,7 +108,7 @@ class Delivery {
       if (plan.waypoints_W.empty()) {
         return Error{ErrorCode::failed, "in the recorded delivery: " + plan.failure};
       }
-      loads_.kernels[context_.scenario.kernels.planner].calls.push_back(plan.work);
+      loads_.kernels[context_.settings.kernels.planner].calls.push_back(plan.work);
       path_ = Path::polyline(plan.waypoints_W);
     }
     s_m_ = 0.0;
@@ -184,8 +184,8 @@ Result<KernelLoads> record(const Scenario& survey) {
   }
   const Vec3 up = Vec3::UnitZ() * survey.scan.height_m;
   const auto path = setup->equipment.kernels.coverage->cover(
-      {up, survey.scan.length_m, survey.scan.width_m, survey.scan.lanes, setup->world.start_W + up,
-       setup->world.start_W + up});
+      {up, survey.scan.length_m, survey.scan.width_m, survey.scan.lanes,
+       setup->things.world.start_W + up, setup->things.world.start_W + up});
   if (!path) {
     return path.error();
   }
@@ -200,9 +200,10 @@ Result<DeliveryLoads> record(const DeliveryScene& scene) {
     return setup.error();
   }
   MemoryRecorder events;
-  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
+                         brief_of(setup->things.world, scene.scenario.world.generator),
                          std::move(setup->equipment)};
-  return Delivery{scene, context, setup->world}.go();
+  return Delivery{scene, context, setup->things.world}.go();
 }
 
 Result<KernelLoads> record(const RoomsScene& scene) {
@@ -211,15 +212,16 @@ Result<KernelLoads> record(const RoomsScene& scene) {
     return setup.error();
   }
   MemoryRecorder events;
-  MissionContext context{scene.scenario, *setup->platform, events, brief_of(setup->world),
+  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
+                         brief_of(setup->things.world, scene.scenario.world.generator),
                          std::move(setup->equipment)};
-  const Clearance clearance{setup->world};
-  Perception perception{context, setup->world};
+  const Clearance clearance{setup->things.world};
+  Perception perception{context, setup->things.world};
   KernelLoads loads;
   std::vector<Stretch> stretches;
   for (int i = 0; i < scene.rows * scene.columns * scene.headings; ++i) {
     const Pose X_WB = view_in(scene, i);
-    if (clearance.distance_m(X_WB.translation(), context.airframe.body(), 1.0, true) <= 0.0) {
+    if (clearance.distance_m(X_WB.translation(), context.body, 1.0, true) <= 0.0) {
       continue;
     }
     if (const Status seen = perception.look(X_WB, loads); !seen) {
@@ -230,7 +232,7 @@ Result<KernelLoads> record(const RoomsScene& scene) {
       stretches.push_back({X_WB, scene.speed_m_s, scene.sight_s});
     }
   }
-  if (const Status seen = see(stretches, scene.scenario, setup->world, loads); !seen) {
+  if (const Status seen = see(stretches, scene.scenario, setup->things.world, loads); !seen) {
     return seen.error();
   }
   return loads;

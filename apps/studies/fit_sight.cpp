@@ -3,13 +3,14 @@
 #include "studies/fit_sight.h"
 
 #include "flyball/kernels/localizer.h"
+#include "flyball/sim/depth_camera.h"
 #include "flyball/sim/world.h"
-#include "flyball/simulation/mission.h"
 
 #include "flight/perception/perception_nodes.h"
 #include "flight/perception/view.h"
 #include "flight/perception/visual_nodes.h"
 #include "scenario/scenario_parameters.h"
+#include "simulation/seeing_setup.h"
 #include <algorithm>
 #include <cmath>
 

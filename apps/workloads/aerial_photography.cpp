@@ -28,7 +28,7 @@ class AerialPhotography final : public Workload {
     context_ = &context;
     context.maps_obstacles = false;
     vehicle_ = vehicle;
-    const PhotographySettings& wanted = context.scenario.photography;
+    const PhotographySettings& wanted = context.settings.photography;
     FollowSettings follow;
     follow.distance_m = wanted.distance_m;
     follow.person_height_m = wanted.person_height_m;
@@ -37,7 +37,7 @@ class AerialPhotography final : public Workload {
     follow.coast_s = wanted.coast_s;
     follow.search_rate_rad_s = wanted.search_rate_rad_s;
     follow.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
-    follow.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
+    follow.max_acceleration_m_s2 = 0.5 * context.settings.mission.max_acceleration_m_s2;
     follower_ = std::make_unique<TargetFollower>(follow);
     score_ = std::make_unique<TrackingScore>(context);
     pose_ = add_localization(graph, vehicle, context);
@@ -168,7 +168,7 @@ class AerialPhotography final : public Workload {
   }
 
   void end_if_due(MissionTime now) {
-    const PhotographySettings& wanted = context_->scenario.photography;
+    const PhotographySettings& wanted = context_->settings.photography;
     is_censored_ = score_->tracked_s() >= wanted.limit_s;
     if (!is_censored_ && log_.missed_in_row < wanted.lost_after_detections) {
       return;

@@ -8,6 +8,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "flight/exploration/exploration_flight.h"
+#include "simulation/exploration_judge.h"
 #include <memory>
 
 namespace {
@@ -37,8 +38,8 @@ class Mapping final : public Workload {
     });
   }
 
-  [[nodiscard]] Status check(const Scenario& scenario, const MissionBrief& brief) const override {
-    return check_volume(scenario, brief);
+  [[nodiscard]] Status check(const FlightSettings&, const MissionBrief& brief) const override {
+    return check_volume(brief);
   }
 
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
@@ -81,7 +82,7 @@ class Mapping final : public Workload {
     coverage_percent_ = judge_->coverage_percent(context_->map());
     context_->recorder.record(now, "coverage", {{"coverage_percent", coverage_percent_}});
     if (flight_->state() == ExplorationFlight::State::exploring &&
-        coverage_percent_ >= context_->scenario.explore.coverage_percent) {
+        coverage_percent_ >= context_->settings.explore.coverage_percent) {
       flight_->go_home(now);
     }
   }

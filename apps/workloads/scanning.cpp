@@ -42,18 +42,19 @@ Error refused(const std::string& sentence) {
 
 class Scanning final : public Workload {
  public:
-  [[nodiscard]] Status check(const Scenario& scenario, const MissionBrief& brief) const override {
-    const ScanSettings& scan = scenario.scan;
+  [[nodiscard]] Status check(const FlightSettings& settings,
+                             const MissionBrief& brief) const override {
+    const ScanSettings& scan = settings.scan;
     if (!brief.open_above_m) {
       return refused("workload \"scanning\" flies without a map, above everything, and world \"" +
-                     scenario.world.generator + "\" names no such height; try: world farm");
+                     brief.place + "\" names no such height; try: world farm");
     }
     const double floor_m = *brief.open_above_m + clear_margin_m;
     const double ceiling_m = brief.bounds_W.max.z() - brief.ground_z_m - clear_margin_m;
     if (scan.height_m < floor_m || scan.height_m > ceiling_m) {
       return refused("scan.height_m = " + metres(scan.height_m) + " must be at least " +
-                     metres(floor_m) + ", above what stands in world \"" +
-                     scenario.world.generator + "\", and at most " + metres(ceiling_m));
+                     metres(floor_m) + ", above what stands in world \"" + brief.place +
+                     "\", and at most " + metres(ceiling_m));
     }
     const Vec3 size = brief.bounds_W.max - brief.bounds_W.min;
     if (scan.length_m > size.x() || scan.width_m > size.y()) {
@@ -67,7 +68,7 @@ class Scanning final : public Workload {
   void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
     context_ = &context;
     vehicle_ = vehicle;
-    const ScanSettings& scan = context.scenario.scan;
+    const ScanSettings& scan = context.settings.scan;
     area_W_.min = area_corner(context.brief, scan);
     area_W_.max = area_W_.min + Vec3{scan.length_m, scan.width_m, 0.0};
     seen_ = GroundCoverage{area_W_, cell_m};
@@ -95,11 +96,8 @@ class Scanning final : public Workload {
   /// Without a map to be corrected by, a fix is wrong by what its receiver is: the tube around the
   /// reference has room for three standard deviations.
   void prepare_flight() {
-    const GpsSpec& gps = context_->scenario.gps;
     context_->maps_obstacles = false;
-    if (context_->scenario.kernels.localizer == "gps") {
-      context_->tube.at_rest_m += 3.0 * std::hypot(gps.white_noise_m, gps.wander_m);
-    }
+    context_->tube.at_rest_m += 3.0 * context_->settings.fix_error_m;
     const Aabb& bounds_W = context_->brief.bounds_W;
     const double floor_m =
         context_->brief.ground_z_m + context_->brief.open_above_m.value_or(bounds_W.max.z());
@@ -114,7 +112,7 @@ class Scanning final : public Workload {
   void add_coverage(Graph& graph, const Service<PlanQuery, PlanAnswer>& plan) {
     NodeSpec spec;
     spec.name = "coverage";
-    spec.cost = context_->scenario.kernels.coverage;
+    spec.cost = context_->settings.kernels.coverage;
     spec.trigger = OnMessage{plan.request.index};
     spec.priority = 15;
     spec.deadline = 10s;
@@ -126,7 +124,7 @@ class Scanning final : public Workload {
   }
 
   Work answer(JobContext& job, const Service<PlanQuery, PlanAnswer>& plan, const PlanQuery& query) {
-    const ScanSettings& scan = context_->scenario.scan;
+    const ScanSettings& scan = context_->settings.scan;
     CoverageRequest request{area_W_.min, scan.length_m, scan.width_m,
                             scan.lanes,  query.start_W, query.goal_W};
     request.corner_W.z() = query.goal_W.z();
@@ -153,7 +151,7 @@ class Scanning final : public Workload {
   void add_pictures(Graph& graph) {
     NodeSpec spec;
     spec.name = "pictures";
-    const Duration period = from_seconds(1.0 / context_->scenario.scan.picture_rate_hz);
+    const Duration period = from_seconds(1.0 / context_->settings.scan.picture_rate_hz);
     spec.trigger = OnPeriod{period, period};
     spec.priority = 5;
     spec.reads = {vehicle_.navigation.index};
@@ -172,16 +170,16 @@ class Scanning final : public Workload {
     if (stage_ != Stage::flying || !follower.has_path()) {
       return false;
     }
-    const Intrinsics camera = context_->scenario.camera.intrinsics();
+    const Intrinsics camera = context_->settings.camera.intrinsics();
     const double half_picture_m =
-        context_->scenario.scan.height_m * 0.5 * camera.height_px / camera.focal_px;
+        context_->settings.scan.height_m * 0.5 * camera.height_px / camera.focal_px;
     const double left_m = follower.path().length_m() - follower.s_m();
     return follower.s_m() + half_picture_m >= out_m_ && left_m + half_picture_m >= back_m_;
   }
 
   void take_picture(MissionTime now, const Pose& X_WB) {
     const auto footprint = footprint_of(downward_camera_pose(X_WB),
-                                        context_->scenario.camera.intrinsics(), area_W_.min.z());
+                                        context_->settings.camera.intrinsics(), area_W_.min.z());
     if (!footprint) {
       return;
     }
@@ -230,7 +228,7 @@ class Scanning final : public Workload {
   }
 
   [[nodiscard]] Vec3 above_start() const {
-    return context_->brief.start_W + Vec3::UnitZ() * context_->scenario.scan.height_m;
+    return context_->brief.start_W + Vec3::UnitZ() * context_->settings.scan.height_m;
   }
 
   void take_off(JobContext& job, const PoseEstimate& pose) {
@@ -242,7 +240,7 @@ class Scanning final : public Workload {
     navigator_->hover_at(above_start(), yaw_of(pose.X_WB.linear().col(0)));
     context_->phase = MissionPhase::take_off;
     job.publish(vehicle_.command,
-                FlightCommand{FlightCommand::Kind::take_off, context_->scenario.scan.height_m});
+                FlightCommand{FlightCommand::Kind::take_off, context_->settings.scan.height_m});
     stage_ = Stage::climbing;
     settle_ = job.now() + 500ms;  // The status on its way now is from before the command.
   }
@@ -263,7 +261,7 @@ class Scanning final : public Workload {
   }
 
   void end(JobContext& job) {
-    if (seen_.covered_percent() < context_->scenario.scan.coverage_percent) {
+    if (seen_.covered_percent() < context_->settings.scan.coverage_percent) {
       context_->finish(job.now(), MissionStatus::failed, MissionFailure::incomplete);
     } else {
       context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);

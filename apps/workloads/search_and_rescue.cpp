@@ -8,9 +8,11 @@
 #include "flyball/records/pictures.h"
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/sim/world.h"
 
 #include "flight/exploration/exploration_flight.h"
 #include "flight/people/person_search.h"
+#include "simulation/exploration_judge.h"
 #include <algorithm>
 #include <memory>
 
@@ -46,8 +48,8 @@ class SearchAndRescue final : public Workload {
     });
   }
 
-  [[nodiscard]] Status check(const Scenario& scenario, const MissionBrief& brief) const override {
-    return check_volume(scenario, brief);
+  [[nodiscard]] Status check(const FlightSettings&, const MissionBrief& brief) const override {
+    return check_volume(brief);
   }
   [[nodiscard]] bool looks_for_people() const override { return true; }
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }

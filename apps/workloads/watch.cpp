@@ -23,8 +23,9 @@ constexpr double least_height_m = 0.5;  // Below it, the ground's cells reach in
 
 class Watch final : public Workload {
  public:
-  [[nodiscard]] Status check(const Scenario& scenario, const MissionBrief& brief) const override {
-    const double height_m = scenario.watch.height_m;
+  [[nodiscard]] Status check(const FlightSettings& settings,
+                             const MissionBrief& brief) const override {
+    const double height_m = settings.watch.height_m;
     const double ceiling_m = brief.bounds_W.max.z() - brief.ground_z_m;
     if (height_m == 0.0 || (height_m >= least_height_m && height_m <= ceiling_m)) {
       return Done{};
@@ -33,7 +34,7 @@ class Watch final : public Workload {
     std::snprintf(text, sizeof text,
                   "watch.height_m = %g must be 0, to stand on the ground, or from %g to %g, the "
                   "ceiling of world \"%s\"",
-                  height_m, least_height_m, ceiling_m, scenario.world.generator.c_str());
+                  height_m, least_height_m, ceiling_m, brief.place.c_str());
     return Error{ErrorCode::invalid_input, text};
   }
 
@@ -89,7 +90,7 @@ class Watch final : public Workload {
     }
   }
 
-  [[nodiscard]] double height_m() const { return context_->scenario.watch.height_m; }
+  [[nodiscard]] double height_m() const { return context_->settings.watch.height_m; }
 
   void begin(JobContext& job, const PoseEstimate& pose) {
     const Vec3 place_W = context_->brief.start_W + Vec3::UnitZ() * height_m();
@@ -119,7 +120,7 @@ class Watch final : public Workload {
       ++maps_;
     }
     longest_s_ = std::max(longest_s_, to_seconds(job.now() - news_));
-    if (to_seconds(job.now() - since_) < context_->scenario.watch.time_s) {
+    if (to_seconds(job.now() - since_) < context_->settings.watch.time_s) {
       return;
     }
     if (height_m() == 0.0) {
@@ -133,7 +134,7 @@ class Watch final : public Workload {
   }
 
   void end(MissionTime now) {
-    if (longest_s_ > context_->scenario.watch.longest_s) {
+    if (longest_s_ > context_->settings.watch.longest_s) {
       context_->finish(now, MissionStatus::failed, MissionFailure::incomplete);
     } else {
       context_->finish(now, MissionStatus::succeeded, MissionFailure::none);

@@ -7,6 +7,16 @@
 #include <cmath>
 
 namespace flyball {
+namespace {
+
+void set_pixel(ColourImage& image, int x, int y, const Rgb& colour) {
+  if (x >= 0 && y >= 0 && x < image.camera.width_px && y < image.camera.height_px) {
+    const int pixel = y * image.camera.width_px + x;
+    std::copy(colour.begin(), colour.end(), &image.rgb[3 * static_cast<std::size_t>(pixel)]);
+  }
+}
+
+}  // namespace
 
 double overlap(const ImageBox& a, const ImageBox& b) {
   const double width =
@@ -60,6 +70,23 @@ ColourPatch cut(const ColourImage& image, const PixelRegion& region) {
     patch.rgb.insert(patch.rgb.end(), row, row + row_bytes);
   }
   return patch;
+}
+
+void draw_box(ColourImage& image, const ImageBox& box, const Rgb& colour) {
+  const int left = static_cast<int>(std::lround(box.x_px));
+  const int top = static_cast<int>(std::lround(box.y_px));
+  const int right = static_cast<int>(std::lround(box.x_px + box.width_px)) - 1;
+  const int bottom = static_cast<int>(std::lround(box.y_px + box.height_px)) - 1;
+  for (int inset = 0; inset < 2; ++inset) {
+    for (int x = left; x <= right; ++x) {
+      set_pixel(image, x, top + inset, colour);
+      set_pixel(image, x, bottom - inset, colour);
+    }
+    for (int y = top; y <= bottom; ++y) {
+      set_pixel(image, left + inset, y, colour);
+      set_pixel(image, right - inset, y, colour);
+    }
+  }
 }
 
 }  // namespace flyball

@@ -10,9 +10,9 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/kernels/point_cloud.h"
 #include "flyball/scenario/files.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/platform_file.h"
-#include "flyball/simulation/mission.h"
 
 #include "cost_fit.h"
 #include "flight/perception/perception_nodes.h"

@@ -3,6 +3,7 @@
 // A mission whose map forgets what is far: the file that it leaves has it all the same.
 
 #include "flyball/kernels/mapper.h"
+#include "flyball/scenario/plugins.h"
 
 #include "scratch_folder.h"
 #include "short_delivery.h"

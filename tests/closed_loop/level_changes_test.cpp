@@ -4,6 +4,7 @@
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/scenario/plugins.h"
 
 #include "scratch_folder.h"
 #include "short_delivery.h"

@@ -3,6 +3,7 @@
 // A rule that fills its time budget must not lock itself at a crawl.
 
 #include "flyball/governors/policy.h"
+#include "flyball/scenario/plugins.h"
 
 #include "short_delivery.h"
 

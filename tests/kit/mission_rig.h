@@ -5,7 +5,7 @@
 /// A mission context around a dense map that tests fill by hand.
 
 #include "flyball/scenario/knobs.h"
-#include "flyball/simulation/mission.h"
+#include "flyball/scenario/plugins.h"
 
 #include "flight/mission_context.h"
 #include "grid_map.h"
@@ -45,15 +45,14 @@ struct MissionRig {
   explicit MissionRig(const GridMap& map, Scenario chosen = one_core(), MissionBrief brief = {})
       : scenario{std::move(chosen)} {
     MissionEquipment equipment;
-    equipment.airframe.body_diameter_m = 0.65;
-    equipment.airframe.body_height_m = 0.2;
+    equipment.body = {0.325, 0.1};
     equipment.knobs = KnobSettings{standard_knobs(scenario, platform)};
     auto grid_mapper = std::make_unique<GridMapper>(map);
     mapper = grid_mapper.get();
     equipment.kernels.mapper = std::move(grid_mapper);
     equipment.kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
-    context = std::make_unique<MissionContext>(scenario, platform, trace, std::move(brief),
-                                               std::move(equipment));
+    context = std::make_unique<MissionContext>(flight_settings(scenario), platform, trace,
+                                               std::move(brief), std::move(equipment));
   }
 
   static Scenario one_core() {

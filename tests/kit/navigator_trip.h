@@ -36,7 +36,8 @@ inline Trajectory detour(const Vec3& from, const Vec3& to, double more_m) {
 }
 
 struct Trip {
-  Trip() : map{corridor(60.0)}, rig{map}, navigator{*rig.context} {
+  explicit Trip(const Scenario& scenario = MissionRig::one_core())
+      : map{corridor(60.0)}, rig{map, scenario}, navigator{*rig.context} {
     navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
   }
   void tick(int n) {

@@ -5,10 +5,11 @@
 
 #include <cstdio>
 
-#include <flyball/apps/mission.h>
 #include <flyball/governors/policy.h>
 #include <flyball/kernels/mapper.h>
 #include <flyball/kernels/path_planner.h>
+#include <flyball/scenario/plugins.h>
+#include <flyball/scenario/scenario.h>
 
 int main() {
   const auto& plugins = flyball::all_plugins();

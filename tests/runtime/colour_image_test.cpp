@@ -6,6 +6,20 @@
 namespace flyball {
 namespace {
 
+ColourImage plain(int width_px, int height_px, const Rgb& colour) {
+  ColourImage image;
+  image.camera = {width_px, height_px, 0.0, 0.0, 0.0};
+  for (int i = 0; i < width_px * height_px; ++i) {
+    image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
+  }
+  return image;
+}
+
+Rgb pixel(const ColourImage& image, int x, int y) {
+  const auto i = 3 * static_cast<std::size_t>(y * image.camera.width_px + x);
+  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
+}
+
 TEST(ImageBoxes, overlap_by_what_they_share_over_what_they_cover) {
   const ImageBox box{10.0, 20.0, 4.0, 2.0};
   EXPECT_DOUBLE_EQ(overlap(box, box), 1.0);
@@ -55,6 +69,24 @@ TEST(ColourPatch, holds_the_regions_pixels_row_by_row) {
   EXPECT_EQ(patch.camera.width_px, 4);
   EXPECT_EQ(patch.rgb, (std::vector<std::uint8_t>{5, 5, 105, 6, 6, 106, 9, 9, 109, 10, 10, 110}));
   EXPECT_TRUE(cut(image, {}).rgb.empty());
+}
+
+TEST(Boxes, are_drawn_as_edges_two_pixels_wide) {
+  ColourImage image = plain(20, 20, {0, 0, 0});
+  const Rgb red{255, 0, 0};
+  draw_box(image, {4, 5, 10, 8}, red);
+  EXPECT_EQ(pixel(image, 4, 5), red);
+  EXPECT_EQ(pixel(image, 5, 9), red);
+  EXPECT_EQ(pixel(image, 13, 12), red);
+  EXPECT_EQ(pixel(image, 8, 8), (Rgb{0, 0, 0}));
+  EXPECT_EQ(pixel(image, 14, 9), (Rgb{0, 0, 0}));
+}
+
+TEST(Boxes, that_reach_out_of_the_image_are_drawn_as_far_as_it_goes) {
+  ColourImage image = plain(8, 8, {0, 0, 0});
+  draw_box(image, {-5, -5, 10, 10}, {9, 9, 9});
+  EXPECT_EQ(pixel(image, 4, 0), (Rgb{9, 9, 9}));
+  EXPECT_EQ(pixel(image, 0, 0), (Rgb{0, 0, 0}));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/solid_rays.h"
 
+#include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/random.h"
 
-#include "sensors/pinhole.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -20,37 +20,26 @@ constexpr auto settling = 500ms;     // The status on its way now is from before
 }  // namespace
 
 ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from) {
-  const Intrinsics camera = context.scenario.camera.intrinsics();
+  const Intrinsics camera = context.settings.camera.intrinsics();
   ExploreRequest request;
   request.from = from;
   request.volume_W = context.brief.volume_W;
   request.bounds_W = context.brief.bounds_W;
   request.body = context.narrow_body();
-  request.settings = context.scenario.explore;
+  request.settings = context.settings.explore;
   request.field.horizontal_rad = 2.0 * std::atan(0.5 * camera.width_px / camera.focal_px);
   request.field.vertical_rad = 2.0 * std::atan(0.5 * camera.height_px / camera.focal_px);
   request.field.range_m = request.settings.gain_range_m;
   return request;
 }
 
-Status check_volume(const Scenario& scenario, const MissionBrief& brief) {
+Status check_volume(const MissionBrief& brief) {
   if ((brief.volume_W.max - brief.volume_W.min).minCoeff() <= 0.0) {
     return Error{ErrorCode::invalid_input,
-                 "world \"" + scenario.world.generator +
+                 "world \"" + brief.place +
                      "\" has no volume to explore; set world.generator to \"office\""};
   }
   return Done{};
-}
-
-std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context) {
-  FLYBALL_ASSERT(context.truth != nullptr, "nothing to judge by in scenario %s",
-                 context.scenario.name.c_str());
-  ObservableRequest request;
-  request.body = context.airframe.body();
-  request.start_W = context.brief.start_W + Vec3::UnitZ() * context.brief.cruise_height_m;
-  request.camera = context.scenario.camera;
-  request.range_m = context.scenario.map.range_m;
-  return std::make_unique<ExplorationJudge>(observable_space(*context.truth, request));
 }
 
 ExplorationFlight::ExplorationFlight(MissionContext& context, Navigator& navigator)
@@ -64,7 +53,7 @@ void ExplorationFlight::add_nodes(Graph& graph,
   explore_ = graph.service<ExploreQuery, ExploreAnswer>("explore");
   NodeSpec spec;
   spec.name = "explore";
-  spec.cost = context_.scenario.kernels.explorer;
+  spec.cost = context_.settings.kernels.explorer;
   spec.trigger = OnMessage{explore_.request.index};
   spec.priority = 15;
   spec.deadline = 30s;
@@ -159,7 +148,7 @@ void ExplorationFlight::think(JobContext& job) {
   query.request = explore_request(context_, {follower.position_W(), follower.yaw_rad()});
   query.request.taken = taken_;
   query.request.unreachable_W = unreachable_W_;
-  query.request.seed = RandomStream{context_.scenario.seed, "explorer", query.id}.next();
+  query.request.seed = RandomStream{context_.settings.seed, "explorer", query.id}.next();
   job.publish(explore_.request, std::move(query));
   stage_ = Stage::thinking;
   since_ = job.now();

@@ -6,7 +6,6 @@
 /// and search and rescue have in common.
 
 #include "flight/navigation/navigation_nodes.h"
-#include "simulation/exploration_judge.h"
 #include <cstdint>
 #include <memory>
 
@@ -25,10 +24,8 @@ struct ExploreAnswer {
 /// What an explorer is asked for from here: field of view, body and limits of the mission.
 [[nodiscard]] ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from);
 
-/// The mission's own judge. @pre The context knows the true world.
-[[nodiscard]] std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context);
 /// @error `invalid_input`: the world has no volume to explore.
-[[nodiscard]] Status check_volume(const Scenario& scenario, const MissionBrief& brief);
+[[nodiscard]] Status check_volume(const MissionBrief& brief);
 
 class ExplorationFlight {
  public:

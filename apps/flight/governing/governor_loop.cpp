@@ -28,32 +28,25 @@ Vec3 place_ahead_W(const PathFollower& follower, double ahead_m) {
 
 GovernorLoop::GovernorLoop(MissionContext& context,
                            PolicyGovernor& governor,
-                           VirtualExecutor& executor,
-                           const ClosedLoop& loop,
-                           const Navigator* navigator)
+                           Board& board,
+                           const Navigator* navigator,
+                           ForesightSource* future)
     : context_{context},
       governor_{governor},
-      executor_{executor},
-      loop_{loop},
+      board_{board},
       navigator_{navigator},
-      asked_{executor.operating_point()} {
-  std::vector<MapSetting> settings = governor.policy().foresees();
-  const bool has_frames = navigator != nullptr && context.maps_obstacles &&
-                          context.truth != nullptr && context.true_computer != nullptr;
-  if (!settings.empty() && has_frames) {
-    future_ = std::make_unique<FutureFrames>(context, std::move(settings));
-  }
-}
+      future_{future},
+      asked_{board.read().granted} {}
 
 void GovernorLoop::tick(MissionTime now) {
   seen_.now = now;
   observe_computer(now);
   const bool looks = now >= next_look_;
   if (looks) {
-    next_look_ = now + from_seconds(context_.scenario.governor.period_s);
+    next_look_ = now + from_seconds(context_.settings.governor.period_s);
     observe_surroundings();
   }
-  if (looks && future_) {
+  if (looks && future_ != nullptr) {
     governor_.foretell(future_->look(navigator_->follower()));
   }
   record(looks);
@@ -113,7 +106,7 @@ void GovernorLoop::observe_surroundings() {
   const Vec3 p_W = follower.position_W();
   seen_.speed_m_s = follower.speed_m_s();
   seen_.speed_limit_m_s = speed_limit_ahead();
-  seen_.max_deceleration_m_s2 = context_.scenario.mission.max_acceleration_m_s2;
+  seen_.max_deceleration_m_s2 = context_.settings.mission.max_acceleration_m_s2;
   seen_.known_free_m = follower.known_free_m();
   seen_.tracking_error_m = navigator_->tracking_error().size_m;
   seen_.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
@@ -174,29 +167,26 @@ void GovernorLoop::observe_gaps() {
 }
 
 void GovernorLoop::observe_computer(MissionTime now) {
-  const double busy_core_s = executor_.busy_core_s();
-  const double busiest_core_s = executor_.busiest_core_s();
+  const BoardReading board = board_.read();
   const double elapsed_s = to_seconds(now - last_);
-  seen_.busy_cores = elapsed_s > 0.0 ? (busy_core_s - last_busy_core_s_) / elapsed_s : 0.0;
+  seen_.busy_cores = elapsed_s > 0.0 ? (board.busy_core_s - last_busy_core_s_) / elapsed_s : 0.0;
   seen_.busiest_core_load =
-      elapsed_s > 0.0 ? std::min(1.0, (busiest_core_s - last_busiest_core_s_) / elapsed_s) : 0.0;
-  last_busy_core_s_ = busy_core_s;
-  last_busiest_core_s_ = busiest_core_s;
+      elapsed_s > 0.0 ? std::min(1.0, (board.busiest_core_s - last_busiest_core_s_) / elapsed_s)
+                      : 0.0;
+  last_busy_core_s_ = board.busy_core_s;
+  last_busiest_core_s_ = board.busiest_core_s;
   last_ = now;
   seen_.deadline_misses = misses_;
   misses_ = 0;
-  const std::uint64_t drops = executor_.drops();
-  seen_.queue_drops = static_cast<std::uint32_t>(drops - last_drops_);
-  last_drops_ = drops;
-  seen_.cores = executor_.operating_point().cores;
-  seen_.frequency = executor_.operating_point().frequency;
-  seen_.computer_power = Watts{loop_.log().computer_w};
-  seen_.rotor_power = Watts{loop_.log().rotor_w};
-  seen_.battery_percent = loop_.battery().percent();
-  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
-    seen_.temperature_c = heat->temperature_c();
-    seen_.trip_c = heat->first_trip_c().value_or(0.0);
-  }
+  seen_.queue_drops = static_cast<std::uint32_t>(board.drops - last_drops_);
+  last_drops_ = board.drops;
+  seen_.cores = board.granted.cores;
+  seen_.frequency = board.granted.frequency;
+  seen_.computer_power = board.computer_power;
+  seen_.rotor_power = board.rotor_power;
+  seen_.battery_percent = board.battery_percent;
+  seen_.temperature_c = board.temperature_c;
+  seen_.trip_c = board.trip_c;
 }
 
 /// Once for each knob whose wished value this mission does not have: a mapper may know no cells of
@@ -254,7 +244,7 @@ void GovernorLoop::apply(MissionTime now, const Decision& decision) {
                               Hertz{context_.knobs.value("cpu.frequency_hz")}};
   if (wished != asked_) {  // What is granted may be less.
     asked_ = wished;
-    executor_.set_operating_point(wished);
+    board_.request(wished);
   }
 }
 

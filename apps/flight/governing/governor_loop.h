@@ -4,29 +4,37 @@
 /// @file
 /// The outer loop: observe, decide, apply, record.
 
+#include "flyball/governors/foresight.h"
 #include "flyball/governors/policy_governor.h"
+#include "flyball/runtime/board.h"
 
 #include "flight/governing/choice_text.h"
 #include "flight/navigation/navigator.h"
-#include "simulation/closed_loop.h"
-#include "simulation/computer_drift.h"
-#include "simulation/future_frames.h"
 #include <set>
 #include <string>
 
 namespace flyball {
 
+/// Tells policies that ask for it what is ahead of the vehicle. Only a simulator can.
+class ForesightSource {
+ public:
+  ForesightSource() = default;
+  ForesightSource(const ForesightSource&) = delete;
+  ForesightSource& operator=(const ForesightSource&) = delete;
+  virtual ~ForesightSource() = default;
+
+  /// Along the path and, beyond its end, straight to the goal. Stays until the next look.
+  [[nodiscard]] virtual const Foresight& look(const PathFollower& follower) = 0;
+};
+
 class GovernorLoop {
  public:
-  /// All arguments outlive the loop; `navigator` may be null.
+  /// All arguments outlive the loop; `navigator` and `future` may be null.
   GovernorLoop(MissionContext& context,
                PolicyGovernor& governor,
-               VirtualExecutor& executor,
-               const ClosedLoop& loop,
-               const Navigator* navigator);
-  /// From now on decisions know the computer's temperature and its first trip; `drift` outlives the
-  /// loop.
-  void watch_heat(const ComputerDrift& drift) { drift_ = &drift; }
+               Board& board,
+               const Navigator* navigator,
+               ForesightSource* future);
 
   /// One decision at `now`. The surroundings are looked at once per the scenario's period, the
   /// computer each time.
@@ -62,12 +70,10 @@ class GovernorLoop {
 
   MissionContext& context_;
   PolicyGovernor& governor_;
-  VirtualExecutor& executor_;
-  const ClosedLoop& loop_;
+  Board& board_;
   const Navigator* navigator_;
-  const ComputerDrift* drift_{};
+  ForesightSource* future_;
   OperatingPoint asked_;
-  std::unique_ptr<FutureFrames> future_{};  ///< Null for a policy that does not ask.
   Observation seen_{};
   std::vector<double> told_{};  ///< Its members as the record has them.
   ChoiceMemory choices_{};

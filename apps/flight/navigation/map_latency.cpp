@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/navigation/map_latency.h"
 
-#include "scenario/scenario_parameters.h"
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +24,7 @@ MapTerms terms_of(const KnobSettings& knobs) {
 }
 
 Duration expected_latency(const MissionContext& context, const MapTerms& terms) {
-  const DepthCameraSpec& camera = context.scenario.camera;
+  const DepthCameraSpec& camera = context.settings.camera;
   const Intrinsics lens = camera.intrinsics();
   const double rays = static_cast<double>(camera.count) * lens.width_px * lens.height_px;
   const double tan_x = 0.5 * lens.width_px / lens.focal_px;
@@ -38,7 +37,7 @@ Duration expected_latency(const MissionContext& context, const MapTerms& terms) 
   work.add("rays", rays);
   work.add("traversals", 1.5 * rays * range_m / resolution_m);
   work.add("updates", volume_m3 / (resolution_m * resolution_m * resolution_m));
-  return context.platform.job_time(mapper_cost(context.scenario.kernels), work, terms.clock);
+  return context.platform.job_time(mapper_cost(context.settings.kernels), work, terms.clock);
 }
 
 bool MapLatency::note_knobs(MissionTime now, const MissionContext& context) {

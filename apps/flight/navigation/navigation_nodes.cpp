@@ -3,7 +3,6 @@
 #include "flight/navigation/navigation_nodes.h"
 
 #include "flight/navigation/plan_with_tubes.h"
-#include "scenario/scenario_parameters.h"
 
 namespace flyball {
 namespace {
@@ -18,7 +17,7 @@ void add_check(Graph& graph,
                Navigator& navigator) {
   NodeSpec spec;
   spec.name = "check";
-  spec.cost = context.scenario.kernels.collision_check;
+  spec.cost = context.settings.kernels.collision_check;
   spec.trigger = OnMessage{perception.map.index};
   spec.priority = 25;
   graph.node(std::move(spec), [perception, &context, &navigator](JobContext& job) {
@@ -46,7 +45,7 @@ void add_check(Graph& graph,
 void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
   NodeSpec spec;
   spec.name = "plan";
-  spec.cost = context.scenario.kernels.planner;
+  spec.cost = context.settings.kernels.planner;
   spec.trigger = OnMessage{topics.plan.request.index};
   spec.priority = 15;
   spec.deadline = 10s;
@@ -92,7 +91,7 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
   }
   request.start_velocity_W = answer.start_direction_W;
   request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
-  request.max_acceleration_m_s2 = 0.5 * context.scenario.mission.max_acceleration_m_s2;
+  request.max_acceleration_m_s2 = 0.5 * context.settings.mission.max_acceleration_m_s2;
   request.body = answer.body;
   auto smooth = context.kernels.smoother->smooth(request, context.map());
   if (smooth) {
@@ -108,7 +107,7 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
 void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
   NodeSpec spec;
   spec.name = "smooth";
-  spec.cost = context.scenario.kernels.smoother;
+  spec.cost = context.settings.kernels.smoother;
   spec.trigger = OnMessage{topics.plan.response.index};
   spec.priority = 15;
   spec.writes = {topics.path.index};

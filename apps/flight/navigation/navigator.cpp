@@ -3,7 +3,6 @@
 
 #include "flight/navigation/step_aside.h"
 #include "flight/navigation/sub_goal.h"
-#include "simulation/flight_recorder.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -134,7 +133,7 @@ PlanQuery Navigator::query() {
 // Early enough that the vehicle flies on, late enough that the next leg, half a horizon at least,
 // is longer than what is left.
 bool Navigator::is_leg_ending() const {
-  const double horizon_m = context_.scenario.planner.horizon_m;
+  const double horizon_m = context_.settings.planner.horizon_m;
   if (horizon_m <= 0.0 || !follower_.has_path()) {
     return false;
   }
@@ -185,7 +184,7 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     trust_own_place();
   }
   // The governor looks at a failure first: its settings may be why.
-  const Duration look = from_seconds(context_.scenario.governor.period_s);
+  const Duration look = from_seconds(context_.settings.governor.period_s);
   not_before_ = now + (planned.map_moved_on ? look : std::max<Duration>(look, retry_after));
   want_plan(now, planned.failure);
 }
@@ -273,7 +272,7 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   }
   if (!rests || !goal_W_ || has_arrived()) {
     without_path_since_ = now;
-  } else if (to_seconds(now - without_path_since_) > context_.scenario.mission.plan_time_limit_s) {
+  } else if (to_seconds(now - without_path_since_) > context_.settings.mission.plan_time_limit_s) {
     context_.finish(now, MissionStatus::failed, MissionFailure::no_plan);
   }
   if (unused_capture_) {

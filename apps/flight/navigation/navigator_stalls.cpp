@@ -34,7 +34,7 @@ bool Navigator::steps_back(MissionTime now) {
   constexpr double ahead_m = 3.0;  // It looks there.
   const Path& path = follower_.path();
   const Vec3 ahead_W = path.at(follower_.s_m() + ahead_m).p_W - follower_.position_W();
-  const Intrinsics camera = context_.scenario.camera.intrinsics();
+  const Intrinsics camera = context_.settings.camera.intrinsics();
   const double away_m = blind_m(context_.map().resolution_m(), context_.narrow_body(),
                                 0.5 * camera.height_px / camera.focal_px);
   const bool is_unseen = context_.maps_obstacles && !context_.restraint.must_hover;

@@ -37,7 +37,7 @@ double eased(double value, double target, double dt_s) {
 
 GuardSettings guard_settings(const MissionContext& context) {
   GuardSettings settings;
-  settings.max_deceleration_m_s2 = context.scenario.mission.max_acceleration_m_s2;
+  settings.max_deceleration_m_s2 = context.settings.mission.max_acceleration_m_s2;
   return settings;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/navigation/plan_lead.h"
 
-#include "simulation/flight_recorder.h"
+#include "flyball/runtime/quantile.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>

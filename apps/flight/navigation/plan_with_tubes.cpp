@@ -34,7 +34,7 @@ class Search {
     request_.start_W = query.start_W;
     request_.goal_W = query.goal_W;
     request_.bounds_W = context.brief.bounds_W;
-    request_.seed = RandomStream{context.scenario.seed, "planner", query.id}.next();
+    request_.seed = RandomStream{context.settings.seed, "planner", query.id}.next();
   }
 
   Plan plan() {

@@ -28,7 +28,7 @@ Vec3 sub_goal_W(const MissionContext& context,
                 const Vec3& start_W,
                 const Vec3& goal_W,
                 int failures) {
-  const double horizon_m = context.scenario.planner.horizon_m;
+  const double horizon_m = context.settings.planner.horizon_m;
   const double distance_m = (goal_W - start_W).norm();
   if (horizon_m <= 0.0 || distance_m <= horizon_m) {
     return goal_W;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/people/person_search.h"
 
-#include "flyball/sim/gimbal.h"
+#include "flyball/runtime/gimbal.h"
 
-#include "simulation/seeing_setup.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -127,7 +126,7 @@ Topic<Sightings> add_person_search(Graph& graph,
   });
   NodeSpec spec;
   spec.name = "detect";
-  spec.cost = detector_cost(context.scenario);
+  spec.cost = detector_cost(context.settings);
   spec.trigger = OnMessage{vehicle.colour.index};
   spec.priority = 10;
   spec.reads = {vehicle.depth.index};

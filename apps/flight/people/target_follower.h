@@ -5,8 +5,8 @@
 /// Keeps a person in the middle of the image and at a distance: image error and box size in,
 /// set-points for vehicle and gimbal out.
 
+#include "flyball/runtime/gimbal.h"
 #include "flyball/runtime/messages.h"
-#include "flyball/sim/gimbal.h"
 
 #include "flight/people/target_nodes.h"
 

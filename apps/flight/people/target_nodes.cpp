@@ -2,7 +2,6 @@
 #include "flight/people/target_nodes.h"
 
 #include "flight/people/person_range.h"
-#include "simulation/seeing_setup.h"
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -39,7 +38,7 @@ void add_detect(Graph& graph,
                 MissionContext& context) {
   NodeSpec spec;
   spec.name = "detect";
-  spec.cost = detector_cost(context.scenario);
+  spec.cost = detector_cost(context.settings);
   spec.trigger = OnMessage{vehicle.colour.index};
   spec.priority = 10;
   spec.writes = {topics.detections.index};
@@ -143,7 +142,7 @@ void add_buffered(Graph& graph,
                   TargetLog& log) {
   NodeSpec spec;
   spec.name = "track_buffered";
-  spec.cost = context.scenario.kernels.tracker + "_buffered";
+  spec.cost = context.settings.kernels.tracker + "_buffered";
   spec.trigger = OnMessage{topics.detections.index};
   spec.priority = 20;
   spec.reads = {vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
@@ -206,7 +205,7 @@ void add_real_time(Graph& graph,
                    const TargetLog& log) {
   NodeSpec spec;
   spec.name = "track_real_time";
-  spec.cost = context.scenario.kernels.tracker + "_real_time";
+  spec.cost = context.settings.kernels.tracker + "_real_time";
   spec.trigger = OnMessage{vehicle.colour.index};
   spec.priority = 30;
   spec.reads = {topics.caught_up.index};
@@ -239,7 +238,7 @@ std::vector<Detection> plausible(const Detections& seen,
   if (pose == nullptr) {
     return seen.people;
   }
-  const PersonGeometry geometry{context.scenario.photography.person_height_m,
+  const PersonGeometry geometry{context.settings.photography.person_height_m,
                                 pose->X_WB.translation().z() - context.brief.ground_z_m};
   std::vector<Detection> people;
   std::copy_if(seen.people.begin(), seen.people.end(), std::back_inserter(people),

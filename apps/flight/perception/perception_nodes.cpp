@@ -2,7 +2,6 @@
 #include "flight/perception/perception_nodes.h"
 
 #include "flight/perception/visual_nodes.h"
-#include "scenario/scenario_parameters.h"
 #include <algorithm>
 #include <memory>
 
@@ -61,7 +60,7 @@ void add_points(Graph& graph,
                 MissionContext& context) {
   NodeSpec spec;
   spec.name = "points";
-  spec.cost = context.scenario.kernels.point_cloud;
+  spec.cost = context.settings.kernels.point_cloud;
   spec.trigger = OnMessage{vehicle.depth.index};
   spec.priority = 20;
   spec.writes = {cloud.index};
@@ -84,7 +83,7 @@ void add_points(Graph& graph,
 void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& context) {
   NodeSpec spec;
   spec.name = "map";
-  spec.cost = mapper_cost(context.scenario.kernels);
+  spec.cost = mapper_cost(context.settings.kernels);
   spec.trigger = OnMessage{topics.cloud.index};
   spec.priority = 10;
   spec.deadline = 5s;
@@ -111,7 +110,7 @@ void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& co
     const MapperSettings settings{context.knobs.value("map.resolution_m"),
                                   context.knobs.value("map.range_m")};
     const auto work = context.kernels.mapper->prepare_frame(
-        *frame, camera_pose(pose->X_WB, context.scenario.camera), settings);
+        *frame, camera_pose(pose->X_WB, context.settings.camera), settings);
     if (!work) {
       context.event(job.now(), "frame not mapped: " + work.error().message);
       return Work{};
@@ -188,7 +187,7 @@ PerceptionTopics add_perception(Graph& graph,
   topics.pose = add_localization(graph, vehicle, context);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
   topics.map = graph.topic<MapRevision>("map_revision");
-  if (context.scenario.kernels.slam_load && !context.eye) {
+  if (context.settings.kernels.slam_load && !context.has_rgb_camera) {
     add_slam_load(graph, vehicle);
   }
   add_points(graph, vehicle, topics.cloud, context);

@@ -5,15 +5,6 @@
 
 namespace flyball {
 
-ColourCameraSpec colour_beside(const DepthCameraSpec& depth) {
-  ColourCameraSpec colour;
-  colour.width_px = depth.width_px;
-  colour.height_px = depth.height_px;
-  colour.horizontal_field_rad = depth.horizontal_field_rad;
-  colour.rate_hz = depth.rate_hz;
-  return colour;
-}
-
 namespace {
 
 // The renderer exposes for sunlight. In the shade a camera opens up, until the mean is that of a

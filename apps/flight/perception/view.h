@@ -5,8 +5,8 @@
 /// What the vehicle's forward camera sees: depth, and colour through the same lens.
 
 #include "flyball/kernels/visual_frame.h"
-#include "flyball/sim/colour_camera.h"
-#include "flyball/sim/depth_camera.h"
+#include "flyball/runtime/colour_frame.h"
+#include "flyball/runtime/messages.h"
 
 namespace flyball {
 
@@ -16,9 +16,6 @@ struct View {
   /// The mount takes out roll and pitch; its encoders say how it stood.
   Pose X_BC{Pose::Identity()};
 };
-
-/// A colour camera with the depth camera's lens: an RGB-D camera's other half.
-[[nodiscard]] ColourCameraSpec colour_beside(const DepthCameraSpec& depth);
 
 /// Renders both, and turns colour into grey as ITU-R BT.601 does, with the exposure opened up in
 /// the shade.

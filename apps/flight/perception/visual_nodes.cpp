@@ -8,7 +8,7 @@ namespace {
 void add_see(Graph& graph, Topic<View> view, Topic<VisualFix> fix, MissionContext& context) {
   NodeSpec spec;
   spec.name = "see";
-  spec.cost = frame_cost(context.scenario.kernels.localizer);
+  spec.cost = frame_cost(context.settings.kernels.localizer);
   spec.trigger = OnMessage{view.index};
   spec.priority =
       28;  // Before points and map: where nobody knows the pose, a map is worth nothing.
@@ -55,12 +55,8 @@ void add_correct(Graph& graph, Topic<VisualFix> fix, MissionContext& context) {
 
 }  // namespace
 
-std::string frame_cost(const std::string& localizer) {
-  return localizer + "_frames";
-}
-
 void add_sight(Graph& graph, MissionContext& context) {
-  if (!context.eye) {
+  if (!context.has_rgb_camera) {
     return;
   }
   context.view = graph.topic<View>("view");

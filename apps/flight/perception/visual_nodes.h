@@ -8,9 +8,6 @@
 
 namespace flyball {
 
-/// What a platform calls the work on one frame of this localizer: `visual_slam_frames`.
-[[nodiscard]] std::string frame_cost(const std::string& localizer);
-
 /// Adds the topics `view` and `fix`, the node `see`, which works on frames and takes its time, and
 /// the node `correct`, which hands its result to the localizer. Nothing for one that is blind.
 void add_sight(Graph& graph, MissionContext& context);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/colour_camera.h"
 
+#include "flyball/runtime/camera_spec.h"
+
 #include "sensors/colour_scene.h"
-#include "sensors/pinhole.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/depth_camera.h"
 
+#include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/random.h"
 
-#include "sensors/pinhole.h"
 #include "sensors/ray_loops.h"
 #include "sensors/solid_rays.h"
 #include "world/mover_view.h"
@@ -26,10 +26,6 @@ Eigen::Matrix3d turned(const DepthCameraSpec& spec, int i) {
 }
 
 }  // namespace
-
-Intrinsics DepthCameraSpec::intrinsics() const {
-  return pinhole(width_px, height_px, horizontal_field_rad);
-}
 
 struct DepthCamera::Scene {
   Scene(const World& world, const DepthCameraSpec& camera_spec, std::uint64_t noise_seed)

@@ -12,12 +12,6 @@ constexpr double per_angle_1_s = 40.0;
 constexpr double rate_lag_s = 0.00625;
 constexpr double fastest_motor_rad_s = 6.0;
 
-Eigen::Matrix3d turned(const GimbalAngles& angles) {
-  return (Eigen::AngleAxisd{angles.pan_rad, Vec3::UnitZ()} *
-          Eigen::AngleAxisd{angles.tilt_rad, Vec3::UnitY()})
-      .toRotationMatrix();
-}
-
 }  // namespace
 
 void GimbalServo::aim(const GimbalAngles& command) {
@@ -39,7 +33,7 @@ GimbalJoints GimbalServo::wanted_joints(const Eigen::Matrix3d& R_WB) const {
   Pose X_WB = Pose::Identity();
   X_WB.linear() = R_WB;
   // R = Rz(pan) Rx(roll) Ry(tilt)
-  const Eigen::Matrix3d R = R_WB.transpose() * level_frame(X_WB).linear() * turned(aim_);
+  const Eigen::Matrix3d R = R_WB.transpose() * level_frame(X_WB).linear() * gimbal_rotation(aim_);
   return {std::clamp(std::atan2(-R(0, 1), R(1, 1)), -spec_.max_pan_rad, spec_.max_pan_rad),
           std::clamp(std::asin(std::clamp(R(2, 1), -1.0, 1.0)), -spec_.max_roll_rad,
                      spec_.max_roll_rad),
@@ -58,23 +52,6 @@ GimbalJoints GimbalServo::acceleration(const Eigen::Matrix3d& R_WB,
   return {joint(wanted.pan, joints_rad.pan, rates_rad_s.pan),
           joint(wanted.roll, joints_rad.roll, rates_rad_s.roll),
           joint(wanted.tilt, joints_rad.tilt, rates_rad_s.tilt)};
-}
-
-Pose camera_in_level_frame(const GimbalAngles& angles) {
-  Eigen::Matrix3d R_LC;  // clang-format off
-  R_LC << 0, 0, 1,
-         -1, 0, 0,
-          0, -1, 0;  // clang-format on
-  Pose X_LC = Pose::Identity();
-  X_LC.linear() = turned(angles) * R_LC;
-  return X_LC;
-}
-
-Pose level_frame(const Pose& X_WB) {
-  Pose X_WL = Pose::Identity();
-  X_WL.linear() = Eigen::AngleAxisd{yaw_of(X_WB.linear().col(0)), Vec3::UnitZ()}.toRotationMatrix();
-  X_WL.translation() = X_WB.translation();
-  return X_WL;
 }
 
 }  // namespace flyball

@@ -34,7 +34,8 @@ TEST(MissionContext, the_slowest_zone_and_the_knob_limit_the_speed) {
   MissionEquipment equipment;
   equipment.knobs = KnobSettings{standard_knobs(rig.scenario, rig.platform)};
   MemoryRecorder trace;
-  const MissionContext context{rig.scenario, rig.platform, trace, brief, std::move(equipment)};
+  const MissionContext context{flight_settings(rig.scenario), rig.platform, trace, brief,
+                               std::move(equipment)};
   EXPECT_DOUBLE_EQ(context.speed_limit_m_s(Vec3{0.5, 1, 1}), 3.0);
   EXPECT_DOUBLE_EQ(context.speed_limit_m_s(Vec3{1.5, 1, 1}), 1.0);
   EXPECT_DOUBLE_EQ(context.speed_limit_m_s(Vec3{9, 1, 1}), rig.scenario.mission.max_speed_m_s);

@@ -17,11 +17,6 @@ ColourImage plain(int width_px, int height_px, const Rgb& colour) {
   return image;
 }
 
-Rgb pixel(const ColourImage& image, int x, int y) {
-  const auto i = 3 * static_cast<std::size_t>(y * image.camera.width_px + x);
-  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
-}
-
 TEST(Pictures, come_back_from_a_file_as_they_were_written) {
   const ScratchFolder folder;
   ColourImage image = plain(7, 5, {10, 20, 30});
@@ -57,24 +52,6 @@ TEST(Pictures, that_are_none_are_refused) {
   const auto text = open_pictures(folder.file("a.txt", "no picture"));
   ASSERT_FALSE(text.ok());
   EXPECT_EQ(text.error().code, ErrorCode::invalid_input);
-}
-
-TEST(Boxes, are_drawn_as_edges_two_pixels_wide) {
-  ColourImage image = plain(20, 20, {0, 0, 0});
-  const Rgb red{255, 0, 0};
-  draw_box(image, {4, 5, 10, 8}, red);
-  EXPECT_EQ(pixel(image, 4, 5), red);
-  EXPECT_EQ(pixel(image, 5, 9), red);
-  EXPECT_EQ(pixel(image, 13, 12), red);
-  EXPECT_EQ(pixel(image, 8, 8), (Rgb{0, 0, 0}));
-  EXPECT_EQ(pixel(image, 14, 9), (Rgb{0, 0, 0}));
-}
-
-TEST(Boxes, that_reach_out_of_the_image_are_drawn_as_far_as_it_goes) {
-  ColourImage image = plain(8, 8, {0, 0, 0});
-  draw_box(image, {-5, -5, 10, 10}, {9, 9, 9});
-  EXPECT_EQ(pixel(image, 4, 0), (Rgb{9, 9, 9}));
-  EXPECT_EQ(pixel(image, 0, 0), (Rgb{0, 0, 0}));
 }
 
 }  // namespace

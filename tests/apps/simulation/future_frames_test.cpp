@@ -22,15 +22,13 @@ const std::vector<MapSetting> asked{
 /// Blocks between start and goal; nobody flies.
 struct Ground {
   Ground() : setup{made()}, flown{scenario()} {
-    const World& world = setup.world;
+    const World& world = setup.things.world;
     MissionBrief brief;
     brief.bounds_W = world.bounds_W;
     brief.start_W = world.start_W;
     brief.goal_W = world.goal_W;
-    context = std::make_unique<MissionContext>(flown, *setup.platform, trace, brief,
-                                               std::move(setup.equipment));
-    context->truth = &setup.world;
-    context->true_computer = setup.platform.get();
+    context = std::make_unique<MissionContext>(flight_settings(flown), *setup.platform, trace,
+                                               brief, std::move(setup.equipment));
     context->goal_now_W = world.goal_W + Vec3{0.0, 0.0, 1.5};
   }
   static MissionSetup made() {
@@ -46,7 +44,7 @@ struct Ground {
     scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
     return scenario;
   }
-  [[nodiscard]] Vec3 start_W() const { return setup.world.start_W + Vec3{0.0, 0.0, 1.5}; }
+  [[nodiscard]] Vec3 start_W() const { return setup.things.world.start_W + Vec3{0.0, 0.0, 1.5}; }
 
   MissionSetup setup;
   Scenario flown;
@@ -58,7 +56,7 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   Ground ground;
   PathFollower follower{*ground.context};
   follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, asked};
+  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
   const Foresight& truth = frames.look(follower);
   ASSERT_TRUE(truth.is_whole(asked.size()));
   EXPECT_EQ(truth.places.front().ahead_m, 0.0);
@@ -71,7 +69,7 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   X_WB.linear() =
       Eigen::AngleAxisd{std::atan2(ahead_W.y(), ahead_W.x()), Vec3::UnitZ()}.toRotationMatrix();
   const Pose X_WC = camera_pose(X_WB, scenario.camera);
-  const DepthCamera camera{ground.setup.world, scenario.camera, scenario.seed};
+  const DepthCamera camera{ground.setup.things.world, scenario.camera, scenario.seed};
   const DepthFrame frame = camera.frame(X_WC, MissionTime{}, 0);
   Work points;
   const auto cloud = ground.context->kernels.point_cloud->build(frame, 7.0, points);
@@ -90,7 +88,7 @@ TEST(FutureFrames, take_longer_at_lower_clocks_and_less_long_with_less_range_and
   Ground ground;
   PathFollower follower{*ground.context};
   follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, asked};
+  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
   const Foresight& truth = frames.look(follower);
   for (std::size_t i = 0; i < truth.places.size(); ++i) {
     const double* row = &truth.frame_s[i * asked.size()];
@@ -106,7 +104,7 @@ TEST(FutureFrames, are_taken_once_for_each_place_and_leave_no_trace_in_the_map) 
   Ground ground;
   PathFollower follower{*ground.context};
   follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, asked};
+  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
   const std::vector<double> first_s = frames.look(follower).frame_s;
   const std::size_t taken = frames.frames_taken();
   EXPECT_LE(taken, 16U);

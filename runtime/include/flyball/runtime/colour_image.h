@@ -8,6 +8,7 @@
 #include "flyball/runtime/messages.h"
 #include "flyball/runtime/time.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -63,5 +64,10 @@ struct ColourPatch {
 
 /// Intersection over union, 0..1; zero for boxes without area.
 [[nodiscard]] double overlap(const ImageBox& a, const ImageBox& b);
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// Draws the box's edges, two pixels wide; what is outside of the image is left out.
+void draw_box(ColourImage& image, const ImageBox& box, const Rgb& colour);
 
 }  // namespace flyball

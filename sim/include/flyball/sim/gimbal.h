@@ -7,6 +7,7 @@
 /// here.
 
 #include "flyball/runtime/geometry.h"
+#include "flyball/runtime/gimbal.h"
 
 namespace flyball {
 
@@ -19,11 +20,6 @@ struct GimbalSpec {
   double min_tilt_rad{-0.5};
   double max_tilt_rad{1.5707963267948966};  ///< Straight down.
   double max_roll_rad{0.8};
-};
-
-struct GimbalAngles {
-  double pan_rad{};   ///< From the body's heading to the left.
-  double tilt_rad{};  ///< From the horizon down.
 };
 
 /// Angles of the joints, or their rates or accelerations: about the body's z axis, then x, then y.
@@ -58,11 +54,5 @@ class GimbalServo {
   GimbalAngles command_{};
   GimbalAngles aim_{};  ///< On the way to the command.
 };
-
-/// Pose of the camera (x right, y down, z forward) in the frame whose x axis is ahead, y left and z
-/// up, and against which the angles are measured.
-[[nodiscard]] Pose camera_in_level_frame(const GimbalAngles& angles);
-/// The level frame L, with the body's origin and heading, upright, in the world.
-[[nodiscard]] Pose level_frame(const Pose& X_WB);
 
 }  // namespace flyball

@@ -7,6 +7,7 @@
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/runtime/speed_zone.h"
 #include "flyball/sim/movers.h"
 #include "flyball/sim/person.h"
 
@@ -26,12 +27,6 @@ struct Pillar {
   double radius_m{};
   double height_m{};
   Material material{Material::bark};
-};
-
-/// Inside the box the vehicle flies no faster than this (a scenario's rule, known on board).
-struct SpeedZone {
-  Aabb box_W{};
-  double max_speed_m_s{};
 };
 
 struct World {

@@ -21,13 +21,12 @@ TEST(ExploreRequest, has_the_field_of_the_camera_and_the_slow_bodys_tube) {
 }
 
 TEST(CheckVolume, refuses_a_world_without_anything_to_explore) {
-  const Scenario scenario;
   MissionBrief brief;
-  EXPECT_FALSE(check_volume(scenario, brief));
+  EXPECT_FALSE(check_volume(brief));
   brief.volume_W = {{0, 0, 0}, {10, 10, 0}};
-  EXPECT_FALSE(check_volume(scenario, brief));
+  EXPECT_FALSE(check_volume(brief));
   brief.volume_W.max.z() = 3.0;
-  EXPECT_TRUE(check_volume(scenario, brief));
+  EXPECT_TRUE(check_volume(brief));
 }
 
 }  // namespace

@@ -248,8 +248,9 @@ TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
 }
 
 TEST(Navigator, gives_up_with_no_plan_after_the_time_limit) {
-  Trip trip;
-  trip.rig.scenario.mission.plan_time_limit_s = 5.0;
+  Scenario scenario = kit::MissionRig::one_core();
+  scenario.mission.plan_time_limit_s = 5.0;
+  Trip trip{scenario};
   trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
   for (int i = 0; i < 400 && !trip.rig.context->is_over(); ++i) {
     if (const auto query = trip.navigator.next_query(trip.now)) {

@@ -38,10 +38,10 @@ struct Planning {
   void fly_within(const Aabb& bounds_W) {
     MissionBrief brief;
     brief.bounds_W = bounds_W;
-    MissionEquipment equipment{rig.context->airframe, rig.context->knobs,
+    MissionEquipment equipment{rig.context->body, rig.context->knobs,
                                std::move(rig.context->kernels)};
-    rig.context = std::make_unique<MissionContext>(rig.scenario, rig.platform, rig.trace, brief,
-                                                   std::move(equipment));
+    rig.context = std::make_unique<MissionContext>(flight_settings(rig.scenario), rig.platform,
+                                                   rig.trace, brief, std::move(equipment));
   }
   kit::MissionRig rig;
   PlanQuery query{};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/people/target_follower.h"
 
+#include "flyball/sim/colour_camera.h"
+#include "flyball/sim/person.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/perception/view.h"
 
+#include "flyball/sim/colour_camera.h"
+#include "flyball/sim/depth_camera.h"
+
 #include "circle_flight.h"
+#include "simulation/seeing_setup.h"
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 /// @file
 /// A workload: builds its graph of kernels, and knows when its mission is done.
 
-#include "flyball/records/mission_frame.h"
+#include "flyball/flight/mission_frame.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/result.h"
 
@@ -15,7 +15,7 @@
 
 namespace flyball {
 
-struct Scenario;
+struct FlightSettings;
 class MissionContext;  // see apps/flight/mission_context.h, navigator.h
 struct MissionBrief;
 struct VehicleTopics;
@@ -31,7 +31,7 @@ class Workload {
   /// Whether it can be flown at all.
   ///
   /// @error `invalid_input`: one sentence with the key, its value and the way out.
-  [[nodiscard]] virtual Status check([[maybe_unused]] const Scenario& scenario,
+  [[nodiscard]] virtual Status check([[maybe_unused]] const FlightSettings& settings,
                                      [[maybe_unused]] const MissionBrief& brief) const {
     return Done{};
   }

@@ -7,7 +7,6 @@
 #include "flyball/runtime/colour_image.h"
 #include "flyball/runtime/result.h"
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,11 +34,6 @@ class PictureReader {
 /// @error `not_found`, `invalid_input` (neither picture nor video), `unavailable` (this build came
 ///        without OpenCV's readers).
 [[nodiscard]] Result<std::unique_ptr<PictureReader>> open_pictures(const std::string& path);
-
-using Rgb = std::array<std::uint8_t, 3>;
-
-/// Draws the box's edges, two pixels wide; what is outside of the image is left out.
-void draw_box(ColourImage& image, const ImageBox& box, const Rgb& colour);
 
 /// The image as a PNG file's content. @pre It has a pixel.
 [[nodiscard]] Result<std::string> png_of(const ColourImage& image);

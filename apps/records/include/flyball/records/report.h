@@ -4,7 +4,8 @@
 /// @file
 /// What a run leaves on disk, and the page that shows it.
 
-#include "flyball/simulation/mission.h"
+#include "flyball/records/mission_record.h"
+#include "flyball/scenario/scenario.h"
 
 #include <optional>
 #include <string>

@@ -4,13 +4,11 @@
 /// @file
 /// One mission, completely described: what `flyball run` reads, and what each record begins with.
 
-#include "flyball/kernels/explorer.h"
-#include "flyball/kernels/localizer.h"
+#include "flyball/flight/flight_settings.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/colour_camera.h"
-#include "flyball/sim/depth_camera.h"
 #include "flyball/sim/gps.h"
 
 #include <cstdint>
@@ -19,17 +17,6 @@
 #include <vector>
 
 namespace flyball {
-
-struct MissionSettings {
-  std::string workload{"package_delivery"};
-  double time_limit_s{1800.0};
-  double plan_time_limit_s{
-      90.0};  ///< Standing without a path for longer ends the mission: `no_plan`.
-  double max_speed_m_s{10.0};
-  double max_acceleration_m_s2{6.0};  ///< MAVBench: a in eq. 2.
-  double goal_tolerance_m{
-      3.0};  ///< A path that ends farther from the goal is replanned (MAVBench).
-};
 
 struct WorldSettings {
   std::string generator{"empty"};
@@ -48,73 +35,6 @@ struct VehicleSettings {
   double wind_east_m_s{};
   double wind_north_m_s{};
   double gust_wind_m_s{};  ///< Wind at 20 ft whose gusts (Dryden, MIL-F-8785C) blow; 0: none.
-};
-
-struct KernelSettings {
-  std::string point_cloud{"depth_to_points"};
-  std::string mapper{"octomap"};
-  std::map<std::string, ParameterValue> mapper_parameters{};  ///< As the mapper declares them.
-  std::string collision_check{"swept_cylinder"};
-  std::string planner{"rrt_connect"};
-  std::string smoother{"minimum_snap"};
-  std::string path_tracker{"feedforward_pd"};
-  std::string localizer{"truth"};
-  std::map<std::string, ParameterValue> localizer_parameters{};  ///< As the localizer declares.
-  std::string coverage{"lawnmower"};
-  std::string explorer{"nbvp"};
-  std::string detector{"hog"};
-  std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
-  std::string tracker{"kcf"};
-  bool slam_load{
-      true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
-};
-
-struct MapSettings {
-  double resolution_m{0.15};  ///< Default of the knob; a policy sets it in flight.
-  double range_m{7.0};
-  double rate_hz{20.0};
-};
-
-struct PlannerSettings {
-  /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
-  /// the newest map, is worth more.
-  int budget{4000};
-  /// A farther goal is approached through places on the way; 0: it is planned to at once.
-  double horizon_m{};
-};
-
-/// What the workload `scanning` surveys: a rectangle in the middle of the world's bounds.
-struct ScanSettings {
-  double length_m{100.0};  ///< Eastwards, along the lanes. MAVBench: 100 x 100 m, 5 lanes.
-  double width_m{100.0};   ///< Northwards, across them.
-  int lanes{5};
-  double height_m{15.0};          ///< Of flight, above the ground.
-  double picture_rate_hz{2.0};    ///< Of the camera that looks down.
-  double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
-};
-
-struct DetectorSettings {
-  double scale{1.0};  ///< Default of the knob; a policy sets it in flight.
-  /// Whose price a detection has on the modeled computer: `own`, or a kernel of the platform file.
-  std::string cost_of{"own"};
-  std::string models_folder{"shipped"};  ///< Looked in first for weights; see `flyball models`.
-};
-
-struct PhotographySettings {
-  double distance_m{7.0};  ///< Kept to the person, along the ground.
-  double person_height_m{1.75};
-  double coast_s{3.0};  ///< So long the person is followed on where they should be, unseen.
-  double search_rate_rad_s{0.8};  ///< Then the vehicle turns round for them; 0: it stands.
-  int lost_after_detections{20};  ///< In a row without the person: the target is lost.
-  double success_s{60.0};         ///< Tracked for less is a failure.
-  double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
-};
-
-/// What the workload `watch` does.
-struct WatchSettings {
-  double time_s{60.0};    ///< That it watches for.
-  double height_m{};      ///< Where it hovers, above the ground; 0: it stands with its rotors off.
-  double longest_s{2.0};  ///< Between two maps; a longer time without news is a failure.
 };
 
 struct PlatformSettings {
@@ -136,11 +56,6 @@ struct ComputerEvent {
   double memory_share{};       ///< Co-runner: of the memory's bandwidth.
   double resistance_k_w{8.0};  ///< Cooling: from the computer to the air.
   double ambient_c{40.0};      ///< Cooling: of the air.
-};
-
-struct GovernorSettings {
-  std::string policy{"fixed_fine"};  ///< A preset, or a policy with its default parameters.
-  double period_s{0.25};
 };
 
 struct Scenario {
@@ -165,6 +80,9 @@ struct Scenario {
   GovernorSettings governor{};
   std::vector<ComputerEvent> events{};
 };
+
+/// The part of a scenario that the vehicle knows.
+[[nodiscard]] FlightSettings flight_settings(const Scenario& scenario);
 
 /// A value of the configuration as `flyball config` prints it.
 struct ConfigEntry {

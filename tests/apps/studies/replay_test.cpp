@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
-#include "flyball/records/replay.h"
+#include "flyball/studies/replay.h"
 
 #include "flyball/records/report.h"
 #include "flyball/runtime/observation_fields.h"

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
-
-/// @file
-/// The ideal camera of both kinds: square pixels, axis through the middle of the image.
-
-#include "flyball/runtime/messages.h"
+#include "flyball/runtime/camera_spec.h"
 
 #include <cmath>
 
 namespace flyball {
 
-[[nodiscard]] inline Intrinsics pinhole(int width_px, int height_px, double horizontal_field_rad) {
+Intrinsics pinhole(int width_px, int height_px, double horizontal_field_rad) {
   Intrinsics camera;
   camera.width_px = width_px;
   camera.height_px = height_px;
@@ -18,6 +13,10 @@ namespace flyball {
   camera.centre_x_px = 0.5 * (width_px - 1);
   camera.centre_y_px = 0.5 * (height_px - 1);
   return camera;
+}
+
+Intrinsics DepthCameraSpec::intrinsics() const {
+  return pinhole(width_px, height_px, horizontal_field_rad);
 }
 
 }  // namespace flyball

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: replay
 
-#include "flyball/records/replay.h"
 #include "flyball/records/summary.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/studies/replay.h"
 
 #include <cmath>
 #include <filesystem>

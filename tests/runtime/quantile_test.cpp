@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/flight_recorder.h"
+#include "flyball/runtime/quantile.h"
 
 #include <gtest/gtest.h>
 

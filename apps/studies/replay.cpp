@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/records/replay.h"
+#include "flyball/studies/replay.h"
 
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/guard.h"

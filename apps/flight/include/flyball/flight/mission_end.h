@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// How a mission ends.
+
+#include <cstdint>
+
+namespace flyball {
+
+enum class MissionStatus : std::uint8_t { succeeded, failed, interrupted };
+enum class MissionFailure : std::uint8_t {
+  none,
+  collision,
+  battery_empty,
+  no_plan,
+  time_limit,
+  target_lost,        ///< The person that was followed is out of sight.
+  localization_lost,  ///< The localizer lost track and did not find it again.
+  not_found,          ///< Everything was searched; the person was not seen.
+  incomplete          ///< Less was covered or mapped than the mission asks for.
+};
+
+[[nodiscard]] const char* to_string(MissionStatus status);
+[[nodiscard]] const char* to_string(MissionFailure failure);
+
+}  // namespace flyball

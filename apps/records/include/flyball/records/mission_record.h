@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Everything that a flown mission leaves.
+
+#include "flyball/flight/mission_frame.h"
+#include "flyball/records/summary.h"
+#include "flyball/runtime/recorder.h"
+#include "flyball/sim/world.h"
+
+#include <memory>
+#include <vector>
+
+namespace flyball {
+
+struct MissionRecord {
+  Summary summary{};
+  World world{};
+  std::vector<MissionFrame> frames{};  ///< What the workload wants to be seen.
+  /// Channels and fields: see apps/README.md. `state` has 10 rows a second.
+  std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.
+};
+
+}  // namespace flyball
