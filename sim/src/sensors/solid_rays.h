@@ -24,7 +24,8 @@ class SolidRays {
   /// Depth along the optical axis of what each pixel's ray meets first, infinite where that is
   /// beyond the range. Row by row; `depth_m` has a number for each pixel.
   ///
-  /// @cost See sim/README.md.
+  /// @cost .07 ms for 256 x 144 pixels in `outdoor_to_indoor`, .22 ms among the 27 072 boxes of
+  ///       building 079 (one virtual core of an AMD EPYC of the Zen 4 class, AVX-512).
   void look(const Intrinsics& camera, const Pose& X_WC, double range_m, float* depth_m) const;
 
  private:
