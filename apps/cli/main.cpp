@@ -26,6 +26,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_replay(program, exit_code);
   flyball::add_explain(program, exit_code);
   flyball::add_map(program, exit_code);
+  flyball::add_world(program, exit_code);
   flyball::add_detect(program, exit_code);
   flyball::add_models(program, exit_code);
   flyball::add_fit(program, exit_code);

@@ -67,8 +67,10 @@ int describe(const MapOptions& options) {
   return exit_success;
 }
 
+/// OctoMap's own trees keep the log-odds of a file as they are; bricks, which make wider cells of
+/// it, round them.
 int export_map(const MapOptions& options) {
-  const auto mapper = load("flyball", options.file);
+  const auto mapper = load(options.resolution_m ? "flyball" : "octomap", options.file);
   if (!mapper) {
     return refuse({mapper.error()});
   }

@@ -12,6 +12,8 @@
 namespace flyball {
 namespace {
 
+constexpr png_uint_32 most_px = 8192;
+
 struct CloseFile {
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
@@ -38,6 +40,8 @@ bool read_header(const Decoder& decoder, std::FILE* file, PngPixels& pixels) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) {  // NOLINT(cert-err52-cpp): libpng's way
     return false;
   }
+  // The header's size is believed: so much memory is taken before a pixel is read.
+  png_set_user_limits(decoder.png, most_px, most_px);
   png_init_io(decoder.png, file);
   png_read_info(decoder.png, decoder.info);
   png_set_expand(decoder.png);  // Palettes and fewer than 8 bits.
@@ -62,7 +66,9 @@ bool read_rows(const Decoder& decoder, png_bytepp rows) {
 }  // namespace
 
 Result<PngPixels> read_png(const std::string& file) {
-  const Error unreadable{ErrorCode::invalid_input, "cannot read \"" + file + "\" as a PNG image"};
+  const Error unreadable{
+      ErrorCode::invalid_input,
+      "cannot read \"" + file + "\" as a PNG image of at most 8192 x 8192 pixels"};
   const std::unique_ptr<std::FILE, CloseFile> source{std::fopen(file.c_str(), "rb")};
   const Decoder decoder;
   PngPixels pixels;

@@ -107,6 +107,23 @@ double EnergyBound::energy_j() const {
   return sum;
 }
 
+namespace {
+
+/// The search holds 17 bytes for each of its cells of .25 m: 1.7 GB at most.
+Status check_size(const World& world) {
+  constexpr double most_km2 = 6.25;
+  const Vec3 size_m = world.bounds_W.max - world.bounds_W.min;
+  const double km2 = size_m.x() * size_m.y() * 1e-6;
+  if (km2 > most_km2) {
+    return Error{ErrorCode::invalid_input,
+                 "a bound is known for worlds of at most 6.25 km2, and this one has " +
+                     std::to_string(km2) + "; make it smaller, or crop its file"};
+  }
+  return Done{};
+}
+
+}  // namespace
+
 Result<EnergyBound> bound_energy(const Scenario& scenario) {
   if (scenario.mission.workload != "package_delivery") {
     return Error{ErrorCode::invalid_input,
@@ -122,6 +139,9 @@ Result<EnergyBound> bound_energy(const Scenario& scenario) {
     return setup.error();
   }
   const World& world = setup->things.world;
+  if (const Status small = check_size(world); !small) {
+    return small.error();
+  }
   const Airframe& airframe = setup->things.airframe;
   const LeastPower power{scenario, airframe, *setup->platform};
   const double fastest = fastest_m_s(scenario, *setup);

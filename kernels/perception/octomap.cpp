@@ -10,6 +10,7 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
+#include "bricks/octree_copy.h"
 #include "bricks/octree_record.h"
 #include "maps/layered_mapper.h"
 #include "maps/octree_file.h"
@@ -42,7 +43,13 @@ class TreeStore {
     tree_->setNodeValue(key_of(cell), flyball::confirmed_log_odds);
   }
 
-  void add_to(flyball::ClearCells& clear) const { clear.add(*tree_); }
+  [[nodiscard]] Status add_to(flyball::ClearCells& clear) const {
+    if (Status fits = flyball::check_extent(*tree_); !fits) {
+      return fits;
+    }
+    clear.add(*tree_);
+    return flyball::Done{};
+  }
 
   [[nodiscard]] MapLevel counts() const {
     MapLevel counts{cell_m()};

@@ -38,7 +38,15 @@ TEST_F(MeshFile, is_solid_where_its_surfaces_are_and_free_elsewhere) {
 TEST_F(MeshFile, is_asked_for_a_file) {
   const auto world = made_world("mesh_file", 1);
   ASSERT_FALSE(world);
-  EXPECT_NE(world.error().message.find("set world.parameters.file"), std::string::npos);
+  EXPECT_NE(world.error().message.find("set world.file"), std::string::npos);
+}
+
+TEST_F(MeshFile, of_the_wrong_unit_reaches_too_far_for_a_world) {
+  const auto world =
+      made_world("mesh_file", 1, {{"file", path}, {"cell_m", 1.0}, {"metres_per_unit", 1200.0}});
+  ASSERT_FALSE(world);
+  EXPECT_NE(world.error().message.find("metres_per_unit"), std::string::npos)
+      << world.error().message;
 }
 
 TEST_F(MeshFile, refuses_a_start_that_is_not_in_it) {

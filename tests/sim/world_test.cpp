@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace flyball {
 namespace {
@@ -106,6 +107,22 @@ TEST(Clearance, is_the_same_with_many_solids_as_with_each_alone) {
     const double limit_m = i % 2 == 0 ? 3.0 : 100.0;
     EXPECT_NEAR(clearance.distance_m(p, body, limit_m, true), one_by_one(world, p, limit_m), exact);
   }
+}
+
+TEST(Clearance, among_solids_far_apart_takes_no_more_memory_than_a_city) {
+  World world;
+  world.has_ground = false;
+  for (const double at_m : {-9000.0, 9000.0}) {
+    world.boxes.push_back({Vec3{at_m, at_m, 0.0}, Vec3{at_m + 1.0, at_m + 1.0, 3.0}});
+  }
+  rusage before{};
+  getrusage(RUSAGE_SELF, &before);
+  const Clearance clearance{world};
+  rusage after{};
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 300'000);  // kB
+  const Vec3 p{-8997.0, -8999.5, 1.0};
+  EXPECT_NEAR(clearance.distance_m(p, body, 10.0, true), one_by_one(world, p, 10.0), exact);
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include "floor_plan.h"
 #include "made_world.h"
+#include "scratch_folder.h"
+#include <filesystem>
 
 #include <gtest/gtest.h>
+#include <octomap/octomap.h>
 
 namespace flyball {
 namespace {
@@ -138,6 +141,36 @@ TEST(OctomapFile, says_what_is_wrong_with_a_file) {
   const auto contradiction = made_world("octomap_file", 1, {{"file", "other.bt"}, {"pair", 2.0}});
   ASSERT_FALSE(contradiction);
   EXPECT_EQ(contradiction.error().code, ErrorCode::invalid_input);
+}
+
+TEST(OctomapFile, names_the_package_only_where_it_would_help) {
+  const ScratchFolder scratch;
+  const std::string damaged = scratch.file("place.bt", "# Octomap OcTree binary file\n");
+  for (const std::string& file : {std::string{"no_such_map.bt"}, damaged}) {
+    const auto world = made_world("octomap_file", 1, {{"file", file}, {"pair", 0.0}});
+    ASSERT_FALSE(world);
+    EXPECT_EQ(world.error().message.find("liboctomap-dev"), std::string::npos)
+        << world.error().message;
+  }
+}
+
+TEST(OctomapFile, takes_a_bare_name_from_the_current_folder_first) {
+  const ScratchFolder scratch;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(scratch.path());
+  octomap::OcTree tree{0.1};
+  for (int x = -5; x < 20; ++x) {
+    for (int y = -20; y < 20; ++y) {
+      tree.updateNode(x + 0.05, 0.1 * y + 0.05, 1.25, false);
+    }
+  }
+  tree.updateNode(5.05, 0.05, 1.25, true);
+  EXPECT_TRUE(tree.write("geb079.bt"));  // Log-odds: .ot serves as well, whatever its name.
+  const auto world = made_world("octomap_file", 1, {{"pair", 0.0}, {"goal_x_m", 9.0}});
+  std::filesystem::current_path(before);
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->boxes.size(), 1U);
+  EXPECT_NEAR(world->boxes[0].min.x(), 5.0, 1e-9);
 }
 
 TEST(OctomapFile, ships_pairs_that_the_vehicle_can_fly_between) {

@@ -35,7 +35,10 @@ class BrickStore {
     }
   }
 
-  void add_to(ClearCells& clear) const { clear.add(*to_octree(map_, 0)); }
+  [[nodiscard]] Status add_to(ClearCells& clear) const {
+    clear.add(*to_octree(map_, 0));
+    return Done{};
+  }
 
   [[nodiscard]] MapLevel counts() const { return contents_of(map_, 0).levels.front(); }
   [[nodiscard]] std::size_t bytes() const { return map_.bytes(); }

@@ -170,11 +170,18 @@ std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level, TreeC
   return tree;
 }
 
-Result<BrickMap> to_bricks(const octomap::OcTree& tree) {
+Status check_extent(const octomap::OcTree& tree) {
   if (chunks_in(tree) > most_chunks_read) {
     return Error{ErrorCode::invalid_input,
                  "the map fills more than " + std::to_string(most_chunks_read) +
                      " blocks of 32 x 32 x 32 cells; cut it, or give it wider cells"};
+  }
+  return Done{};
+}
+
+Result<BrickMap> to_bricks(const octomap::OcTree& tree) {
+  if (const Status fits = check_extent(tree); !fits) {
+    return fits.error();
   }
   BrickMap map{tree.getResolution()};
   Brick brick;

@@ -26,10 +26,13 @@ enum class TreeCells : std::uint8_t { log_odds, likeliest };
                                                          int level,
                                                          TreeCells cells = TreeCells::log_odds);
 
-/// A map with the tree's cells as its finest.
-///
 /// @error `invalid_input` when the tree's leaves fill more than `most_chunks_read` chunks: a few
 ///        bytes of a file can claim a continent.
+[[nodiscard]] Status check_extent(const octomap::OcTree& tree);
+
+/// A map with the tree's cells as its finest.
+///
+/// @error As `check_extent`.
 [[nodiscard]] Result<BrickMap> to_bricks(const octomap::OcTree& tree);
 
 }  // namespace flyball

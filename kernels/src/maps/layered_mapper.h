@@ -10,7 +10,7 @@
 ///   Store(cell_m), cells()             what LayeredView looks at; empty at first
 ///   write(masks)                       of one scan
 ///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
-///   add_to(clear)                      tells all that it knows
+///   add_to(clear)                      tells all that it knows, unless that is too much
 ///   counts(), bytes()                  as in MapContents
 ///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
 
@@ -113,14 +113,16 @@ class LayeredMapper final : public Mapper {
     if (!store) {
       return store.error();
     }
+    auto layer = std::make_unique<Layer>(std::move(*store));
+    if (layer->is_coarse()) {
+      if (Status added = layer->store.add_to(layer->clear); !added) {
+        return Error{added.error().code, "map file \"" + path + "\": " + added.error().message};
+      }
+    }
     view_.forget_layers();
     layers_.clear();
     pending_ = nullptr;
-    auto& layer = *layers_.emplace_back(std::make_unique<Layer>(std::move(*store)));
-    if (layer.is_coarse()) {
-      layer.store.add_to(layer.clear);
-    }
-    layer.show_in(view_);
+    layers_.emplace_back(std::move(layer))->show_in(view_);
     return Done{};
   }
 

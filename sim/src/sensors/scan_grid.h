@@ -2,15 +2,13 @@
 #pragma once
 
 /// @file
-/// A scanned place as a dense grid of cells, read from OctoMap's binary files (.bt).
+/// A scanned place as a dense grid of cells.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
-#include "flyball/runtime/result.h"
 
 #include <cstddef>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace flyball {
@@ -45,11 +43,17 @@ class ScanGrid {
   std::vector<CellState> states_;
 };
 
-/// @error `not_found`; `invalid_input` when it is no OcTree, is cut off, empty, or larger than 2e8
-/// cells.
-///
-/// Own reader: the library's prints to the terminal, also when all is well.
-[[nodiscard]] Result<ScanGrid> read_scan(const std::string& path);
+/// Visits all cells of [low, high]: x runs fastest, then y, then z.
+template <class Visit>
+void for_each_cell(const ScanGrid::Index& low, const ScanGrid::Index& high, const Visit& visit) {
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        visit(ScanGrid::Index{x, y, z});
+      }
+    }
+  }
+}
 
 /// The cells that `is_solid` as boxes: runs along x, equal runs joined along y, those along z.
 [[nodiscard]] std::vector<Aabb> merged_boxes(

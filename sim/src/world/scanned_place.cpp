@@ -73,6 +73,12 @@ Result<World> world_in(const ScanGrid& grid,
                        const Parameters& given,
                        double lowest_m,
                        const std::string& file) {
+  const Aabb extent = grid.extent_W();
+  if (extent.min.cwiseAbs().maxCoeff() > far_m || extent.max.cwiseAbs().maxCoeff() > far_m) {
+    return Error{ErrorCode::invalid_input,
+                 "\"" + file + "\" reaches farther than 10 km from its origin; crop it, or set " +
+                     "metres_per_unit if it is a mesh in other units"};
+  }
   World world = solid_world(grid, given.number("ground_z_m"), lowest_m);
   world.start_W = {trip.start_x_m, trip.start_y_m, world.ground_z_m};
   world.goal_W = {trip.goal_x_m, trip.goal_y_m, world.ground_z_m};

@@ -42,6 +42,11 @@ Result<Texture> Texture::from_png(const void* bytes, std::size_t size) {
   if (png_image_begin_read_from_memory(&image, bytes, size) == 0) {
     return Error{ErrorCode::invalid_input, std::string{"no PNG picture: "} + &image.message[0]};
   }
+  constexpr png_uint_32 most_px = 8192;  // A header of a few bytes may ask for 4e9 x 4e9.
+  if (image.width > most_px || image.height > most_px) {
+    png_image_free(&image);
+    return Error{ErrorCode::invalid_input, "no PNG picture of at most 8192 x 8192 pixels"};
+  }
   image.format = PNG_FORMAT_RGB;
   std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
   const png_color under{128, 128, 128};  // Where the picture is transparent.

@@ -100,10 +100,13 @@ Grid grid_around(const std::vector<Aabb>& boxes, const std::vector<Aabb>& pillar
     }
   }
   // About one solid per column, between half the door's width and a block's size: finer columns
-  // only multiply the entries of long walls, coarser ones the solids to look at.
+  // only multiply the entries of long walls, coarser ones the solids to look at. A file may place
+  // two solids 20 km apart: then columns are wider, so that their number stays bounded.
+  constexpr double most_columns = 4e6;  // 130 MB while they are sorted.
   const Eigen::Vector2d size = all.sizes();
   const double solids = static_cast<double>(boxes.size() + pillars.size());
-  const double cell_m = std::clamp(std::sqrt(size.x() * size.y() / solids), 0.4, 4.0);
+  const double cell_m = std::max(std::clamp(std::sqrt(size.x() * size.y() / solids), 0.4, 4.0),
+                                 std::sqrt(size.x() * size.y() / most_columns));
   const auto count = [cell_m](double length) { return static_cast<int>(length / cell_m) + 1; };
   return {Vec3{all.min().x(), all.min().y(), 0.0}, cell_m, count(size.x()), count(size.y())};
 }

@@ -20,7 +20,13 @@ class MeshFile final : public flyball::WorldGenerator {
         {"file", std::string{}, 0.0, 0.0, "OBJ, STL, PLY, glTF, COLLADA, or what Assimp reads."},
         {"cell_m", 0.1, 0.02, 1.0, "Cells that a surface touches are solid."},
         {"metres_per_unit", 1.0, 1e-4, 1e4, "Of the file's lengths; .001 for millimetres."},
-        {"up", std::string{"z"}, 0.0, 0.0, "The file's axis that points up.", {"y", "z"}}};
+        {"up",
+         std::string{"file"},
+         0.0,
+         0.0,
+         "The file's axis that points up; file: y for glTF, else z. COLLADA files say it "
+         "themselves.",
+         {"file", "y", "z"}}};
     const auto place = flyball::place_parameters();
     all.insert(all.end(), place.begin(), place.end());
     return all;
@@ -31,11 +37,11 @@ class MeshFile final : public flyball::WorldGenerator {
     const std::string& file = given.text("file");
     if (file.empty()) {
       return error(flyball::ErrorCode::invalid_input,
-                   "no file is named; set world.parameters.file to a mesh (OBJ, STL, PLY, glTF, "
-                   "COLLADA)");
+                   "no file is named; set world.file to a mesh (OBJ, STL, PLY, glTF, COLLADA)");
     }
-    const auto grid = flyball::read_mesh(
-        file, {given.number("cell_m"), given.number("metres_per_unit"), given.text("up") == "y"});
+    const auto grid =
+        flyball::read_mesh(file, {given.number("cell_m"), given.number("metres_per_unit"),
+                                  flyball::up_axis(given.text("up"))});
     if (!grid) {
       return error(grid.error().code, grid.error().message);
     }

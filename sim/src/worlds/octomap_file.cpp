@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A place that was scanned, from OctoMap's binary file: its occupied cells are solid, all else is
-// air.
+// A place that was scanned, from OctoMap's files: its occupied cells are solid, all else is air.
 
 #include "flyball/runtime/registry.h"
 #include "flyball/sim/world.h"
 
+#include "world/scan_file.h"
 #include "world/scanned_place.h"
 #include <array>
 
 namespace {
 
 using flyball::World;
-
-// Where Debian's liboctomap-dev puts its examples; bare file names are looked for here.
-constexpr const char* example_folder = "/usr/share/doc/liboctomap-dev/examples/data/";
 
 // Freiburg's building 079, scanned with one office door open: the corridor (36 m) and that office
 // are all that a disc of .71 m can reach, at any height from 1.1 to 1.5 m. The places are those
@@ -34,7 +31,7 @@ class OctomapFile final : public flyball::WorldGenerator {
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     std::vector<flyball::ParameterSpec> all{
         {"file", std::string{shipped_file}, 0.0, 0.0,
-         "A .bt file; a bare name: OctoMap's examples."},
+         "A .bt or .ot file; the current folder's, else OctoMap's example."},
         {"pair", 1.0, 0.0, 5.0,
          "Start and goal shipped for geb079.bt; 0: by start_x_m to goal_y_m."}};
     const auto place = flyball::place_parameters();
@@ -52,11 +49,15 @@ class OctomapFile final : public flyball::WorldGenerator {
                             "start_x_m .. goal_y_m for \"" +
                                 file + "\""};
     }
-    const bool is_bare = file.find('/') == std::string::npos;
-    const auto scan = flyball::read_scan(is_bare ? example_folder + file : file);
+    const auto scan = flyball::read_scan(flyball::scan_path(file));
     if (!scan) {
-      return flyball::Error{scan.error().code,
-                            scan.error().message + "; Debian's liboctomap-dev ships geb079.bt"};
+      const bool is_shipped_one =
+          scan.error().code == flyball::ErrorCode::not_found && file == shipped_file;
+      return flyball::Error{
+          scan.error().code,
+          scan.error().message +
+              (is_shipped_one ? "; install liboctomap-dev, which brings it, or set world.file"
+                              : "")};
     }
     const flyball::Trip trip = pair > 0 ? shipped_pairs[pair - 1] : flyball::trip_of(given);
     auto world = world_in(*scan, trip, given, 0.0, file);

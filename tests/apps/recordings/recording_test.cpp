@@ -147,6 +147,33 @@ TEST(TumRecording, refuses_a_file_that_is_no_whole_picture) {
   }
 }
 
+/// As PNG has it: ISO 3309.
+std::uint32_t crc_of(const std::string& bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+  }
+  return ~crc;
+}
+
+std::string big_endian(std::uint32_t value) {
+  return {static_cast<char>(value >> 24U), static_cast<char>(value >> 16U & 0xFFU),
+          static_cast<char>(value >> 8U & 0xFFU), static_cast<char>(value & 0xFFU)};
+}
+
+TEST(TumRecording, refuses_a_picture_whose_header_claims_more_than_memory_has) {
+  const WrittenTum written;
+  const std::string whole = written.place.content("rgb/1.000000.png");
+  const std::string ihdr = "IHDR" + big_endian(900'000) + big_endian(900'000) + whole.substr(24, 5);
+  (void)written.place.file(
+      "rgb/1.000000.png", whole.substr(0, 12) + ihdr + big_endian(crc_of(ihdr)) + whole.substr(33));
+  EXPECT_NE(written.refused().find("at most 8192 x 8192 pixels"), std::string::npos)
+      << written.refused();
+}
+
 TEST(TumTrajectory, is_read_back_to_the_microsecond) {
   const ScratchFolder place;
   const MissionTime t{Duration{1305031102175304000}};

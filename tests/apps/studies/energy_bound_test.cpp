@@ -3,9 +3,11 @@
 
 #include "flyball/studies/energy_bound.h"
 
+#include "scratch_folder.h"
 #include "short_delivery.h"
 
 #include <gtest/gtest.h>
+#include <octomap/octomap.h>
 
 namespace flyball {
 namespace {
@@ -47,6 +49,21 @@ TEST(EnergyBound, where_the_mission_is_slow_a_metre_costs_more) {
   ASSERT_TRUE(fast);
   // 20 m and more at 1 instead of 10 m/s, twice, at 250 W and more.
   EXPECT_GT(slow->energy_j() - fast->energy_j(), 2.0 * (15.0 - 1.5) * 250.0);
+}
+
+TEST(EnergyBound, of_a_world_that_would_take_all_memory_is_refused) {
+  const ScratchFolder scratch;
+  octomap::OcTree tree{10.0};
+  tree.updateNode(-4005.0, -4005.0, 5.0, true);
+  tree.updateNode(4005.0, 4005.0, 5.0, true);
+  ASSERT_TRUE(tree.write(scratch.path("wide.ot")));
+  Scenario scenario = over_open_ground(100.0);
+  scenario.world.generator = "octomap_file";
+  scenario.world.parameters = {{"file", scratch.path("wide.ot")}, {"pair", 0.0}};
+  const auto bound = bound_energy(scenario);
+  ASSERT_FALSE(bound);
+  EXPECT_NE(bound.error().message.find("at most 6.25 km2"), std::string::npos)
+      << bound.error().message;
 }
 
 TEST(EnergyBound, is_below_every_flight_that_succeeds) {

@@ -104,6 +104,24 @@ TEST(MapFile, a_broken_one_leaves_the_map_as_it_was) {
   }
 }
 
+TEST(MapFile, that_claims_a_continent_in_two_bytes_is_refused) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file(
+      "wide.bt", std::string{"# Octomap OcTree binary file\nid OcTree\nsize 2\nres 0.3\ndata\n"} +
+                     std::string{"\x01\x00", 2});  // One of the root's children is free.
+  for (const char* name : {"flyball", "octomap"}) {
+    const auto mapper = make(name);
+    insert(*mapper, 0);
+    const std::uint64_t known = mapper->contents().levels.front().known_cells;
+    const Status read = mapper->read(path);
+    ASSERT_FALSE(read.ok()) << name;
+    EXPECT_EQ(read.error().code, ErrorCode::invalid_input);
+    EXPECT_NE(read.error().message.find("wide.bt"), std::string::npos) << read.error().message;
+    EXPECT_NE(read.error().message.find("wider cells"), std::string::npos);
+    EXPECT_EQ(mapper->contents().levels.front().known_cells, known) << name;
+  }
+}
+
 TEST(MapFile, cells_of_a_file_are_those_of_a_level) {
   const ScratchFolder scratch;
   const auto mapper = exact();
