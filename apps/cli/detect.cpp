@@ -49,6 +49,28 @@ std::string line_of(const DetectedFrame& frame) {
   return text;
 }
 
+std::string counted(std::uint64_t count, const std::string& one, const std::string& more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
+std::string line_of(const DetectionTotals& totals) {
+  return counted(totals.frames, "picture", "pictures") + ", " + std::to_string(totals.with_people) +
+         " with people, " + counted(totals.people, "person", "people") + " in all; " +
+         std::to_string(totals.unreadable) + " could not be read\n";
+}
+
+/// What cannot be read is told on standard error too, where it is seen beside many results.
+void show(const DetectedFrame& frame, bool json) {
+  if (!frame.trouble.empty()) {
+    note("flyball: " + frame.trouble);
+  }
+  if (json) {
+    print(to_json(frame) + "\n");
+  } else if (frame.trouble.empty()) {
+    print(line_of(frame));
+  }
+}
+
 int detect(DetectOptions& options) {
   for (const std::string& setting : options.settings) {
     if (const Status added = add_setting(options.run, setting); !added) {
@@ -56,14 +78,22 @@ int detect(DetectOptions& options) {
     }
   }
   catch_interrupt();
-  const Status done = run_detection(options.run, [&options](const DetectedFrame& frame) {
-    print(options.json ? to_json(frame) + "\n" : line_of(frame));
+  DetectionTotals totals;
+  const Status done = run_detection(options.run, [&](const DetectedFrame& frame) {
+    show(frame, options.json);
+    totals.add(frame);
     return !was_interrupted();
   });
   if (!done) {
     return refuse({done.error()});
   }
-  return was_interrupted() ? exit_interrupted : exit_success;
+  if (totals.frames + totals.unreadable > 1 || totals.unreadable > 0) {
+    print(options.json ? to_json(totals) + "\n" : line_of(totals));
+  }
+  if (was_interrupted()) {
+    return exit_interrupted;
+  }
+  return totals.unreadable > 0 ? exit_mission_failed : exit_success;
 }
 
 }  // namespace

@@ -51,7 +51,10 @@ Result<std::string> write_picture(const DetectionRun& run,
 }
 
 Result<DetectedFrame> look(const DetectionRun& run, Detector& detector, Picture picture) {
-  DetectedFrame frame{picture.file, picture.frame, {}, {}, 0.0, {}};
+  DetectedFrame frame{picture.file, picture.frame, {}, {}, 0.0, {}, std::move(picture.trouble)};
+  if (!frame.trouble.empty()) {
+    return frame;
+  }
   const auto begun = std::chrono::steady_clock::now();
   auto people = detector.detect(picture.image, run.scale, frame.work);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
@@ -87,6 +90,8 @@ Status run_detection(const DetectionRun& run,
       return prepared.error();
     }
   }
+  std::error_code failed;
+  const bool is_folder = fs::is_directory(run.input, failed);
   while (true) {
     auto picture = (*pictures)->next();
     if (!picture) {
@@ -102,14 +107,40 @@ Status run_detection(const DetectionRun& run,
     if (!frame) {
       return frame.error();
     }
+    if (!frame->trouble.empty() && !is_folder) {
+      return Error{ErrorCode::invalid_input, frame->trouble};
+    }
     if (!report(*frame)) {
       return Done{};
     }
   }
 }
 
+void DetectionTotals::add(const DetectedFrame& frame) {
+  if (!frame.trouble.empty()) {
+    ++unreadable;
+    return;
+  }
+  ++frames;
+  with_people += frame.people.empty() ? 0 : 1;
+  people += frame.people.size();
+}
+
+std::string to_json(const DetectionTotals& totals) {
+  return nlohmann::ordered_json{{"totals",
+                                 {{"frames", totals.frames},
+                                  {"with_people", totals.with_people},
+                                  {"people", totals.people},
+                                  {"unreadable", totals.unreadable}}}}
+      .dump();
+}
+
 std::string to_json(const DetectedFrame& frame) {
   nlohmann::ordered_json line{{"file", frame.file}, {"frame", frame.frame}};
+  if (!frame.trouble.empty()) {
+    line["trouble"] = frame.trouble;
+    return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
   line["people"] = nlohmann::ordered_json::array();
   for (const Detection& person : frame.people) {
     line["people"].push_back({{"x_px", person.box.x_px},

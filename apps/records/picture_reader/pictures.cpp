@@ -5,6 +5,7 @@
 #include "flyball/records/pictures.h"
 
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <filesystem>
 #include <vector>
@@ -46,7 +47,7 @@ class Files final : public flyball::PictureReader {
       }
     } catch (const std::exception&) {  // Said below.
     }
-    return flyball::Error{flyball::ErrorCode::invalid_input, "\"" + file + "\" is no picture"};
+    return std::optional{Picture{file, 0, {}, "\"" + file + "\" cannot be read as a picture"}};
   }
 
  private:
@@ -80,10 +81,22 @@ class Video final : public flyball::PictureReader {
   std::uint64_t frame_{};
 };
 
+/// A file with such a name that cannot be read is a damaged picture; any other is none.
+bool is_called_a_picture(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::vector<std::string> endings{".bmp", ".jp2", ".jpeg", ".jpg",  ".pbm", ".pgm",
+                                         ".png", ".ppm", ".tif",  ".tiff", ".webp"};
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 std::vector<std::string> pictures_in(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator{folder}) {
-    if (entry.is_regular_file() && cv::haveImageReader(entry.path().string())) {
+    std::error_code failed;
+    if (entry.is_regular_file(failed) &&
+        (is_called_a_picture(entry.path()) || cv::haveImageReader(entry.path().string()))) {
       files.push_back(entry.path().string());
     }
   }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "flyball/records/pictures.h"
+
 #include "flyball_program.h"
 #include <algorithm>
+#include <memory>
 
 #include <gtest/gtest.h>
+#include <octomap/octomap.h>
 
 namespace {
 
@@ -151,6 +155,68 @@ TEST_F(Cli, prints_its_version_and_help) {
   const FlyballProgram::Outcome help = flyball.run("--help");
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.output.find("compare"), std::string::npos);
+}
+
+/// A PNG file of 160 x 160 grey pixels.
+std::string grey_png() {
+  flyball::ColourImage image;
+  image.camera = {160, 160, 0.0, 0.0, 0.0};
+  image.rgb.assign(std::size_t{3} * 160 * 160, 120);
+  return *flyball::png_of(image);
+}
+
+TEST_F(Cli, detect_of_a_folder_names_what_it_cannot_read_and_counts) {
+  (void)flyball.place.file("a.png", grey_png());
+  (void)flyball.place.file("b.jpg", "no picture");
+  (void)flyball.place.file("c.png", grey_png());
+  const auto outcome = flyball.run("detect . --detector hog");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "flyball: \"./b.jpg\" cannot be read as a picture\n");
+  EXPECT_NE(
+      outcome.output.find("2 pictures, 0 with people, 0 people in all; 1 could not be read\n"),
+      std::string::npos)
+      << outcome.output;
+  const auto json = flyball.run("detect . --detector hog --json");
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_NE(json.output.find("{\"totals\":{\"frames\":2,\"with_people\":0,\"people\":0,"
+                             "\"unreadable\":1}}\n"),
+            std::string::npos)
+      << json.output;
+}
+
+TEST_F(Cli, world_draws_a_plan_and_says_how_far_a_place_reaches) {
+  (void)flyball.place.file("hall.obj",
+                           "v -1 -4 0\nv 11 -4 0\nv 11 4 0\nv -1 4 0\nf 1 2 3 4\n"
+                           "v 5.05 -2 0\nv 5.05 2 0\nv 5.05 2 3\nv 5.05 -2 3\nf 5 6 7 8\n");
+  const auto outcome = flyball.run("world hall.obj --picture plan.png");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("-1.00 to 11"), std::string::npos) << outcome.output;
+  EXPECT_EQ(flyball.place.content("plan.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Cli, world_refuses_what_it_cannot_draw) {
+  expect_refused("world nowhere.bt --picture plan.png", "no mesh file \"nowhere.bt\"");
+  expect_refused("world hall.obj --up x", "--up");
+}
+
+TEST_F(Cli, map_export_keeps_log_odds) {
+  octomap::OcTree tree{0.1};
+  for (int i = 0; i < 40; ++i) {
+    tree.updateNode(0.1 * i + 0.05, 0.05, 0.05, 0.013F * static_cast<float>(i) - 0.2F);
+  }
+  ASSERT_TRUE(tree.write(flyball.place.path("a.ot")));
+  const auto outcome = flyball.run("map export a.ot b.ot");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::unique_ptr<octomap::AbstractOcTree> read{
+      octomap::AbstractOcTree::read(flyball.place.path("b.ot"))};
+  const auto* copy = dynamic_cast<octomap::OcTree*>(read.get());
+  ASSERT_NE(copy, nullptr);
+  ASSERT_EQ(copy->getNumLeafNodes(), tree.getNumLeafNodes());
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const auto* node = copy->search(leaf.getKey());
+    ASSERT_NE(node, nullptr);
+    EXPECT_EQ(node->getLogOdds(), leaf->getLogOdds());
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "flyball/records/pictures.h"
 
 #include "scratch_folder.h"
+#include <filesystem>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -44,6 +45,36 @@ TEST_F(Detecting, looks_at_a_picture_and_writes_it_where_it_is_asked_to) {
   EXPECT_EQ(folder.content("out/grey.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Detecting, of_a_folder_goes_on_after_a_picture_that_cannot_be_read) {
+  (void)folder.file("a.jpg", "no picture at all");
+  (void)folder.file("cut.png", grey_png().substr(0, 60));
+  (void)folder.file("notes.txt", "no picture, and nobody says so");
+  (void)folder.file("z.png", grey_png());
+  run.input = folder.path();
+  run.out = folder.path("out");
+  const Status done = detect();
+  ASSERT_TRUE(done.ok()) << done.error().message;
+  ASSERT_EQ(frames.size(), 4U);
+  DetectionTotals totals;
+  std::string unreadable;
+  for (const DetectedFrame& frame : frames) {
+    totals.add(frame);
+    unreadable += frame.trouble;
+  }
+  EXPECT_EQ(totals.frames, 2U);
+  EXPECT_EQ(totals.unreadable, 2U);
+  EXPECT_NE(unreadable.find("a.jpg\" cannot be read"), std::string::npos) << unreadable;
+  EXPECT_NE(unreadable.find("cut.png\" cannot be read"), std::string::npos) << unreadable;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out/cut.png")));
+}
+
+TEST_F(Detecting, refuses_a_single_picture_that_cannot_be_read) {
+  run.input = folder.file("cut.png", grey_png().substr(0, 60));
+  const Status done = detect();
+  ASSERT_FALSE(done.ok());
+  EXPECT_NE(done.error().message.find("cut.png"), std::string::npos);
+}
+
 TEST_F(Detecting, stops_when_nobody_wants_more) {
   (void)folder.file("other.png", grey_png());
   run.input = folder.path();
@@ -65,7 +96,7 @@ TEST_F(Detecting, refuses_an_unknown_detector_parameter_and_file) {
 }
 
 TEST_F(Detecting, says_all_of_it_as_one_line_of_json) {
-  DetectedFrame frame{"a.avi", 7, {{{1.0, 2.0, 3.0, 4.0}, 0.5}}, {}, 1.5, ""};
+  DetectedFrame frame{"a.avi", 7, {{{1.0, 2.0, 3.0, 4.0}, 0.5}}, {}, 1.5, "", ""};
   frame.work.add("windows", 12.0);
   const std::string line = to_json(frame);
   EXPECT_EQ(line.find('\n'), std::string::npos);

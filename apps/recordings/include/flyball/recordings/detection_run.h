@@ -30,16 +30,29 @@ struct DetectedFrame {
   Work work{};
   double host_ms{};
   std::string picture{};  ///< The file that was written, if one was.
+  std::string trouble{};  ///< Why a picture of a folder cannot be read; empty: it was looked at.
 };
 
-/// Looks at each picture and hands the result to `report`, which returns false to stop.
+/// What a run came to.
+struct DetectionTotals {
+  std::uint64_t frames{};  ///< Looked at.
+  std::uint64_t with_people{};
+  std::uint64_t people{};
+  std::uint64_t unreadable{};
+
+  void add(const DetectedFrame& frame);
+};
+
+/// Looks at each picture and hands the result to `report`, which returns false to stop. A picture
+/// of a folder that cannot be read is reported as such, and the next one follows.
 ///
-/// @error No such detector, parameter, model, file; a picture that cannot be read or written. What
-///        was reported before stays.
+/// @error No such detector, parameter, model, file; a picture that cannot be written; a single one
+///        that cannot be read. What was reported before stays.
 [[nodiscard]] Status run_detection(const DetectionRun& run,
                                    const std::function<bool(const DetectedFrame&)>& report);
 
 /// One object without line breaks.
 [[nodiscard]] std::string to_json(const DetectedFrame& frame);
+[[nodiscard]] std::string to_json(const DetectionTotals& totals);
 
 }  // namespace flyball

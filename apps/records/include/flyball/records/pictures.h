@@ -17,6 +17,7 @@ struct Picture {
   std::string file;
   std::uint64_t frame{};  ///< Of a video, from 0; 0 for a picture.
   ColourImage image{};    ///< Of an unknown camera: its focal length is zero.
+  std::string trouble{};  ///< Why the file cannot be read, in one sentence; then there is no image.
 };
 
 class PictureReader {
@@ -25,12 +26,13 @@ class PictureReader {
   PictureReader(const PictureReader&) = delete;
   PictureReader& operator=(const PictureReader&) = delete;
   virtual ~PictureReader() = default;
-  /// The next one; empty behind the last.
-  /// @error A file that is no picture.
+  /// The next one; empty behind the last. After one that cannot be read the others follow.
+  /// @error A video that breaks off.
   [[nodiscard]] virtual Result<std::optional<Picture>> next() = 0;
 };
 
-/// @param path  A picture, a video, or a folder, of which every picture is read in order of name.
+/// @param path  A picture, a video, or a folder, of which every picture is read in order of name,
+///              also those that are pictures by their name only.
 /// @error `not_found`, `invalid_input` (neither picture nor video), `unavailable` (this build came
 ///        without OpenCV's readers).
 [[nodiscard]] Result<std::unique_ptr<PictureReader>> open_pictures(const std::string& path);
