@@ -71,12 +71,22 @@ class VisualSlam final : public flyball::SeeingLocalizer {
     if (outcome->tracked) {
       fix.X_WB = outcome->X_WC * frame.X_BC.inverse();
       fix.v_WB = speed_to(fix, outcome->loop_closed);
+      fix.covariance_W = covariance_W(*outcome, frame.X_BC);
     }
     last_ = fix;
     return fix;
   }
 
  private:
+  /// Of the body's position.
+  [[nodiscard]] static Eigen::Matrix3d covariance_W(const flyball::SlamOutcome& outcome,
+                                                    const Pose& X_BC) {
+    const flyball::Matrix6 by = flyball::carried(X_BC);
+    const flyball::Matrix6 of_B = by * outcome.covariance * by.transpose();
+    const Eigen::Matrix3d R_WB = outcome.X_WC.linear() * X_BC.linear().transpose();
+    return R_WB * of_B.topLeftCorner<3, 3>() * R_WB.transpose();
+  }
+
   /// ORB-SLAM2 resets a map that is lost with five keyframes or fewer (Mur-Artal & Tardos 2017, the
   /// authors' code). Where the vehicle is then must be known some other way: while it climbs from
   /// the ground, when the ground fills the image and changes fastest, its height is.

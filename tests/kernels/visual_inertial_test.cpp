@@ -6,6 +6,7 @@
 
 #include "circle_flight.h"
 #include "textured_camera.h"
+#include <functional>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -26,25 +27,29 @@ const kit::TexturedCamera& camera() {
   return made;
 }
 
+using Motion = std::function<VehicleState(double t_s)>;
+
 /// A localizer, and the flight that it goes along with.
 struct Companion {
-  explicit Companion(const kit::CircleRun& flown) : run{flown} {
+  explicit Companion(const kit::CircleRun& flown, std::uint64_t seed = 4)
+      : Companion{[flown](double t_s) { return flown.at(t_s); }, seed} {}
+  explicit Companion(Motion flown, std::uint64_t seed = 4) : at{std::move(flown)}, imu{{}, seed} {
     Registry registry;
     register_kernels(registry);
     localizer = registry.make<Localizer>("visual_inertial");
     localizer->start({});
-    localizer->place(run.at(0.0).X_WB);
+    localizer->place(at(0.0).X_WB);
   }
   /// Feels until the next frame, and sees it, or darkness.
   VisualFix next(bool in_the_dark = false, bool with_depth = true) {
     const double t_s = frame_s * frames;
     while (felt_s <= t_s + 1e-9) {
-      ImuSample felt = imu.sample(run.at(felt_s), MissionTime{from_seconds(felt_s)});
+      ImuSample felt = imu.sample(at(felt_s), MissionTime{from_seconds(felt_s)});
       felt.f_B.z() -= dropped_m_s2;
       localizer->feel(felt);
       felt_s += imu_s;
     }
-    const Pose X_WC = run.at(t_s).X_WB * kit::ahead_from_body();
+    const Pose X_WC = at(t_s).X_WB * kit::ahead_from_body();
     VisualFrame frame = camera().capture(X_WC, MissionTime{from_seconds(t_s)},
                                          static_cast<std::uint64_t>(frames++));
     frame.X_BC = kit::ahead_from_body();
@@ -60,8 +65,8 @@ struct Companion {
     return *fix;
   }
 
-  kit::CircleRun run;
-  Imu imu{{}, 4};
+  Motion at;
+  Imu imu;
   std::unique_ptr<Localizer> localizer;
   Work work;
   double felt_s{};
@@ -71,7 +76,7 @@ struct Companion {
 };
 
 TEST(VisualInertial, says_what_it_needs) {
-  const Companion companion{{}};
+  const Companion companion{kit::CircleRun{}};
   EXPECT_TRUE(companion.localizer->inputs().images);
   EXPECT_TRUE(companion.localizer->inputs().imu);
   EXPECT_FALSE(companion.localizer->inputs().depth) << "it uses depth, but does without";
@@ -134,6 +139,114 @@ TEST(VisualInertial, knows_that_it_has_failed_when_what_it_feels_is_absurd) {
   EXPECT_TRUE(is_lost);
   flight.dropped_m_s2 = 0.0;
   EXPECT_FALSE(flight.next().tracked) << "it knows no place that it could find again";
+}
+
+/// A vehicle that flies 2 m ahead within the first two and a half seconds, and stands from then on.
+VehicleState stopping(double t_s, bool shakes) {
+  constexpr double begin_s = 0.5;
+  constexpr double moving_s = 2.0;
+  constexpr double length_m = 2.0;
+  VehicleState state;
+  state.X_WB = kit::circle_pose(0.0) * kit::ahead_from_body().inverse();
+  const Vec3 ahead_W = state.X_WB.linear().col(0);
+  const double turn = kit::full_turn_rad / moving_s;
+  const double s = std::clamp((t_s - begin_s) / moving_s, 0.0, 1.0);
+  const double phase = kit::full_turn_rad * s;
+  state.X_WB.translation() += length_m * (s - std::sin(phase) / kit::full_turn_rad) * ahead_W;
+  state.v_WB = length_m / moving_s * (1.0 - std::cos(phase)) * ahead_W;
+  state.a_WB = length_m / moving_s * turn * std::sin(phase) * ahead_W;
+  if (shakes) {
+    state.rotor_rev_s = {60.3, 61.7, 60.9, 61.2};
+  }
+  return state;
+}
+
+/// A vehicle in a hand: it sways by 1.5 cm to the side, and never quite stands.
+VehicleState swaying(double t_s) {
+  constexpr double half_m = 0.0075;
+  constexpr double turn = kit::full_turn_rad / 2.0;
+  VehicleState state;
+  state.X_WB = kit::circle_pose(0.0) * kit::ahead_from_body().inverse();
+  const Vec3 left_W = state.X_WB.linear().col(1);
+  const double since_s = std::max(0.0, t_s - 0.5);
+  state.X_WB.translation() += half_m * (1.0 - std::cos(turn * since_s)) * left_W;
+  state.v_WB = half_m * turn * std::sin(turn * since_s) * left_W;
+  state.a_WB = half_m * turn * turn * (since_s > 0.0 ? std::cos(turn * since_s) : 0.0) * left_W;
+  return state;
+}
+
+// Rotors that turn on the ground are felt like motion; nothing is seen to move.
+TEST(VisualInertial, stays_where_it_is_while_it_stands_and_shakes) {
+  Companion companion{kit::CircleRun{0.0, 100.0, true}};
+  for (int i = 0; i < 80; ++i) {
+    const VisualFix fix = companion.next(false, false);
+    EXPECT_TRUE(fix.tracked) << i;
+    EXPECT_LT(companion.miss_m, 0.05) << i;
+  }
+}
+
+TEST(VisualInertial, stays_where_it_is_in_a_hand_that_is_not_quite_still) {
+  Companion companion{swaying};
+  for (int i = 0; i < 80; ++i) {
+    const VisualFix fix = companion.next(false, false);
+    EXPECT_TRUE(fix.tracked) << i;
+    EXPECT_LT(companion.miss_m, 0.05) << i;
+  }
+}
+
+TEST(VisualInertial, stays_where_it_has_stopped) {
+  for (const bool shakes : {false, true}) {
+    Companion companion{[shakes](double t_s) { return stopping(t_s, shakes); }};
+    double stopped_m = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      const VisualFix fix = companion.next(false, false);
+      EXPECT_TRUE(fix.tracked) << i;
+      stopped_m = i == 30 ? companion.miss_m : stopped_m;
+    }
+    EXPECT_LT(companion.miss_m, stopped_m + 0.05) << shakes;
+  }
+}
+
+/// A vehicle that only turns: .4 rad/s from half a second on.
+VehicleState turning(double t_s) {
+  constexpr double rate_rad_s = 0.4;
+  VehicleState state;
+  state.X_WB = kit::circle_pose(0.0) * kit::ahead_from_body().inverse();
+  const double since_s = std::max(0.0, t_s - 0.5);
+  state.X_WB.rotate(Eigen::AngleAxisd{rate_rad_s * since_s, Vec3::UnitZ()});
+  state.w_WB_B = Vec3{0.0, 0.0, since_s > 0.0 ? rate_rad_s : 0.0};
+  state.rotor_rev_s = {60.3, 61.7, 60.9, 61.2};
+  return state;
+}
+
+// Turning shows corners in plenty, and without depth none of them says how fast the vehicle is.
+TEST(VisualInertial, tells_when_nothing_that_it_sees_corrects_it_any_more) {
+  Companion companion{turning};
+  bool is_lost = false;
+  for (int i = 0; i < 80 && !is_lost; ++i) {
+    is_lost = !companion.next(false, false).tracked;
+  }
+  EXPECT_TRUE(is_lost);
+  EXPECT_LT(companion.miss_m, 1.0) << "it has told in time";
+}
+
+// Within a factor of two of the standard deviation either way; five flights give no better a mean.
+TEST(VisualInertial, knows_how_far_it_may_be_off) {
+  double nees = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Companion companion{kit::CircleRun{2.0, 1.0, true}, seed};
+    for (int i = 0; i < 60; ++i) {
+      const VisualFix fix = companion.next();
+      const Vec3 miss_W = fix.X_WB.translation() - companion.at(frame_s * i).X_WB.translation();
+      if (i > 15) {
+        nees += miss_W.dot(fix.covariance_W.ldlt().solve(miss_W));
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(nees / count, 3.0 / 4.0);
+  EXPECT_LT(nees / count, 3.0 * 4.0);
 }
 
 TEST(VisualInertial, gives_the_same_answer_twice) {

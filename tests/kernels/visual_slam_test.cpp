@@ -66,6 +66,65 @@ TEST(VisualSlam, follows_a_slow_flight) {
   EXPECT_GT(work.count("ransac_iterations"), 11);
 }
 
+/// How large errors are beside what was expected of them, over flights of 20 m in four worlds.
+struct Consistency {
+  double nees{};  ///< Mean of the normalized estimation error squared; 3 where all is as expected.
+  double within{};  ///< Share of the errors within the 95 % quantile.
+  double worst_m{};
+  double worst_sigma_m{};
+};
+
+Consistency consistency(double step_m, double step_s) {
+  constexpr double quantile = 7.81;
+  Consistency found;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    DepthCameraSpec spec;
+    spec.width_px = 224;
+    spec.height_px = 168;
+    const kit::TexturedCamera eye{kit::circle_world(seed), spec, seed};
+    const auto localizer = make();
+    Work work;
+    for (int i = 0; step_m * i < 20.0; ++i) {
+      const Pose X_WC = kit::circle_pose(step_m * i);
+      const auto fix = localizer->see(
+          eye.capture(X_WC, MissionTime{from_seconds(step_s * i)}, static_cast<std::uint64_t>(i)),
+          work);
+      if (i > 0 && fix && fix->tracked) {
+        const Vec3 miss = fix->X_WB.translation() - X_WC.translation();
+        const double nees = miss.dot(fix->covariance_W.ldlt().solve(miss));
+        found.nees += nees;
+        found.within += nees < quantile ? 1.0 : 0.0;
+        found.worst_m = std::max(found.worst_m, miss.norm());
+        found.worst_sigma_m = std::max(found.worst_sigma_m, fix->sigma_m());
+        ++count;
+      }
+    }
+  }
+  found.nees /= count;
+  found.within /= count;
+  return found;
+}
+
+// Within a factor of two of the standard deviation either way. Errors along a path are one draw, so
+// that four flights give no better a mean.
+TEST(VisualSlam, knows_how_far_it_may_be_off) {
+  for (const double step_s : {1.0, 0.1}) {
+    const Consistency found = consistency(1.0 * std::sqrt(step_s), step_s);
+    EXPECT_GT(found.nees, 3.0 / 4.0) << step_s;
+    EXPECT_LT(found.nees, 3.0 * 4.0) << step_s;
+    EXPECT_GT(found.within, 0.8) << step_s;
+  }
+}
+
+TEST(VisualSlam, does_not_take_a_view_a_second_for_a_good_one) {
+  const Consistency slow = consistency(1.0, 1.0);
+  EXPECT_GT(slow.worst_m, 0.2);
+  EXPECT_GT(slow.worst_sigma_m, 0.2);
+  const Consistency quick = consistency(0.1, 0.1);
+  EXPECT_LT(quick.worst_sigma_m, 0.7 * slow.worst_sigma_m);
+}
+
 TEST(VisualSlam, says_when_it_is_lost_and_finds_a_place_again_that_it_knows) {
   const auto localizer = make();
   Clock clock;

@@ -2,13 +2,13 @@
 // tested-in: visual_slam
 #include "visual/feature.h"
 
+#include "visual/undistortion.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <set>
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 
 namespace flyball {
@@ -75,23 +75,6 @@ std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> found, int columns, i
   return kept;
 }
 
-/// Where a camera without distortion would see the points.
-std::vector<cv::Point2f> straightened(const CameraModel& camera,
-                                      const std::vector<cv::KeyPoint>& points) {
-  std::vector<cv::Point2f> seen;
-  cv::KeyPoint::convert(points, seen);
-  const auto& d = camera.distortion;
-  if (seen.empty() || std::all_of(d.begin(), d.end(), [](double k) { return k == 0.0; })) {
-    return seen;
-  }
-  const cv::Matx33d matrix{
-      camera.focal_x_px, 0, camera.centre_x_px, 0, camera.focal_y_px, camera.centre_y_px, 0, 0, 1};
-  std::vector<cv::Point2f> straight;
-  cv::undistortPoints(seen, straight, matrix, cv::Vec4d{d[0], d[1], d[2], d[3]}, cv::noArray(),
-                      matrix);
-  return straight;
-}
-
 /// OpenCV multiplies the coordinates in an octave's image by the octave's scale. But that image has
 /// a whole number of pixels, so that its real scale is another one (a pixel at the right edge), and
 /// the centre of its first pixel lies half a coarse pixel from the edge, not half a fine one.
@@ -109,17 +92,27 @@ void place_exactly(std::vector<cv::KeyPoint>& points, const CameraModel& camera)
 std::vector<Feature> features_of(const VisualFrame& frame,
                                  const std::vector<cv::KeyPoint>& points,
                                  const cv::Mat& descriptors) {
-  const std::vector<cv::Point2f> straight = straightened(frame.camera, points);
-  std::vector<Feature> features(points.size());
+  std::vector<Eigen::Vector2f> seen;
+  seen.reserve(points.size());
+  for (const cv::KeyPoint& point : points) {
+    seen.emplace_back(point.pt.x, point.pt.y);
+  }
+  const auto straight = straightened(frame.camera, seen);
+  std::vector<Feature> features;
+  features.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    Feature& feature = features[i];
-    feature.pixel = {static_cast<double>(straight[i].x), static_cast<double>(straight[i].y)};
+    if (!straight[i]) {
+      continue;
+    }
+    Feature feature;
+    feature.pixel = straight[i]->cast<double>();
     feature.octave = points[i].octave;
     feature.raw_pixel = {static_cast<double>(points[i].pt.x), static_cast<double>(points[i].pt.y)};
     feature.sigma_px = corner_sigma_px * std::pow(octave_scale, feature.octave);
     measure_depth(feature, frame);
     std::memcpy(feature.descriptor.bits.data(), descriptors.ptr(static_cast<int>(i)),
                 sizeof feature.descriptor.bits);
+    features.push_back(feature);
   }
   return features;
 }

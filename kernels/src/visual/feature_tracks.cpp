@@ -3,6 +3,7 @@
 #include "visual/feature_tracks.h"
 
 #include "visual/feature.h"
+#include "visual/undistortion.h"
 #include <algorithm>
 #include <cmath>
 
@@ -24,17 +25,21 @@ struct Corner {
   double moved_px{};
 };
 
-cv::Matx33d matrix_of(const CameraModel& camera) {
-  return {
-      camera.focal_x_px, 0, camera.centre_x_px, 0, camera.focal_y_px, camera.centre_y_px, 0, 0, 1};
-}
-
 std::vector<cv::Point2f> places(const std::vector<Corner>& corners) {
   std::vector<cv::Point2f> at;
   for (const Corner& corner : corners) {
     at.push_back(corner.at);
   }
   return at;
+}
+
+std::vector<Eigen::Vector2f> pixels_of(const std::vector<cv::Point2f>& points) {
+  std::vector<Eigen::Vector2f> pixels;
+  pixels.reserve(points.size());
+  for (const cv::Point2f& point : points) {
+    pixels.emplace_back(point.x, point.y);
+  }
+  return pixels;
 }
 
 bool is_inside(const cv::Point2f& at, const cv::Mat& image) {
@@ -68,12 +73,16 @@ struct FeatureTracks::Images {
   std::vector<Corner> corners;
   std::uint64_t next_id{};
 
-  void follow_corners(const std::vector<cv::Mat>& now, const cv::Mat& image);
-  void check_geometry(const std::vector<cv::Point2f>& from);
+  void follow_corners(const std::vector<cv::Mat>& now,
+                      const cv::Mat& image,
+                      const CameraModel& camera);
+  void check_geometry(const std::vector<cv::Point2f>& from, const CameraModel& camera);
   void refill(const cv::Mat& image, const TrackSettings& settings);
 };
 
-void FeatureTracks::Images::follow_corners(const std::vector<cv::Mat>& now, const cv::Mat& image) {
+void FeatureTracks::Images::follow_corners(const std::vector<cv::Mat>& now,
+                                           const cv::Mat& image,
+                                           const CameraModel& camera) {
   if (corners.empty()) {
     return;
   }
@@ -97,11 +106,12 @@ void FeatureTracks::Images::follow_corners(const std::vector<cv::Mat>& now, cons
     }
   }
   keep(corners, good);
-  check_geometry(kept);
+  check_geometry(kept, camera);
 }
 
 /// Points that move against all others are on something that moves itself, or slid along an edge.
-void FeatureTracks::Images::check_geometry(const std::vector<cv::Point2f>& from) {
+void FeatureTracks::Images::check_geometry(const std::vector<cv::Point2f>& from,
+                                           const CameraModel& camera) {
   constexpr std::size_t least = 15;  // Eight determine the geometry.
   double furthest_px = 0.0;
   for (const Corner& corner : corners) {
@@ -110,13 +120,30 @@ void FeatureTracks::Images::check_geometry(const std::vector<cv::Point2f>& from)
   if (corners.size() < least || furthest_px < 1.0) {  // Without motion it is not determined.
     return;
   }
+  // The geometry is that of straight rays: a bent image would contradict it everywhere.
+  const auto then = straightened(camera, pixels_of(from));
+  const auto now = straightened(camera, pixels_of(places(corners)));
+  std::vector<std::size_t> straight;
+  std::vector<cv::Point2f> a;
+  std::vector<cv::Point2f> b;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (then[i] && now[i]) {
+      straight.push_back(i);
+      a.emplace_back(then[i]->x(), then[i]->y());
+      b.emplace_back(now[i]->x(), now[i]->y());
+    }
+  }
   std::vector<std::uint8_t> fits;
-  const cv::Mat geometry =
-      cv::findFundamentalMat(from, places(corners), cv::FM_RANSAC, epipolar_px, 0.99, fits);
-  if (geometry.empty() || fits.size() != corners.size()) {
+  if (a.size() < least ||
+      cv::findFundamentalMat(a, b, cv::FM_RANSAC, epipolar_px, 0.99, fits).empty() ||
+      fits.size() != a.size()) {
     return;
   }
-  keep(corners, std::vector<bool>(fits.begin(), fits.end()));
+  std::vector<bool> good(corners.size());
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    good[straight[i]] = fits[i] != 0;
+  }
+  keep(corners, good);
 }
 
 void FeatureTracks::Images::refill(const cv::Mat& image, const TrackSettings& settings) {
@@ -165,7 +192,7 @@ Result<std::vector<TrackedPoint>> FeatureTracks::follow(const VisualFrame& frame
     std::vector<cv::Mat> now;
     cv::buildOpticalFlowPyramid(image.clone(), now, window, pyramid_levels - 1);
     work.add("tracks", static_cast<double>(images_->corners.size()));
-    images_->follow_corners(now, image);
+    images_->follow_corners(now, image, frame.camera);
     const std::size_t old = images_->corners.size();
     images_->refill(image, settings_);
     work.add("features", static_cast<double>(images_->corners.size() - old));
@@ -173,16 +200,13 @@ Result<std::vector<TrackedPoint>> FeatureTracks::follow(const VisualFrame& frame
     if (images_->corners.empty()) {
       return points;
     }
-    const auto& d = frame.camera.distortion;
-    std::vector<cv::Point2f> rays;
-    cv::undistortPoints(places(images_->corners), rays, matrix_of(frame.camera),
-                        cv::Vec4d{d[0], d[1], d[2], d[3]});
+    const auto rays = straight_rays(frame.camera, pixels_of(places(images_->corners)));
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Corner& corner = images_->corners[i];
-      points.push_back({corner.id,
-                        {static_cast<double>(rays[i].x), static_cast<double>(rays[i].y)},
-                        depth_at(frame, corner.at),
-                        corner.moved_px});
+      if (rays[i]) {
+        points.push_back(
+            {corner.id, rays[i]->cast<double>(), depth_at(frame, corner.at), corner.moved_px});
+      }
     }
   } catch (const cv::Exception& error) {
     return Error{ErrorCode::failed,

@@ -2,7 +2,6 @@
 // tested-in: visual_inertial
 #include "visual/inertial_odometry.h"
 
-#include "visual/motion.h"
 #include <algorithm>
 #include <cmath>
 
@@ -26,23 +25,14 @@ constexpr int enough_tracks = 10;
 constexpr auto blind_limit = 1500ms;
 constexpr auto least_gap = 80ms;  // Between two poses of the window.
 constexpr double still_px = 0.3;
-constexpr std::size_t shake_samples = 40;  // .2 s at 200 Hz.
-
-/// Standard deviation around the mean; real manoeuvres within .2 s count as shaking too.
-double shaking(const std::deque<Vec3>& recent) {
-  if (recent.size() < shake_samples) {
-    return 0.0;
-  }
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& f : recent) {
-    mean += f / static_cast<double>(recent.size());
-  }
-  double squares = 0.0;
-  for (const Vec3& f : recent) {
-    squares += (f - mean).squaredNorm() / 3.0;
-  }
-  return std::sqrt(squares / static_cast<double>(recent.size()));
-}
+constexpr double rest_px = 0.5;
+constexpr double assumed_depth_m = 10.0;  // Of what is seen, where no depth is measured.
+constexpr double least_speed_sigma_m_s = 0.005;
+constexpr double slow_m_s = 0.2;  // A view that allows for more speed says nothing about it.
+// Without anything that binds its speed for so long as `blind_limit`, the filter's own uncertainty
+// decides: so much of speed is half a metre of place until the next tracks are used.
+constexpr double vague_m_s = 0.2;
+constexpr double lost_m_s = 0.5;
 
 /// One measurement of all; the noise is 1 in each row.
 Innovation stacked(const std::vector<Innovation>& parts) {
@@ -86,6 +76,7 @@ void InertialOdometry::start(const std::optional<Pose>& X_WB) {
   seen_.clear();
   waiting_.clear();
   recent_f_B_.clear();
+  rest_.clear();
   X_WB_start_ = X_WB;
   has_begun_ = has_moved_ = has_been_full_ = has_failed_ = false;
 }
@@ -108,7 +99,7 @@ void InertialOdometry::begin(MissionTime now) {
   constexpr double levelled_tilt_rad = 0.05;  // .5 m/s^2 of acceleration, or of bias.
   filter_.start(X_WB, X_WB_start_ ? placed_tilt_rad : levelled_tilt_rad);
   waiting_.clear();
-  now_ = last_sight_ = now;
+  now_ = last_sight_ = last_bound_ = now;
   has_begun_ = true;
 }
 
@@ -136,26 +127,27 @@ void InertialOdometry::advance(MissionTime to) {
 }
 
 void InertialOdometry::stand() {
-  Innovation still;
-  still.residual = Eigen::VectorXd::Zero(9);
-  still.slope = Eigen::MatrixXd::Zero(9, filter_.size());
-  still.sigma = Eigen::VectorXd::Zero(9);
-  const Vec3 up_B = filter_.X_WB().linear().transpose() * -gravity_W();
-  still.residual.segment<3>(0) = -filter_.v_WB();
-  still.residual.segment<3>(3) = last_.w_WB_B - filter_.gyro_bias_now();
-  still.residual.segment<3>(6) = last_.f_B - filter_.accel_bias_now() - up_B;
-  using F = InertialFilter;
-  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
-  still.slope.block<3, 3>(0, F::velocity) = one;
-  still.slope.block<3, 3>(3, F::gyro_bias) = one;
-  still.slope.block<3, 3>(6, F::accel_bias) = one;
-  still.slope.block<3, 3>(6, F::rotation) = skew(up_B);  // up_B turns with B: + up_B x r.
-  still.sigma << 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.2, 0.2, 0.2;
+  constexpr double speed_sigma_m_s = 0.01;
+  const Innovation still = standing(filter_, last_, speed_sigma_m_s, 0.0);
   if (filter_.surprise(still) < 1.5 * chi_square_95(9.0)) {
     filter_.correct(still);
   } else {
     has_moved_ = true;  // No corner told, but the other senses did.
   }
+}
+
+bool InertialOdometry::hold(const SlowView& view, double focal_px) {
+  const double depth_m = view.depth_m > 0.0 ? view.depth_m : assumed_depth_m;
+  // Speed now may be twice the mean speed; the corners' noise is half a pixel.
+  const double ray = 2.0 * view.moved_ray + still_px / focal_px;
+  const double speed_sigma_m_s = std::max(least_speed_sigma_m_s, ray * depth_m / view.lasted_s);
+  if (speed_sigma_m_s > slow_m_s) {
+    return false;
+  }
+  const bool stands = view.moved_ray * focal_px < rest_px;
+  return (stands &&
+          filter_.believe(standing(filter_, last_, speed_sigma_m_s, shaking(recent_f_B_)))) ||
+         filter_.believe(slow(filter_, speed_sigma_m_s));
 }
 
 void InertialOdometry::note(const std::vector<TrackedPoint>& points) {
@@ -258,8 +250,12 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
   advance(frame.captured);
   OdometryOutcome outcome;
   outcome.tracks = watch_for_motion(*points);
+  const auto view = rest_.see(*points, frame.captured, frame.camera.focal_x_px);
+  bool is_bound = !has_moved_;
   if (!has_moved_) {
     stand();
+  } else if (view) {
+    is_bound = hold(*view, frame.camera.focal_x_px);
   }
   if (is_due(frame.captured)) {
     filter_.remember(frame.captured, frame.X_BC);
@@ -273,9 +269,18 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
   if (outcome.tracks >= enough_tracks) {
     last_sight_ = frame.captured;
   }
+  if (is_bound || outcome.believed > 0) {
+    last_bound_ = frame.captured;
+  }
   has_failed_ = has_failed_ || is_absurd(filter_);
-  outcome.tracked = !has_failed_ && frame.captured - last_sight_ < blind_limit;
+  outcome.tracked = !has_failed_ && frame.captured - last_sight_ < blind_limit && knows_speed();
   return outcome;
+}
+
+bool InertialOdometry::knows_speed() const {
+  const double sigma_m_s =
+      std::sqrt(filter_.covariance().diagonal().segment<3>(InertialFilter::velocity).maxCoeff());
+  return sigma_m_s < (now_ - last_bound_ < blind_limit ? lost_m_s : vague_m_s);
 }
 
 }  // namespace flyball

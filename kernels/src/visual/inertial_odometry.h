@@ -7,12 +7,15 @@
 #include "visual/feature_tracks.h"
 #include "visual/inertial_filter.h"
 #include "visual/sight_update.h"
+#include "visual/standstill.h"
 #include <map>
 
 namespace flyball {
 
 struct OdometryOutcome {
-  bool tracked{};  ///< Saw enough within the last second and a half, and makes sense.
+  /// Saw enough within the last second and a half, makes sense, and knows its speed to .5 m/s; to
+  /// .2 m/s when nothing that was seen has corrected it for as long.
+  bool tracked{};
   int tracks{};    ///< Points in the newest image that were in the one before.
   int believed{};  ///< Tracks that corrected the filter.
 };
@@ -38,8 +41,11 @@ class InertialOdometry {
   void begin(MissionTime now);
   void advance(MissionTime to);
   void propagate(const ImuSample& sample, MissionTime to);
-  /// Before it has moved: that it stands is a measurement of speed, tilt and biases.
+  /// Before it has moved: that it stands is a measurement.
   void stand();
+  /// Later: so is that it hardly moves. @return Whether that told something.
+  bool hold(const SlowView& view, double focal_px);
+  [[nodiscard]] bool knows_speed() const;
   void note(const std::vector<TrackedPoint>& points);
   /// How many points were in the image before; they tell whether the body has moved.
   int watch_for_motion(const std::vector<TrackedPoint>& points);
@@ -50,6 +56,7 @@ class InertialOdometry {
   void forget_oldest();
 
   FeatureTracks tracks_;
+  RestWatch rest_{};
   InertialFilter filter_;
   std::map<std::uint64_t, std::vector<Glimpse>> seen_{};
   std::vector<ImuSample> waiting_{};  ///< Felt, but later than the newest frame.
@@ -58,6 +65,7 @@ class InertialOdometry {
   std::optional<Pose> X_WB_start_{};
   MissionTime now_{};
   MissionTime last_sight_{};
+  MissionTime last_bound_{};  ///< Tracks, or that it stood, have corrected the filter.
   bool has_begun_{};
   bool has_moved_{};
   bool has_been_full_{};  ///< The window.

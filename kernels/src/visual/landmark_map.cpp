@@ -147,6 +147,19 @@ void LandmarkMap::move(const std::vector<Pose>& X_WC) {
   }
 }
 
+void LandmarkMap::bind(std::size_t old, std::size_t now, const Matrix6& covariance) {
+  const double before = keyframes_[now].covariance.trace();
+  const double path_m = keyframes_[now].path_m - keyframes_[old].path_m;
+  if (!(before > covariance.trace()) || !(path_m > 0.0)) {
+    return;
+  }
+  const double left = covariance.trace() / before;
+  for (std::size_t i = old + 1; i <= now; ++i) {
+    const double share = (keyframes_[i].path_m - keyframes_[old].path_m) / path_m;
+    keyframes_[i].covariance *= 1.0 - share * (1.0 - left);
+  }
+}
+
 void LandmarkMap::merge(std::size_t keyframe, std::size_t feature, int id) {
   keyframes_[keyframe].landmarks[feature] = id;
   landmarks_[static_cast<std::size_t>(id)].seen_by.push_back(keyframe);

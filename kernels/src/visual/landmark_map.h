@@ -28,7 +28,8 @@ constexpr int no_landmark = -1;
 struct Keyframe {
   MissionTime captured{};
   Pose X_WC{Pose::Identity()};
-  double path_m{};  ///< Flown since the first one.
+  Matrix6 covariance{Matrix6::Zero()};  ///< Of (p, r) in C, since the first keyframe.
+  double path_m{};                      ///< Flown since the first one.
   std::vector<Feature> features{};
   std::vector<int> landmarks{};      ///< Of each feature, or `no_landmark`.
   std::vector<std::uint8_t> grey{};  ///< The image.
@@ -56,6 +57,9 @@ class LandmarkMap {
   /// What those keyframes see, each landmark once, doubtful ones left out.
   [[nodiscard]] std::vector<int> landmarks_of(const std::vector<std::size_t>& keyframes) const;
   void move(const std::vector<Pose>& X_WC);
+  /// A loop between keyframes `old` and `now` leaves `now` with this covariance; those in between
+  /// share what that takes off by their part of the path.
+  void bind(std::size_t old, std::size_t now, const Matrix6& covariance);
   /// Feature `feature` of a keyframe turns out to be the older landmark `id`.
   void merge(std::size_t keyframe, std::size_t feature, int id);
 

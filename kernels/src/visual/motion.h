@@ -9,6 +9,7 @@
 namespace flyball {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// skew(a) b = a x b.
 [[nodiscard]] inline Eigen::Matrix3d skew(const Vec3& a) {
@@ -38,6 +39,17 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
   result.linear() =
       Eigen::Quaterniond{X.linear() * rotation_of(by.tail<3>())}.normalized().toRotationMatrix();
   return result;
+}
+
+/// How an error (p, r) of a pose's own frame becomes one of another frame that is fixed to it.
+/// @param X_TF  The first frame, seen from the second.
+[[nodiscard]] inline Matrix6 carried(const Pose& X_TF) {
+  const Eigen::Matrix3d R_TF = X_TF.linear();
+  const Vec3 p_FT = -(R_TF.transpose() * X_TF.translation());
+  Matrix6 by = Matrix6::Zero();
+  by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = R_TF;
+  by.topRightCorner<3, 3>() = -R_TF * skew(p_FT);  // r turns T around F: r x p_FT.
+  return by;
 }
 
 }  // namespace flyball

@@ -62,13 +62,17 @@ Misfit misfit(const LandmarkSighting& seen, const CameraModel& camera, const Pos
   return miss;
 }
 
-/// One step of Gauss-Newton with Huber's weights; false when the sightings do not determine it.
-bool improve(const std::vector<LandmarkSighting>& sightings,
-             const std::vector<bool>& use,
-             const CameraModel& camera,
-             Pose& X_WC) {
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Vec6 right = Vec6::Zero();
+/// Of least squares with Huber's weights.
+struct NormalEquations {
+  Matrix6 normal{Matrix6::Zero()};
+  Vec6 right{Vec6::Zero()};
+};
+
+NormalEquations equations(const std::vector<LandmarkSighting>& sightings,
+                          const std::vector<bool>& use,
+                          const CameraModel& camera,
+                          const Pose& X_WC) {
+  NormalEquations sum;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     if (!use[i]) {
       continue;
@@ -81,10 +85,19 @@ bool improve(const std::vector<LandmarkSighting>& sightings,
     constexpr double huber = 1.345;  // 95 % as efficient as least squares on normal noise.
     const double weight = size > huber ? huber / size : 1.0;
     const Eigen::Matrix<double, 6, 3> back = miss.slope.transpose() * miss.information * weight;
-    normal += back * miss.slope;
-    right += back * miss.by;
+    sum.normal += back * miss.slope;
+    sum.right += back * miss.by;
   }
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver{normal};
+  return sum;
+}
+
+/// One step of Gauss-Newton; false when the sightings do not determine it.
+bool improve(const std::vector<LandmarkSighting>& sightings,
+             const std::vector<bool>& use,
+             const CameraModel& camera,
+             Pose& X_WC) {
+  const auto [normal, right] = equations(sightings, use, camera, X_WC);
+  const Eigen::LDLT<Matrix6> solver{normal};
   if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-9)) {
     return false;
   }
@@ -94,6 +107,16 @@ bool improve(const std::vector<LandmarkSighting>& sightings,
   }
   X_WC = moved(X_WC, step);
   return step.norm() > 1e-7;
+}
+
+/// The inverse of the information in what fits. What is not determined is uncertain by a kilometre.
+Matrix6 covariance_of(const std::vector<LandmarkSighting>& sightings,
+                      const SolvedPose& solved,
+                      const CameraModel& camera) {
+  constexpr double least_information = 1e-6;
+  Matrix6 information = equations(sightings, solved.fits, camera, solved.X_WC).normal;
+  information.diagonal().array() += least_information;
+  return information.ldlt().solve(Matrix6::Identity());
 }
 
 /// How many samples OpenCV draws until it is as sure as it was told to be (its
@@ -191,6 +214,7 @@ SolvedPose refine(const std::vector<LandmarkSighting>& sightings,
       solved.inliers += solved.fits[i] ? 1 : 0;
     }
   }
+  solved.covariance = covariance_of(sightings, solved, camera);
   return solved;
 }
 

@@ -7,6 +7,7 @@
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/work.h"
 
+#include "visual/motion.h"
 #include <optional>
 
 namespace flyball {
@@ -25,6 +26,7 @@ struct SolvedPose {
   Pose X_WC{Pose::Identity()};
   std::vector<bool> fits{};  ///< Of each sighting.
   int inliers{};
+  Matrix6 covariance{Matrix6::Zero()};  ///< Of (p, r) in C, the landmarks' frame taken as known.
 };
 
 /// Random samples of four points (P3P) around which the rest must gather; then `refine`. The

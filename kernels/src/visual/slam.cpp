@@ -4,6 +4,7 @@
 
 #include "visual/motion.h"
 #include "visual/patches.h"
+#include "visual/undistortion.h"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,6 +26,18 @@ constexpr double keyframe_shift_share = 0.1;  // Of the median distance of what 
 
 std::vector<int> no_landmarks(std::size_t features) {
   return std::vector<int>(features, no_landmark);
+}
+
+/// Where a camera without distortion sees a feature that turns out to be elsewhere in the image.
+Eigen::Vector2d straight_place(const Feature& feature,
+                               const Eigen::Vector2d& raw_pixel,
+                               const CameraModel& camera) {
+  if (is_distorted(camera)) {
+    if (const auto straight = straightened(camera, {raw_pixel.cast<float>()}).front()) {
+      return straight->cast<double>();
+    }
+  }
+  return feature.pixel + (raw_pixel - feature.raw_pixel);
 }
 
 }  // namespace
@@ -62,6 +75,7 @@ Result<SlamOutcome> Slam::track(const VisualFrame& frame, Work& work) {
   learn(all, *features, frame.camera);
   go_to(all.pose.X_WC, frame.captured);
   outcome.tracked = true;
+  outcome.covariance = uncertainty(all);
   outcome.matches = static_cast<int>(all.matches.size());
   outcome.inliers = all.pose.inliers;
   reference_inliers_ = std::max(reference_inliers_, all.pose.inliers);
@@ -69,6 +83,7 @@ Result<SlamOutcome> Slam::track(const VisualFrame& frame, Work& work) {
     outcome.new_keyframe = true;
     add_keyframe(all, frame, std::move(*features));
     outcome.loop_closed = close_loop(frame.camera, work);
+    outcome.covariance = map_.keyframes().back().covariance;
   }
   outcome.X_WC = X_WC_;
   return outcome;
@@ -215,7 +230,7 @@ Slam::Found Slam::sharpen(Found found,
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i]) {
       Feature& feature = features[followed[i]];
-      feature.pixel += *places[i] - feature.raw_pixel;  // Distortion is the same 3 px away.
+      feature.pixel = straight_place(feature, *places[i], frame.camera);
       feature.raw_pixel = *places[i];
       feature.sigma_px = patch_sigma_px;
       measure_depth(feature, frame);
@@ -256,6 +271,7 @@ void Slam::add_keyframe(const Found& found,
   Keyframe fresh;
   fresh.captured = frame.captured;
   fresh.X_WC = found.pose.X_WC;
+  fresh.covariance = uncertainty(found);
   fresh.grey = frame.grey;
   fresh.landmarks = no_landmarks(features.size());
   for (std::size_t i = 0; i < found.matches.size(); ++i) {

@@ -17,7 +17,8 @@ struct SlamSettings {
 
 struct SlamOutcome {
   bool tracked{};
-  Pose X_WC{Pose::Identity()};  ///< The last known one when not tracked.
+  Pose X_WC{Pose::Identity()};          ///< The last known one when not tracked.
+  Matrix6 covariance{Matrix6::Zero()};  ///< Of (p, r) in C, since the start.
   int matches{};
   int inliers{};
   bool new_keyframe{};
@@ -71,6 +72,8 @@ class Slam {
                               std::vector<Feature>& features,
                               Work& work) const;
   void learn(const Found& found, const std::vector<Feature>& features, const CameraModel& camera);
+  /// Of a pose that has been found: that of its landmarks' keyframes, and its own.
+  [[nodiscard]] Matrix6 uncertainty(const Found& found) const;
   [[nodiscard]] bool wants_keyframe(const Found& found) const;
   [[nodiscard]] SolvedPose refined(const std::vector<Match>& matches,
                                    const std::vector<Feature>& features,

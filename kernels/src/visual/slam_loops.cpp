@@ -66,6 +66,7 @@ bool Slam::bind(std::size_t old, const Found& found, Work& work) {
   const std::size_t now = map_.keyframes().size() - 1;
   const Pose step = map_.keyframes()[old].X_WC.inverse() * found.pose.X_WC;
   edges_.push_back({old, now, step, 0.02, 0.002});
+  const Matrix6 covariance = uncertainty(found);
   std::vector<Pose> poses;
   for (const Keyframe& keyframe : map_.keyframes()) {
     poses.push_back(keyframe.X_WC);
@@ -77,6 +78,7 @@ bool Slam::bind(std::size_t old, const Found& found, Work& work) {
   }
   const Pose X_KC = map_.keyframes()[now].X_WC.inverse() * X_WC_;
   map_.move(*adjusted);
+  map_.bind(old, now, covariance);
   X_WC_ = map_.keyframes()[now].X_WC * X_KC;
   for (std::size_t i = 0; i < found.matches.size(); ++i) {
     if (found.pose.fits[i]) {
