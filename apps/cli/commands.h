@@ -27,6 +27,7 @@ void add_detect(CLI::App& program, int& exit_code);
 void add_models(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_world(CLI::App& program, int& exit_code);
+void add_map_from(CLI::App& map, int& exit_code);
 void add_localize(CLI::App& program, int& exit_code);
 void add_config(CLI::App& program, int& exit_code);
 void add_version(CLI::App& program, int& exit_code);

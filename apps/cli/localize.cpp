@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "recording_options.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -15,10 +16,10 @@ namespace flyball {
 namespace {
 
 struct LocalizeOptions {
-  std::string folder;
+  RecordingOptions recording;
   std::string localizer{"visual_slam"};
   std::string out;
-  RecordingSettings recording;
+  double uncertain_above_m{0.1};
   bool as_json{};
 };
 
@@ -27,6 +28,9 @@ std::string to_json(const LocalizationRun& run, const LocalizeOptions& options) 
       {"localizer", options.localizer},
       {"frames", run.frames},
       {"lost", run.lost},
+      {"uncertain", run.uncertain},
+      {"uncertain_above_m", options.uncertain_above_m},
+      {"sigma_m_last", run.sigma_m_last},
       {"keyframes", run.keyframes},
       {"loops_closed", run.loops_closed},
       {"frame_ms", {{"mean", run.frame_ms_mean}, {"max", run.frame_ms_max}}}};
@@ -41,10 +45,13 @@ std::string to_json(const LocalizationRun& run, const LocalizeOptions& options) 
   return json.dump(2) + "\n";
 }
 
-std::string to_text(const LocalizationRun& run) {
+std::string to_text(const LocalizationRun& run, double uncertain_above_m) {
   std::vector<std::vector<std::string>> lines{
       {"frames", std::to_string(run.frames)},
       {"lost", std::to_string(run.lost)},
+      {"uncertain", std::to_string(run.uncertain) + ", by its own reckoning more than " +
+                        rounded(uncertain_above_m, 3) + " m off"},
+      {"expected error", rounded(run.sigma_m_last, 3) + " m at the end"},
       {"keyframes", std::to_string(run.keyframes)},
       {"loops closed", std::to_string(run.loops_closed)},
       {"ms per frame",
@@ -62,30 +69,12 @@ std::string to_text(const LocalizationRun& run) {
   return aligned(lines);
 }
 
-Status check(const RecordingSettings& settings) {
-  const auto& k = settings.intrinsics;
-  if (!k.empty() && !(k[0] > 0.0 && k[1] > 0.0)) {
-    return Error{ErrorCode::invalid_input, "--intrinsics: focal lengths " + rounded(k[0], 3) +
-                                               " and " + rounded(k[1], 3) +
-                                               " must be above 0 pixels"};
-  }
-  if (!(settings.depth_factor > 0.0)) {
-    return Error{ErrorCode::invalid_input,
-                 "--depth-factor " + rounded(settings.depth_factor, 3) + " must be above 0"};
-  }
-  return Done{};
-}
-
 int localize(const LocalizeOptions& options) {
-  if (const Status usable = check(options.recording); !usable) {
-    return refuse({usable.error()});
-  }
   auto localizer = make_seeing_localizer(options.localizer);
   if (!localizer) {
     return refuse({localizer.error()});
   }
-  const auto recording = is_euroc(options.folder) ? read_euroc(options.folder, options.recording)
-                                                  : read_tum(options.folder, options.recording);
+  const auto recording = read_recording(options.recording);
   if (!recording) {
     return refuse({recording.error()});
   }
@@ -95,7 +84,7 @@ int localize(const LocalizeOptions& options) {
     }
   }
   catch_interrupt();
-  const auto run = localize(*recording, **localizer, was_interrupted);
+  const auto run = localize(*recording, **localizer, was_interrupted, options.uncertain_above_m);
   if (!run) {
     return refuse({run.error()});
   }
@@ -104,7 +93,7 @@ int localize(const LocalizeOptions& options) {
       return refuse({written.error()});
     }
   }
-  print(options.as_json ? to_json(*run, options) : to_text(*run));
+  print(options.as_json ? to_json(*run, options) : to_text(*run, options.uncertain_above_m));
   if (was_interrupted()) {
     return exit_interrupted;
   }
@@ -117,15 +106,13 @@ void add_localize(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "localize", "finds the path of a recorded flight (TUM RGB-D or EuRoC layout)");
   const auto options = std::make_shared<LocalizeOptions>();  // Owners: the parser's callbacks.
-  command->add_option("DIR", options->folder, "the folder of the recording")->required();
+  add_recording_options(*command, options->recording);
   command->add_option("--localizer", options->localizer, "visual_slam or visual_inertial");
   command
-      ->add_option("--intrinsics", options->recording.intrinsics,
-                   "fx,fy,cx,cy in pixels, in place of the layout's own")
-      ->delimiter(',')
-      ->expected(4);
-  command->add_option("--depth-factor", options->recording.depth_factor,
-                      "units of the depth image in a metre; 5000 by default");
+      ->add_option("--uncertain-above", options->uncertain_above_m,
+                   "counts poses whose expected error is larger; 0.1 by default")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "writes the path here, as TUM's tools read it");
   command->add_flag("--json", options->as_json, "prints JSON");
   command->callback([options, &exit_code] { exit_code = localize(*options); });

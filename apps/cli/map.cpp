@@ -117,7 +117,7 @@ CLI::App* add_file_command(CLI::App& map,
 }  // namespace
 
 void add_map(CLI::App& program, int& exit_code) {
-  CLI::App* map = program.add_subcommand("map", "reads and writes OctoMap files");
+  CLI::App* map = program.add_subcommand("map", "reads, writes and makes OctoMap files");
   map->require_subcommand(1);
   const auto options = std::make_shared<MapOptions>();  // Owners: the parser's callbacks.
   add_file_command(*map, "info", "prints what is known, and in how much memory", *options)
@@ -131,6 +131,7 @@ void add_map(CLI::App& program, int& exit_code) {
   write->add_option("--resolution", options->resolution_m, "1, 2, 4 or 8 times the file's")
       ->type_name("M");
   write->callback([options, &exit_code] { exit_code = export_map(*options); });
+  add_map_from(*map, exit_code);
 }
 
 }  // namespace flyball

@@ -18,9 +18,11 @@ Status check_inputs(const Recording& recording, const LocalizerInputs& inputs) {
                  "--localizer visual_inertial"};
   }
   if (inputs.imu && recording.imu.empty()) {
-    return Error{ErrorCode::invalid_input,
-                 "the recording has no inertial measurements, and this localizer needs them; try "
-                 "--localizer visual_slam"};
+    return Error{
+        ErrorCode::invalid_input,
+        std::string{recording.lacks_gyro ? "the recording has an accelerometer but no gyroscope.txt"
+                                         : "the recording has no inertial measurements"} +
+            ", and this localizer needs them; try --localizer visual_slam"};
   }
   return Done{};
 }
@@ -46,7 +48,8 @@ Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name
 
 Result<LocalizationRun> localize(const Recording& recording,
                                  Localizer& localizer,
-                                 const std::function<bool()>& stop) {
+                                 const std::function<bool()>& stop,
+                                 double uncertain_above_m) {
   if (const Status fits = check_inputs(recording, localizer.inputs()); !fits) {
     return fits.error();
   }
@@ -78,6 +81,8 @@ Result<LocalizationRun> localize(const Recording& recording,
     run.frame_ms_max = std::max(run.frame_ms_max, frame_ms);
     if (fix->tracked) {
       run.path.push_back({fix->captured, fix->X_WB});
+      run.sigma_m_last = fix->sigma_m();
+      run.uncertain += fix->sigma_m() <= uncertain_above_m ? 0 : 1;
     }
   }
   run.frame_ms_mean = run.frames > 0 ? busy_ms / run.frames : 0.0;

@@ -2,6 +2,7 @@
 #include "flyball/recordings/recording.h"
 
 #include "recordings/recording_images.h"
+#include "recordings/recording_imu.h"
 #include "recordings/recording_text.h"
 #include <algorithm>
 #include <cstdio>
@@ -96,11 +97,10 @@ Result<std::vector<RecordedFrame>> read_frames(const std::string& folder) {
   return paired(*images, *depths);
 }
 
-Result<std::vector<TimedPose>> read_truth(const std::string& file) {
+}  // namespace
+
+Result<std::vector<TimedPose>> read_tum_trajectory(const std::string& file) {
   std::vector<TimedPose> truth;
-  if (std::error_code failed; !fs::exists(file, failed)) {
-    return truth;
-  }
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -125,8 +125,6 @@ Result<std::vector<TimedPose>> read_truth(const std::string& file) {
   return truth;
 }
 
-}  // namespace
-
 Result<Recording> read_tum(const std::string& folder, const RecordingSettings& settings) {
   if (std::error_code failed; !fs::is_directory(folder, failed)) {
     return Error{ErrorCode::not_found, "no folder \"" + folder + "\" to read a recording from"};
@@ -144,11 +142,17 @@ Result<Recording> read_tum(const std::string& folder, const RecordingSettings& s
       frames->begin(), frames->end(),
       [](const RecordedFrame& a, const RecordedFrame& b) { return a.stamp < b.stamp; });
   recording.frames = std::move(*frames);
-  auto truth = read_truth(in(folder, "groundtruth.txt"));
-  if (!truth) {
-    return truth.error();
+  const std::string truth_file = in(folder, "groundtruth.txt");
+  if (std::error_code failed; fs::exists(truth_file, failed)) {
+    auto truth = read_tum_trajectory(truth_file);
+    if (!truth) {
+      return truth.error();
+    }
+    recording.truth = std::move(*truth);
   }
-  recording.truth = std::move(*truth);
+  if (const Status felt = read_tum_imu(folder, recording); !felt) {
+    return felt.error();
+  }
   recording.depth_factor = settings.depth_factor;
   recording.camera = {0, 0, tum_focal_px, tum_focal_px, tum_centre_x_px, tum_centre_y_px, {}};
   if (settings.intrinsics.size() == 4) {
@@ -161,6 +165,10 @@ Result<Recording> read_tum(const std::string& folder, const RecordingSettings& s
     return sized.error();
   }
   return recording;
+}
+
+Result<Recording> read_recording(const std::string& folder, const RecordingSettings& settings) {
+  return is_euroc(folder) ? read_euroc(folder, settings) : read_tum(folder, settings);
 }
 
 Status write_tum_trajectory(const std::string& file, const std::vector<TimedPose>& poses) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: recording
-
 #include "flyball/recordings/recording.h"
 
 #include "recordings/recording_images.h"
@@ -10,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 namespace flyball {
@@ -49,6 +48,48 @@ Result<std::vector<double>> list_of(const std::string& file,
   return numbers;
 }
 
+/// The word behind `key:` at the start of a line, without quotes; `otherwise` where there is none.
+std::string word_of(const std::string& text, const std::string& key, const std::string& otherwise) {
+  const std::size_t at = text.find("\n" + key + ":");
+  if (at == std::string::npos) {
+    return otherwise;
+  }
+  const std::size_t from = at + key.size() + 2;
+  std::istringstream rest{text.substr(from, text.find('\n', from) - from)};
+  std::string word;
+  rest >> word;
+  word.erase(std::remove_if(word.begin(), word.end(), [](char c) { return c == '"' || c == '\''; }),
+             word.end());
+  return word;
+}
+
+/// EuRoC writes "radial-tangential", Kalibr "radtan" for the same formula.
+Status read_lens(const std::string& file, const std::string& text, CameraModel& camera) {
+  const std::string kind = word_of(text, "camera_model", "pinhole");
+  if (kind != "pinhole") {
+    return Error{ErrorCode::invalid_input,
+                 file + ": camera_model \"" + kind + "\" is not known; it must be pinhole"};
+  }
+  const std::string model = word_of(text, "distortion_model", "radial-tangential");
+  if (model == "none") {
+    return Done{};
+  }
+  const bool is_radial = model == "radial-tangential" || model == "radtan";
+  if (!is_radial && model != "equidistant") {
+    return Error{ErrorCode::invalid_input,
+                 file + ": distortion_model \"" + model +
+                     "\" is not known; there are: radial-tangential (radtan), equidistant, none"};
+  }
+  const auto distortion = list_of(file, text, "distortion_coefficients", 4);
+  if (!distortion) {
+    return distortion.error();
+  }
+  camera.distortion_model =
+      is_radial ? DistortionModel::radial_tangential : DistortionModel::equidistant;
+  std::copy(distortion->begin(), distortion->end(), camera.distortion.begin());
+  return Done{};
+}
+
 Status read_camera(const std::string& file, Recording& recording) {
   std::ifstream in_file{file};
   if (!in_file) {
@@ -58,10 +99,6 @@ Status read_camera(const std::string& file, Recording& recording) {
   const auto intrinsics = list_of(file, text, "intrinsics", 4);
   if (!intrinsics) {
     return intrinsics.error();
-  }
-  const auto distortion = list_of(file, text, "distortion_coefficients", 4);
-  if (!distortion) {
-    return distortion.error();
   }
   std::string nested = text;  // T_BS's list stands one level deeper: data: [...].
   const std::size_t pose_at = nested.find("\nT_BS:");
@@ -74,7 +111,9 @@ Status read_camera(const std::string& file, Recording& recording) {
   }
   recording.camera = {0, 0, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3],
                       {}};
-  std::copy(distortion->begin(), distortion->end(), recording.camera.distortion.begin());
+  if (const Status lens = read_lens(file, text, recording.camera); !lens) {
+    return lens;
+  }
   Eigen::Matrix3d R;
   R << (*X)[0], (*X)[1], (*X)[2], (*X)[4], (*X)[5], (*X)[6], (*X)[8], (*X)[9], (*X)[10];
   recording.X_BC.linear() = Eigen::Quaterniond{R}.normalized().toRotationMatrix();
@@ -92,6 +131,10 @@ Status read_images(const std::string& folder, Recording& recording) {
     const auto stamp = to_time(line.words.front());
     if (!stamp || line.words.size() < 2) {
       return wrong(file, line, "expected a time in nanoseconds and a file name");
+    }
+    const MissionTime last = recording.frames.empty() ? *stamp : recording.frames.back().stamp;
+    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+      return ordered;
     }
     recording.frames.push_back({*stamp, in(folder, "cam0/data/" + line.words[1]), ""});
   }
@@ -112,6 +155,10 @@ Status read_imu(const std::string& folder, Recording& recording) {
     const auto values = numbers_of(file, line, 1, 6);
     if (!stamp || !values) {
       return stamp ? values.error() : wrong(file, line, "expected a time in nanoseconds");
+    }
+    const MissionTime last = recording.imu.empty() ? *stamp : recording.imu.back().stamp;
+    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+      return ordered;
     }
     const auto& v = *values;
     recording.imu.push_back({*stamp, Vec3{v[0], v[1], v[2]}, Vec3{v[3], v[4], v[5]}});
@@ -135,11 +182,17 @@ Status read_truth(const std::string& folder, Recording& recording) {
       return stamp ? values.error() : wrong(file, line, "expected a time in nanoseconds");
     }
     const auto& v = *values;
+    const Eigen::Quaterniond q{v[3], v[4], v[5], v[6]};
+    if (q.norm() < 0.5) {
+      return wrong(file, line, "the quaternion has no length");
+    }
     TimedPose pose{*stamp, Pose::Identity()};
     pose.X_WB.translation() = Vec3{v[0], v[1], v[2]};
-    pose.X_WB.linear() = Eigen::Quaterniond{v[3], v[4], v[5], v[6]}.normalized().toRotationMatrix();
+    pose.X_WB.linear() = q.normalized().toRotationMatrix();
     recording.truth.push_back(pose);
   }
+  std::stable_sort(recording.truth.begin(), recording.truth.end(),
+                   [](const TimedPose& a, const TimedPose& b) { return a.stamp < b.stamp; });
   return Done{};
 }
 

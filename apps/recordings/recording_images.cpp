@@ -3,8 +3,13 @@
 
 #include "recordings/recording_images.h"
 
+#include "flyball/records/pictures.h"
+
 #include "recordings/png_file.h"
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <string_view>
 
 namespace flyball {
 namespace {
@@ -57,10 +62,53 @@ std::vector<std::uint8_t> grey_of(const PngPixels& image) {
   return grey;
 }
 
+bool begins_with(const std::string& file, std::string_view start) {
+  std::ifstream in{file, std::ios::binary};
+  std::string head(start.size(), '\0');
+  return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == start;
+}
+
+/// A JPEG image that was cut off would be shown grey from there on.
+bool is_whole_jpeg(const std::string& file) {
+  std::ifstream in{file, std::ios::binary};
+  const std::string content{std::istreambuf_iterator<char>{in}, {}};
+  constexpr std::size_t trailer = 64;  // Some cameras add a few bytes.
+  const std::size_t from = content.size() > trailer ? content.size() - trailer : 0;
+  return content.find("\xff\xd9", from) != std::string::npos;
+}
+
+/// By what the file begins with: names lie.
+Result<PngPixels> read_grey_or_colour(const std::string& file) {
+  if (!begins_with(file, "\xff\xd8\xff")) {
+    auto image = read_png(file);
+    return image ? std::move(image)
+                 : Error{ErrorCode::invalid_input,
+                         image.error().message + ", and it is no JPEG image either"};
+  }
+  if (!is_whole_jpeg(file)) {
+    return Error{ErrorCode::invalid_input,
+                 "cannot read \"" + file + "\": the JPEG image is cut off; copy it again"};
+  }
+  auto reader = open_pictures(file);
+  if (!reader) {
+    return reader.error();
+  }
+  auto picture = (*reader)->next();
+  if (!picture) {
+    return picture.error();
+  }
+  if (!*picture || !(**picture).trouble.empty()) {
+    return Error{ErrorCode::invalid_input,
+                 *picture ? (**picture).trouble : "\"" + file + "\" is no picture"};
+  }
+  ColourImage& image = (**picture).image;
+  return PngPixels{image.camera.width_px, image.camera.height_px, 3, 8, std::move(image.rgb)};
+}
+
 }  // namespace
 
 Status size_from_image(Recording& recording) {
-  const auto image = read_png(recording.frames.front().grey_file);
+  const auto image = read_grey_or_colour(recording.frames.front().grey_file);
   if (!image) {
     return image.error();
   }
@@ -71,7 +119,7 @@ Status size_from_image(Recording& recording) {
 
 Result<VisualFrame> load_frame(const Recording& recording, std::size_t number) {
   const RecordedFrame& source = recording.frames.at(number);
-  const auto image = read_png(source.grey_file);
+  const auto image = read_grey_or_colour(source.grey_file);
   if (!image) {
     return image.error();
   }

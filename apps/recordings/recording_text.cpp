@@ -49,6 +49,18 @@ Error wrong(const std::string& file, const TextLine& line, const std::string& wh
   return {ErrorCode::invalid_input, file + ":" + std::to_string(line.number) + ": " + what};
 }
 
+Status check_order(const std::string& file,
+                   const TextLine& line,
+                   MissionTime last,
+                   MissionTime now) {
+  if (now >= last) {
+    return Done{};
+  }
+  return wrong(file, line,
+               "the time " + line.words.front() +
+                   " is earlier than that of the line before; sort the lines by time");
+}
+
 Result<std::vector<TextLine>> read_lines(const std::string& file) {
   std::ifstream in{file};
   if (!in) {

@@ -36,6 +36,14 @@ struct TextLine {
                                                      std::size_t first,
                                                      std::size_t count);
 
+/// Whether a line's time is no earlier than the line's before: what runs back in time would be
+/// dropped without a word.
+/// @error `invalid_input`: names the file, the line and the time.
+[[nodiscard]] Status check_order(const std::string& file,
+                                 const TextLine& line,
+                                 MissionTime last,
+                                 MissionTime now);
+
 /// "FILE:LINE: what".
 [[nodiscard]] Error wrong(const std::string& file, const TextLine& line, const std::string& what);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: visual_slam
 //
 // What the estimate thinks of its own error.
 

@@ -52,10 +52,40 @@ TEST(Localize, finds_the_path_of_a_rendered_flight) {
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->frames, frames);
   EXPECT_EQ(run->lost, 1) << "the last one";
+  EXPECT_EQ(run->uncertain, 0);
+  EXPECT_GT(run->sigma_m_last, 0.001);
   EXPECT_EQ(run->path.size(), frames - 1U);
   ASSERT_TRUE(run->error);
   EXPECT_LT(run->error->rmse_m, 0.05);
   EXPECT_NEAR(run->error->path_m, step_m * (frames - 2), 0.01);
+}
+
+/// A view a second, a metre apart: good enough to be tracked, not good enough to be believed.
+TEST(Localize, counts_the_poses_that_the_localizer_does_not_trust_itself) {
+  DepthCameraSpec spec;
+  spec.width_px = 224;
+  spec.height_px = 168;
+  const kit::TexturedCamera camera{kit::circle_world(2), spec, 2};
+  const ScratchFolder place;
+  kit::TumSequence sequence{place.path()};
+  for (int i = 0; i < 16; ++i) {
+    const Pose X_WC = kit::circle_pose(i);
+    sequence.add(
+        camera.capture(X_WC, MissionTime{from_seconds(1.0 + i)}, static_cast<std::uint64_t>(i)),
+        X_WC);
+  }
+  RecordingSettings settings;
+  settings.intrinsics = {112.0, 112.0, 111.5, 83.5};
+  const auto recording = read_tum(place.path(), settings);
+  ASSERT_TRUE(recording);
+  const auto run =
+      localize(*recording, **make_seeing_localizer("visual_slam"), [] { return false; });
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(run->error);
+  EXPECT_GT(run->error->max_m, 0.05);
+  EXPECT_LT(run->lost, 4);
+  EXPECT_GT(run->uncertain, 5);
+  EXPECT_GT(run->sigma_m_last, 0.1);
 }
 
 TEST(Localize, knows_which_localizers_see) {

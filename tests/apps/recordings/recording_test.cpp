@@ -124,6 +124,80 @@ TEST(TumRecording, says_in_one_sentence_what_is_wrong_with_a_folder) {
   EXPECT_NE(written.refused().find("rgb/none.png\" as a PNG image"), std::string::npos);
 }
 
+/// 8 x 8 pixels, all of red 90, green 200, blue 30: written by OpenCV, quality 90.
+constexpr std::string_view green_jpeg =
+    "ffd8ffe000104a46494600010100000100010000ffdb00430003020203020203030303040303040508050504"
+    "04050a070706080c0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113141515150c0f1718161418121415"
+    "14ffdb00430103040405040509050509140d0b0d141414141414141414141414141414141414141414141414"
+    "1414141414141414141414141414141414141414141414141414ffc000110800080008030122000211010311"
+    "01ffc4001500010100000000000000000000000000000006ffc4001410010000000000000000000000000000"
+    "0000ffc4001501010100000000000000000000000000000708ffc40014110100000000000000000000000000"
+    "000000ffda000c03010002110311003f00b50127849fffd9";
+
+std::string bytes_of(std::string_view hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    bytes += static_cast<char>(std::stoi(std::string{hex.substr(i, 2)}, nullptr, 16));
+  }
+  return bytes;
+}
+
+TEST(TumRecording, reads_jpeg_too_whatever_the_file_is_called) {
+  const WrittenTum written;
+  kit::write_png(written.place.path("depth/a.png"), 8, 8, std::vector<std::uint16_t>(64, 10000));
+  (void)written.place.file("rgb/a.jpg", bytes_of(green_jpeg));
+  (void)written.place.file("rgb/b.png", bytes_of(green_jpeg));
+  (void)written.place.file("associations.txt",
+                           "1.0 rgb/a.jpg 1.0 depth/a.png\n1.1 rgb/b.png 1.1 depth/a.png\n");
+  const auto recording = written.read();
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->camera.width_px, 8);
+  for (const std::size_t i : {0U, 1U}) {
+    const auto frame = load_frame(*recording, i);
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_EQ(frame->grey.size(), 64U);
+    EXPECT_NEAR(frame->grey[30], 148, 2) << "ITU-R BT.601";
+    EXPECT_NEAR(frame->depth_m[5], 2.0, 1e-6);
+  }
+  (void)written.place.file("rgb/a.jpg", bytes_of(green_jpeg).substr(0, 100));
+  EXPECT_NE(written.refused().find("rgb/a.jpg\": the JPEG image is cut off"), std::string::npos)
+      << written.refused();
+}
+
+TEST(TumRecording, has_inertial_measurements_where_both_sensors_were_recorded) {
+  const WrittenTum written;
+  (void)written.place.file("accelerometer.txt",
+                           "# timestamp ax ay az\n1.00 0 0 9.8\n1.02 2 0 9.8\n");
+  const auto accel_only = written.read();
+  ASSERT_TRUE(accel_only) << accel_only.error().message;
+  EXPECT_TRUE(accel_only->imu.empty());
+  EXPECT_TRUE(accel_only->lacks_gyro);
+  (void)written.place.file("gyroscope.txt",
+                           "0.99 9 9 9\n1.00 0.1 0 0\n1.01 0.2 0 0.3\n1.03 9 9 9\n");
+  const auto recording = written.read();
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_FALSE(recording->lacks_gyro);
+  ASSERT_EQ(recording->imu.size(), 2U) << "where both sensors were on";
+  EXPECT_EQ(recording->imu[0].f_B, (Vec3{0.0, 0.0, 9.8}));
+  EXPECT_EQ(recording->imu[1].stamp, at(1.01));
+  EXPECT_EQ(recording->imu[1].w_WB_B, (Vec3{0.2, 0.0, 0.3}));
+  EXPECT_TRUE(recording->imu[1].f_B.isApprox(Vec3(1.0, 0.0, 9.8), 1e-9)) << "in between";
+}
+
+TEST(TumRecording, refuses_inertial_measurements_that_are_wrong_or_run_back_in_time) {
+  const WrittenTum written;
+  (void)written.place.file("gyroscope.txt", "1.0 0 0 0\n");
+  (void)written.place.file("accelerometer.txt", "1.01 0 0 9.8\n1.00 0 0 9.8\n");
+  EXPECT_NE(written.refused().find("accelerometer.txt:2: the time 1.00 is earlier"),
+            std::string::npos)
+      << written.refused();
+  (void)written.place.file("accelerometer.txt", "1.00 0 0\n");
+  EXPECT_NE(written.refused().find("accelerometer.txt:1: 3 columns"), std::string::npos);
+  (void)written.place.file("accelerometer.txt", "1.00 0 0 9.8\n");
+  (void)written.place.file("gyroscope.txt", "soon 0 0 0\n");
+  EXPECT_NE(written.refused().find("gyroscope.txt:1: \"soon\" is no time"), std::string::npos);
+}
+
 TEST(TumRecording, refuses_images_that_are_not_what_they_should_be) {
   const WrittenTum written;
   const auto recording = written.read();
@@ -191,70 +265,6 @@ TEST(RecordedTime, is_seconds_with_a_point_or_nanoseconds_without) {
   for (const char* bad : {"", "x", "-1.0", "1.2.3", "99999999999999999999", "1e5"}) {
     EXPECT_FALSE(to_time(bad)) << bad;
   }
-}
-
-constexpr const char* sensor_yaml = R"(sensor_type: camera
-T_BS:
-  cols: 4
-  rows: 4
-  data: [0.0, -1.0, 0.0, -0.02,
-         1.0, 0.0, 0.0, -0.06,
-         0.0, 0.0, 1.0, 0.01,
-         0.0, 0.0, 0.0, 1.0]
-rate_hz: 20
-resolution: [8, 6]
-camera_model: pinhole
-intrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv
-distortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]
-)";
-
-struct WrittenEuroc {
-  WrittenEuroc() {
-    for (const char* folder : {"cam0/data", "imu0", "state_groundtruth_estimate0"}) {
-      std::filesystem::create_directories(place.path("mav0/") + folder);
-    }
-    (void)place.file("mav0/cam0/sensor.yaml", sensor_yaml);
-    (void)place.file("mav0/cam0/data.csv",
-                     "#timestamp [ns],filename\r\n1403636579763555584,a.png\r\n");
-    kit::write_png(place.path("mav0/cam0/data/a.png"), 8, 6, std::vector<std::uint8_t>(48, 77));
-    (void)place.file("mav0/imu0/data.csv",
-                     "#timestamp,w,a\n1403636579758555392,-0.1,0.15,0.08,8.18,-0.38,-3.1\n");
-    (void)place.file("mav0/state_groundtruth_estimate0/data.csv",
-                     "#t,p,q,v\n1403636580838555648,4.6,-1.8,0.8,0.5,-0.15,-0.9,-0.08,0,0,0\n");
-  }
-  ScratchFolder place;
-};
-
-TEST(EurocRecording, has_camera_inertial_measurements_and_truth) {
-  const WrittenEuroc written;
-  EXPECT_TRUE(is_euroc(written.place.path()));
-  const auto recording = read_euroc(written.place.path(), {});
-  ASSERT_TRUE(recording) << recording.error().message;
-  EXPECT_EQ(recording->camera.focal_x_px, 458.654);
-  EXPECT_EQ(recording->camera.width_px, 8);
-  EXPECT_EQ(recording->camera.distortion[3], 1.76187114e-05);
-  EXPECT_TRUE(recording->X_BC.translation().isApprox(Vec3(-0.02, -0.06, 0.01)));
-  EXPECT_NEAR(recording->X_BC.linear()(1, 0), 1.0, 1e-9);
-  ASSERT_EQ(recording->imu.size(), 1U);
-  EXPECT_EQ(recording->imu[0].w_WB_B, (Vec3{-0.1, 0.15, 0.08}));
-  EXPECT_EQ(recording->imu[0].f_B, (Vec3{8.18, -0.38, -3.1}));
-  ASSERT_EQ(recording->truth.size(), 1U);
-  EXPECT_EQ(recording->truth[0].X_WB.translation(), (Vec3{4.6, -1.8, 0.8}));
-  const auto frame = load_frame(*recording, 0);
-  ASSERT_TRUE(frame);
-  EXPECT_TRUE(frame->depth_m.empty());
-  EXPECT_EQ(frame->grey[5], 77);
-}
-
-TEST(EurocRecording, says_what_is_missing) {
-  const WrittenEuroc written;
-  (void)written.place.file("mav0/cam0/sensor.yaml", "intrinsics: [1, 2]\n");
-  EXPECT_NE(read_euroc(written.place.path(), {}).error().message.find("intrinsics must be a list"),
-            std::string::npos);
-  (void)written.place.file("mav0/cam0/sensor.yaml", sensor_yaml);
-  std::filesystem::remove(written.place.path("mav0/imu0/data.csv"));
-  EXPECT_NE(read_euroc(written.place.path(), {}).error().message.find("imu0/data.csv"),
-            std::string::npos);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ class Localizer;
 struct LocalizationRun {
   std::vector<TimedPose> path{};  ///< Of the frames that gave a pose.
   int frames{};
-  int lost{};  ///< Frames that gave none.
+  int lost{};             ///< Frames that gave none.
+  int uncertain{};        ///< Frames whose pose is, as the localizer itself says, no good.
+  double sigma_m_last{};  ///< Root mean square of the error that it expects in its last pose.
   int keyframes{};
   int loops_closed{};
   double frame_ms_mean{};  ///< Of the host, without reading the files.
@@ -26,11 +28,13 @@ struct LocalizationRun {
 };
 
 /// Feeds the recording to a localizer that has not started yet. `stop` is asked before each frame.
+/// @param uncertain_above_m  A pose is uncertain when the localizer expects a larger error.
 /// @error `invalid_input`: an image that cannot be read, or the recording lacks what the localizer
 ///        needs.
 [[nodiscard]] Result<LocalizationRun> localize(const Recording& recording,
                                                Localizer& localizer,
-                                               const std::function<bool()>& stop);
+                                               const std::function<bool()>& stop,
+                                               double uncertain_above_m = 0.1);
 
 /// A localizer that sees, by name.
 /// @error `not_found`, `invalid_input` with the names of those that do.
