@@ -3,10 +3,11 @@
 
 #include "flyball/records/report.h"
 
+#include "records/report_world.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -17,124 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t rows_per_sample = 5;  // `state` has 10 rows a second; the page needs 2.
-constexpr std::size_t most_boxes = 5000;    // More are drawn as a raster.
-constexpr double raster_columns = 800.0;    // About the pixels that the page has for it.
-
-/// Rounded to a thousandth: the page's size is mostly digits. Null when not finite.
-Json rounded(double value) {
-  return std::isfinite(value) ? Json(std::round(value * 1e3) / 1e3) : Json(nullptr);
-}
-
-Json corner(const Vec3& p_W) {
-  return {rounded(p_W.x()), rounded(p_W.y())};
-}
-
-/// Only what stands at flight height is in the way: a ceiling would hide the rooms below it.
-bool is_at_flight_height(const World& world, double low_m, double high_m) {
-  return high_m > world.bounds_W.min.z() && low_m < world.bounds_W.max.z();
-}
-
-std::vector<Aabb> boxes_in_the_way(const World& world) {
-  std::vector<Aabb> boxes;
-  for (const Aabb& box : world.boxes) {
-    if (is_at_flight_height(world, box.min.z(), box.max.z())) {
-      boxes.push_back(box);
-    }
-  }
-  return boxes;
-}
-
-/// Square cells over the bounds, filled where a box is.
-class Raster {
- public:
-  explicit Raster(const Aabb& bounds_W)
-      : bounds_W_{bounds_W}, extent_{bounds_W.max - bounds_W.min} {
-    cell_m_ = std::max(0.05, std::max(extent_.x(), extent_.y()) / raster_columns);
-    columns_ = static_cast<std::size_t>(std::ceil(extent_.x() / cell_m_)) + 1;
-    rows_.assign(static_cast<std::size_t>(std::ceil(extent_.y() / cell_m_)) + 1,
-                 std::vector<bool>(columns_));
-  }
-
-  void fill(const Aabb& box) {
-    const Vec3 from = box.min - bounds_W_.min;
-    const Vec3 to = box.max - bounds_W_.min;
-    if (to.x() < 0.0 || to.y() < 0.0 || from.x() > extent_.x() || from.y() > extent_.y()) {
-      return;
-    }
-    for (std::size_t y = index(from.y(), rows_.size()); y <= index(to.y(), rows_.size()); ++y) {
-      const auto row = rows_[y].begin();
-      std::fill(row + static_cast<std::ptrdiff_t>(index(from.x(), columns_)),
-                row + static_cast<std::ptrdiff_t>(index(to.x(), columns_)) + 1, true);
-    }
-  }
-
-  /// Each row lists start and length of its runs.
-  [[nodiscard]] Json json() const {
-    Json rows = Json::array();
-    for (const std::vector<bool>& row : rows_) {
-      rows.push_back(runs_of(row));
-    }
-    return {{"x_m", bounds_W_.min.x()},
-            {"y_m", bounds_W_.min.y()},
-            {"cell_m", cell_m_},
-            {"rows", std::move(rows)}};
-  }
-
- private:
-  [[nodiscard]] std::size_t index(double at_m, std::size_t count) const {
-    return static_cast<std::size_t>(
-        std::clamp(at_m / cell_m_, 0.0, static_cast<double>(count - 1)));
-  }
-  static Json runs_of(const std::vector<bool>& row) {
-    Json runs = Json::array();
-    for (auto begin = std::find(row.begin(), row.end(), true); begin != row.end();) {
-      const auto end = std::find(begin, row.end(), false);
-      runs.push_back(begin - row.begin());
-      runs.push_back(end - begin);
-      begin = std::find(end, row.end(), true);
-    }
-    return runs;
-  }
-
-  Aabb bounds_W_;
-  Vec3 extent_;
-  double cell_m_{};
-  std::size_t columns_{};
-  std::vector<std::vector<bool>> rows_{};
-};
-
-Json raster(const World& world, const std::vector<Aabb>& boxes) {
-  Raster cells{world.bounds_W};
-  for (const Aabb& box : boxes) {
-    cells.fill(box);
-  }
-  return cells.json();
-}
-
-Json world_json(const World& world) {
-  Json json{{"min", corner(world.bounds_W.min)},
-            {"max", corner(world.bounds_W.max)},
-            {"start", corner(world.start_W)},
-            {"goal", corner(world.goal_W)}};
-  const std::vector<Aabb> boxes = boxes_in_the_way(world);
-  if (boxes.size() > most_boxes) {
-    json["raster"] = raster(world, boxes);
-  } else {
-    json["boxes"] = Json::array();
-    for (const Aabb& box : boxes) {
-      json["boxes"].push_back(
-          {rounded(box.min.x()), rounded(box.min.y()), rounded(box.max.x()), rounded(box.max.y())});
-    }
-  }
-  json["pillars"] = Json::array();
-  for (const Pillar& pillar : world.pillars) {
-    if (is_at_flight_height(world, pillar.foot_W.z(), pillar.foot_W.z() + pillar.height_m)) {
-      json["pillars"].push_back(
-          {rounded(pillar.foot_W.x()), rounded(pillar.foot_W.y()), rounded(pillar.radius_m)});
-    }
-  }
-  return json;
-}
 
 /// The page's name of a series and the trace's name of its field.
 struct Series {
@@ -154,16 +37,62 @@ constexpr std::array<Series, 9> series_of_state{{
     {"battery", "battery_percent"},
 }};
 
+// What is so far below or above the vehicle's centre counts as being at its height.
+constexpr double below_m = 0.3;
+constexpr double above_m = 0.5;
+
+bool is_cruising(const std::vector<Field>& fields) {
+  return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+    const std::string* text = std::get_if<std::string>(&field.value);
+    return field.name == "phase" && text != nullptr && *text == "cruise";
+  });
+}
+
 Json value_of(const std::vector<Field>& fields, std::string_view name) {
   for (const Field& field : fields) {
     if (field.name != name) {
       continue;
     }
     if (const double* number = std::get_if<double>(&field.value)) {
-      return rounded(*number);
+      return json_number(*number);
     }
   }
   return nullptr;
+}
+
+/// Where each person was at those times: x and y.
+Json people_json(const World& world, const Json& times_s) {
+  Json people = Json::array();
+  for (const Person& person : world.people) {
+    Json x = Json::array();
+    Json y = Json::array();
+    for (const Json& time_s : times_s) {
+      const Vec3 foot_W = person.at(MissionTime{from_seconds(time_s.get<double>())}).foot_W;
+      x.push_back(json_number(foot_W.x()));
+      y.push_back(json_number(foot_W.y()));
+    }
+    people.push_back({{"x", std::move(x)}, {"y", std::move(y)}});
+  }
+  return people;
+}
+
+/// Heights at which the mission was flown, take-off and landing left out; those of its bounds where
+/// the record has none.
+HeightBand flown_heights(const MissionRecord& record) {
+  const Aabb& bounds_W = record.world.bounds_W;
+  std::optional<HeightBand> flown;
+  for (const MemoryRecorder::Row& row : record.trace->rows()) {
+    const Json height_m = row.channel == "state" ? value_of(row.fields, "z_m") : Json{};
+    if (height_m.is_null() || !is_cruising(row.fields)) {
+      continue;
+    }
+    const double z_m = height_m.get<double>();
+    flown = flown ? HeightBand{std::min(flown->low_m, z_m), std::max(flown->high_m, z_m)}
+                  : HeightBand{z_m, z_m};
+  }
+  return flown ? HeightBand{std::max(bounds_W.min.z(), flown->low_m - below_m),
+                            std::min(bounds_W.max.z(), flown->high_m + above_m)}
+               : HeightBand{bounds_W.min.z(), bounds_W.max.z()};
 }
 
 /// A figure that a mission judges itself by, as it stood at each time; null before there is one.
@@ -198,7 +127,7 @@ Json series_json(const MemoryRecorder& trace) {
     if (i % rows_per_sample != 0 && i + 1 != states.size()) {  // The end is always there.
       continue;
     }
-    json["t"].push_back(rounded(to_seconds(states[i]->at)));
+    json["t"].push_back(json_number(to_seconds(states[i]->at)));
     for (const Series& series : series_of_state) {
       json[series.name].push_back(value_of(states[i]->fields, series.field));
     }
@@ -218,7 +147,7 @@ Json rows_json(const MemoryRecorder& trace, std::string_view channel) {
     for (const Field& field : row.fields) {
       numbers.push_back(value_of(row.fields, field.name));
     }
-    numbers.push_back(rounded(to_seconds(row.at)));
+    numbers.push_back(json_number(to_seconds(row.at)));
     rows.push_back(std::move(numbers));
   }
   return rows;
@@ -228,12 +157,19 @@ Json rows_json(const MemoryRecorder& trace, std::string_view channel) {
 
 RunPicture picture_of(const MissionRecord& record) {
   const Summary& summary = record.summary;
+  const HeightBand flown = flown_heights(record);
   Json json{{"policy", summary.policy},
             {"seed", summary.seed},
             {"status", to_string(summary.status)},
             {"failure", to_string(summary.failure)},
-            {"world", world_json(record.world)},
+            {"world", world_json(record.world, flown, record.has_goal)},
             {"series", series_json(*record.trace)}};
+  if (!record.world.people.empty()) {
+    json["people"] = people_json(record.world, json["series"]["t"]);
+  }
+  if (!record.map.empty()) {
+    json["map"] = map_json(record.map, record.world.bounds_W, flown);
+  }
   // What a survey photographed: rectangles to be covered, and footprints of pictures; and whom a
   // search took for a person.
   for (const char* const channel : {"area", "footprint", "sighting"}) {

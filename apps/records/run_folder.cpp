@@ -10,9 +10,11 @@
 #include "records/frame_files.h"
 #include "records/trace_file.h"
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -50,19 +52,45 @@ std::string data_fingerprint(const Scenario& scenario) {
   return hash.hex();
 }
 
+/// A figure by which a workload is judged: it stands before time and energy.
+struct Foremost {
+  const char* name;
+  const char* title;
+  double scale;
+};
+constexpr std::array<Foremost, 5> foremost_figures{
+    {{"tracked_s", "tracked s", 1.0},
+     {"coverage_percent", "coverage %", 1.0},
+     {"map_recall", "map recall %", 100.0},
+     {"map_precision", "map precision %", 100.0},
+     {"area_covered_percent", "area covered %", 1.0}}};
+
+using TitledCells = std::vector<std::pair<std::string, std::string>>;
+
+void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
+  for (const Foremost& figure : foremost_figures) {
+    if (const auto found = quality.find(figure.name); found != quality.end()) {
+      cells.emplace_back(figure.title, rounded(found->second * figure.scale, 1));
+      quality.erase(found);
+    }
+  }
+}
+
 std::string summary_table(const Summary& summary) {
   const bool failed = summary.status == MissionStatus::failed;
-  std::vector<std::pair<std::string, std::string>> cells{
-      {"policy", html_text(summary.policy)},
-      {"seed", std::to_string(summary.seed)},
-      {"end", failed ? to_string(summary.failure) : to_string(summary.status)},
-      {"time s", rounded(summary.mission_time_s, 1)},
-      {"energy kJ", rounded(summary.energy_total_j() * 1e-3, 1)},
-      {"battery %", rounded(summary.battery_used_percent(), 1)},
-      {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
-      {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
-      {"clearance m", rounded(summary.min_clearance_m, 2)}};
-  for (const auto& [name, value] : summary.quality) {
+  std::map<std::string, double> quality = summary.quality;
+  TitledCells cells{{"policy", html_text(summary.policy)},
+                    {"seed", std::to_string(summary.seed)},
+                    {"end", failed ? to_string(summary.failure) : to_string(summary.status)}};
+  add_foremost(cells, quality);
+  const TitledCells flight{{"time s", rounded(summary.mission_time_s, 1)},
+                           {"energy kJ", rounded(summary.energy_total_j() * 1e-3, 1)},
+                           {"battery %", rounded(summary.battery_used_percent(), 1)},
+                           {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
+                           {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
+                           {"clearance m", rounded(summary.min_clearance_m, 2)}};
+  cells.insert(cells.end(), flight.begin(), flight.end());
+  for (const auto& [name, value] : quality) {
     std::string title = name;
     std::replace(title.begin(), title.end(), '_', ' ');
     cells.emplace_back(html_text(title), rounded(value, 1));
@@ -73,7 +101,7 @@ std::string summary_table(const Summary& summary) {
     titles += std::string{"<th>"}.append(title).append("</th>");
     values += "<td>" + value + "</td>";
   }
-  return "<table><tr>" + titles + "</tr><tr>" + values + "</tr></table>";
+  return html_table("<tr>" + titles + "</tr><tr>" + values + "</tr>");
 }
 
 std::string run_page(const Scenario& scenario,

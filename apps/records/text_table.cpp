@@ -57,4 +57,8 @@ std::string html_text(const std::string& text) {
   return safe;
 }
 
+std::string html_table(const std::string& rows) {
+  return "<div class=\"table\"><table>\n" + rows + "\n</table></div>\n";
+}
+
 }  // namespace flyball

@@ -233,6 +233,10 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   }
   fill_outcome(record.summary, flight, scenario);
   fill_computing(record.summary, flight);
+  record.has_goal = flight.workload->flies_to_goal();
+  if (record.world.volume_W.max.x() > record.world.volume_W.min.x()) {
+    record.map = mapper.occupied();
+  }
   record.frames = flight.workload->frames();
   record.summary.trace_hash = record.trace->hash().hex();
   record.summary.numeric_fingerprint = numeric_fingerprint();

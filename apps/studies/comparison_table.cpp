@@ -107,23 +107,23 @@ std::string to_text(const Comparison& comparison) {
 }
 
 std::string to_html(const Comparison& comparison) {
-  std::string table = "<table>\n<tr>";
+  std::string rows = "<tr>";
   std::string troubles;
   for (const std::string& title : header()) {
-    table += "<th>" + title + "</th>";
+    rows += "<th>" + title + "</th>";
   }
   for (const ComparisonRow& row : comparison.rows) {
-    table += "</tr>\n<tr><td>" + html_text(row.policy) + "</td><td>" + counts(row) + "<small>" +
-             failures_text(row) + "</small></td><td>" + std::to_string(row.collisions) + "</td>";
+    rows += "</tr>\n<tr><td>" + html_text(row.policy) + "</td><td>" + counts(row) + "<small>" +
+            failures_text(row) + "</small></td><td>" + std::to_string(row.collisions) + "</td>";
     for (const Column& column : columns) {
       const Figure shown = figure(row, column);
-      table += "<td>" + shown.median + "<small>" + shown.interval + "</small></td>";
+      rows += "<td>" + shown.median + "<small>" + shown.interval + "</small></td>";
     }
     if (const std::string trouble = trouble_of(row); !trouble.empty()) {
       troubles += "<p class=\"note\">" + html_text(trouble) + "</p>\n";
     }
   }
-  return table + "</tr>\n</table>\n" + troubles + "<p class=\"note\">" +
+  return html_table(rows + "</tr>") + troubles + "<p class=\"note\">" +
          html_text(meaning(comparison)) + "</p>\n";
 }
 

@@ -21,14 +21,16 @@ constexpr const char* page_head = R"(<!doctype html>
   h1 { font-size: 22px; font-weight: 600; } h2 { font-size: 18px; font-weight: 600; }
   h3 { font-size: 14px; font-weight: 600; margin: 14px 0 2px; }
   .panel { background: #fff; border: 1px solid #dfe5ea; border-radius: 8px; padding: 14px 18px;
-           margin: 0 0 16px; overflow-x: auto; }
+           margin: 0 0 16px; }
+  .table { overflow-x: auto; padding-bottom: 4px; }
   .plots { display: flex; flex-wrap: wrap; gap: 18px 28px; }
+  .panel > svg, .plots > svg { max-width: 100%; }
   svg text { font-size: 12px; fill: #22303c; }
   table { border-collapse: collapse; white-space: nowrap; width: 100%; }
   th, td { text-align: right; padding: 5px 10px; border-bottom: 1px solid #dfe5ea;
            vertical-align: top; font-variant-numeric: tabular-nums; }
   td small { display: block; color: #6b7a88; font-size: 12px; }
-  th { color: #6b7a88; font-weight: 500; }
+  th { color: #6b7a88; font-weight: 500; white-space: normal; vertical-align: bottom; }
   th:first-child, td:first-child { text-align: left; padding-left: 0; }
   .note, footer { color: #6b7a88; font-size: 12.5px; margin: 10px 0 0; }
 </style>
@@ -58,7 +60,8 @@ std::string differences_html(const std::string& head,
   }
   std::string table =
       "<h3>" + html_text(head) +
-      ", seed by seed</h3><table><tr><th>policy</th><th>pairs</th><th>less energy in</th><th>time "
+      ", seed by seed</h3><div class=\"table\"><table><tr><th>policy</th><th>pairs</th><th>less "
+      "energy in</th><th>time "
       "s</th><th>energy kJ</th><th>energy %</th><th>computer %</th><th>battery %</th></tr>\n";
   for (const PairedDifference& d : differences) {
     table += "<tr><td>" + html_text(names_both ? d.name() : d.policy) + "</td><td>" +
@@ -66,7 +69,7 @@ std::string differences_html(const std::string& head,
              cell(d.time_s, 1.0, 1) + cell(d.energy_j, 1e-3, 1) + cell(d.energy_percent, 1.0, 1) +
              cell(d.computer_percent, 1.0, 1) + cell(d.battery_percent, 1.0, 1) + "</tr>\n";
   }
-  return table + "</table>\n";
+  return table + "</table></div>\n";
 }
 
 std::string promises_html(const WorldResult& world) {
@@ -74,7 +77,8 @@ std::string promises_html(const WorldResult& world) {
     return {};
   }
   std::string table =
-      "<h3>Promises of latency</h3><table><tr><th>policy</th><th>cells m</th><th>issued</th>"
+      "<h3>Promises of latency</h3><div class=\"table\"><table><tr><th>policy</th><th>cells "
+      "m</th><th>issued</th>"
       "<th>late</th><th>late %</th><th>at most %</th></tr>\n";
   for (const PromiseFigures& level : world.promises) {
     const auto most = level.most_percent();
@@ -84,14 +88,16 @@ std::string promises_html(const WorldResult& world) {
              (most ? rounded(*most, 1) : "-") + "</td></tr>\n";
   }
   return table +
-         "</table>\n<p class=\"note\">At most: the share asked for and the slack of a bound that "
+         "</table></div>\n<p class=\"note\">At most: the share asked for and the slack of a bound "
+         "that "
          "calibrates itself, where no map takes over four times what was predicted.</p>\n";
 }
 
 std::string decisions_html(const WorldResult& world) {
   const bool has_bound = world.has_bound();
   std::string table =
-      "<h3>Decisions</h3><table><tr><th>policy</th><th>maps later than bounded %</th><th>budget "
+      "<h3>Decisions</h3><div class=\"table\"><table><tr><th>policy</th><th>maps later than "
+      "bounded %</th><th>budget "
       "use</th><th>99 % within us, on the host</th>";
   const bool has_heat = world.has_heat();
   table += has_bound ? "<th>energy over its bound</th>" : "";
@@ -105,7 +111,7 @@ std::string decisions_html(const WorldResult& world) {
                        : "") +
              "</tr>\n";
   }
-  return table + "</table>\n";
+  return table + "</table></div>\n";
 }
 
 /// A count is exact: its interval is the count itself.
@@ -190,7 +196,8 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
     return {};
   }
   std::string table =
-      "<h2>Pairs over all worlds</h2>\n<div class=\"panel\"><table><tr><th>energy "
+      "<h2>Pairs over all worlds</h2>\n<div class=\"panel\"><div "
+      "class=\"table\"><table><tr><th>energy "
       "%, below it the computer's</th>" +
       head + "</tr>\n";
   for (const PairedDifference& pair : pairs) {
@@ -206,7 +213,7 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
     }
     table += "</tr>\n";
   }
-  return table + "</table></div>\n";
+  return table + "</table></div></div>\n";
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ class PackageDelivery final : public Workload {
     graph.node(std::move(spec), [this](JobContext& job) { return step(job); });
   }
 
+  [[nodiscard]] bool flies_to_goal() const override { return true; }
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
  private:

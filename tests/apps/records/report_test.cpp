@@ -37,6 +37,69 @@ TEST(Report, the_top_view_shows_what_is_in_the_way_and_no_ceiling) {
   EXPECT_EQ(world["goal"], nlohmann::json::parse("[10.0, 0.0]"));
 }
 
+/// As a flight at this height, after a take-off.
+void set_height(MissionRecord& record, double z_m) {
+  record.trace = std::make_shared<MemoryRecorder>();
+  record.trace->record(
+      MissionTime{}, "state",
+      {{"x_m", 0.0}, {"y_m", 0.0}, {"z_m", 0.5}, {"phase", std::string{"take_off"}}});
+  record.trace->record(
+      MissionTime{from_seconds(2.0)}, "state",
+      {{"x_m", 1.0}, {"y_m", 0.0}, {"z_m", z_m}, {"phase", std::string{"cruise"}}});
+}
+
+TEST(Report, the_top_view_tells_what_is_lower_than_the_flight_from_what_is_in_its_way) {
+  MissionRecord record = made_record("a", 1);
+  record.world.bounds_W.max.z() = 12.0;  // The vehicle might have flown high or low.
+  record.world.boxes = {{Vec3{2, 1, 0}, Vec3{3, 2, 3}}, {Vec3{4, 1, 0}, Vec3{5, 2, 0.005}}};
+  set_height(record, 4.5);
+  auto world = nlohmann::json::parse(picture_of(record).json)["world"];
+  EXPECT_EQ(world["boxes"], nlohmann::json::array());
+  EXPECT_EQ(world["low"]["boxes"], nlohmann::json::parse("[[2.0, 1.0, 3.0, 2.0]]"))
+      << "a path of gravel is ground";
+  EXPECT_EQ(world["low"]["pillars"].size(), 1U);
+  set_height(record, 3.2);
+  world = nlohmann::json::parse(picture_of(record).json)["world"];
+  EXPECT_EQ(world["boxes"].size(), 1U);
+  EXPECT_EQ(world["pillars"].size(), 1U);
+  EXPECT_EQ(world["low"]["boxes"], nlohmann::json::array());
+}
+
+TEST(Report, a_mission_without_a_goal_shows_none) {
+  MissionRecord record = made_record("a", 1);
+  record.has_goal = false;
+  EXPECT_FALSE(nlohmann::json::parse(picture_of(record).json)["world"].contains("goal"));
+}
+
+TEST(Report, a_person_has_a_place_at_each_sample) {
+  MissionRecord record = made_record("a", 1);
+  EXPECT_FALSE(nlohmann::json::parse(picture_of(record).json).contains("people"));
+  Person person;
+  person.walk = {{0.0, Vec3{1, 2, 0}}, {2.0, Vec3{3, 2, 0}}};
+  record.world.people = {person};
+  const auto people = nlohmann::json::parse(picture_of(record).json)["people"];
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0]["x"], (std::vector<double>{1.0, 1.5, 2.0, 2.5, 3.0}));
+  EXPECT_EQ(people[0]["y"], (std::vector<double>{2.0, 2.0, 2.0, 2.0, 2.0}));
+}
+
+TEST(Report, the_map_that_was_made_is_a_raster_of_its_cells_at_flight_height) {
+  MissionRecord record = made_record("a", 1);
+  EXPECT_FALSE(nlohmann::json::parse(picture_of(record).json).contains("map"));
+  record.map = {{Vec3{1.0, 1.0, 1.2}, 0.2}, {Vec3{3.0, 1.0, 2.6}, 0.2}};  // The second: a ceiling.
+  const auto raster = nlohmann::json::parse(picture_of(record).json)["map"];
+  const double cell_m = raster["cell_m"];
+  double filled_m2 = 0.0;
+  for (const auto& row : raster["rows"]) {
+    for (std::size_t i = 1; i < row.size(); i += 2) {
+      filled_m2 += row[i].get<double>() * cell_m * cell_m;
+      EXPECT_NEAR(raster["x_m"].get<double>() + row[i - 1].get<double>() * cell_m, 0.9, cell_m);
+    }
+  }
+  EXPECT_GE(filled_m2, 0.04 - 1e-9);
+  EXPECT_LE(filled_m2, (0.2 + 2 * cell_m) * (0.2 + 2 * cell_m));
+}
+
 TEST(Report, a_picture_of_a_survey_has_the_area_and_each_footprint_with_its_time) {
   MissionRecord record = made_record("a", 1);
   EXPECT_FALSE(nlohmann::json::parse(picture_of(record).json).contains("footprint"));

@@ -23,11 +23,26 @@ TEST(RunFolder, holds_the_mission_its_summary_its_trace_and_a_page) {
   EXPECT_EQ(summary.seed, 5U);
   EXPECT_EQ(scratch.content("deep/run/mission.toml"), mission_file(scenario));
   EXPECT_NE(scratch.content("deep/run/report.html").find("<canvas"), std::string::npos);
-  EXPECT_NE(scratch.content("deep/run/report.html").find("<th>area covered percent</th>"),
+  EXPECT_NE(scratch.content("deep/run/report.html").find("<th>area covered %</th>"),
             std::string::npos);
   for (const auto& entry : std::filesystem::directory_iterator{scratch.path("deep/run")}) {
     EXPECT_NE(entry.path().extension(), ".part");
   }
+}
+
+TEST(RunFolder, the_page_begins_with_the_figures_by_which_a_workload_is_judged) {
+  const ScratchFolder scratch;
+  MissionRecord record = made_record("a", 5);
+  record.summary.quality = {
+      {"looks", 3.0}, {"map_precision", 0.987}, {"map_recall", 0.5}, {"tracked_s", 61.25}};
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, record).ok());
+  const std::string page = scratch.content("report.html");
+  EXPECT_NE(page.find("<th>end</th><th>tracked s</th><th>map recall %</th><th>map precision %</th>"
+                      "<th>time s</th>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<td>succeeded</td><td>61.2</td><td>50.0</td><td>98.7</td>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<div class=\"table\"><table>"), std::string::npos);
 }
 
 TEST(RunFolder, the_mission_file_reads_back) {

@@ -41,6 +41,8 @@ class Workload {
   /// Whether a colour camera, a detector and trackers are on board: without, nothing is rendered,
   /// and no detector need be there.
   [[nodiscard]] virtual bool looks_for_people() const { return false; }
+  /// Whether the world's goal is a place of this mission.
+  [[nodiscard]] virtual bool flies_to_goal() const { return false; }
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
   /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is

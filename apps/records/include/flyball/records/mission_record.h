@@ -5,6 +5,7 @@
 /// Everything that a flown mission leaves.
 
 #include "flyball/flight/mission_frame.h"
+#include "flyball/kernels/mapper.h"
 #include "flyball/records/summary.h"
 #include "flyball/runtime/recorder.h"
 #include "flyball/sim/world.h"
@@ -17,6 +18,8 @@ namespace flyball {
 struct MissionRecord {
   Summary summary{};
   World world{};
+  bool has_goal{true};                 ///< Whether the world's goal was this mission's.
+  std::vector<OccupiedCell> map{};     ///< Where a volume was explored: what its map came to.
   std::vector<MissionFrame> frames{};  ///< What the workload wants to be seen.
   /// Channels and fields: see apps/README.md. `state` has 10 rows a second.
   std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.

@@ -18,4 +18,7 @@ namespace flyball {
 /// Text that shows as itself in a page, in an element or an attribute.
 [[nodiscard]] std::string html_text(const std::string& text);
 
+/// A table of these rows (`<tr>...`) that scrolls by itself where its card is too narrow for it.
+[[nodiscard]] std::string html_table(const std::string& rows);
+
 }  // namespace flyball
