@@ -16,6 +16,7 @@ MissionContext::MissionContext(FlightSettings settings_in,
       brief{std::move(brief_in)},
       body{equipment.body},
       knobs{std::move(equipment.knobs)},
+      computer{static_cast<int>(knobs.value("cpu.cores")), Hertz{knobs.value("cpu.frequency_hz")}},
       kernels{std::move(equipment.kernels)},
       recorder{recorder_in},
       has_rgb_camera{equipment.has_rgb_camera} {}

@@ -156,6 +156,7 @@ class MissionContext {
   /// nowhere else, and that is believed to any distance.
   bool maps_obstacles{true};
   KnobSettings knobs;
+  OperatingPoint computer;  ///< Clock and cores in force, which a hot board grants less of.
   MissionKernels kernels;
   Recorder& recorder;
   LocalizationWatch localization{};

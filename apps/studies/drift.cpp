@@ -2,7 +2,6 @@
 #include "flyball/studies/drift.h"
 
 #include "scenario/scenario_fields.h"
-#include <cmath>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +23,7 @@ std::vector<std::string> event(int number,
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
   if (row.at("channel").get_ref<const std::string&>() == "promise") {
-    const MissionTime at{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
+    const MissionTime at{nearest_duration(row.at("t_s").get<double>())};
     record.push_back(
         {at, row.at("issued").get<std::uint64_t>(), row.at("late").get<std::uint64_t>()});
   }

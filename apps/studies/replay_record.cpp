@@ -5,7 +5,6 @@
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/studies/replay.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -21,8 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 MissionTime time_of(const Json& row) {
-  // Not from_seconds: it rounds up, and would not undo to_seconds.
-  return MissionTime{Duration{std::llround(row.at("t_s").get<double>() * 1e9)}};
+  return MissionTime{nearest_duration(row.at("t_s").get<double>())};
 }
 
 /// A number that was not finite stands as null.
@@ -57,7 +55,7 @@ void take_row(const Json& row, RecordedFlight& flight) {
   } else if (channel == "choice") {
     flight.choices[time_of(row)] = row.at("what").get<std::string>();
   } else if (channel == "governor") {
-    flight.period = Duration{std::llround(row.at("period_s").get<double>() * 1e9)};
+    flight.period = nearest_duration(row.at("period_s").get<double>());
   } else if (channel == "mission") {
     flight.version = row.at("version").get<std::string>();
   }

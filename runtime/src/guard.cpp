@@ -9,9 +9,9 @@
 namespace flyball {
 
 double safe_speed(double deceleration_m_s2, double delta_s, double distance_m) {
-  FLYBALL_ASSERT(deceleration_m_s2 > 0.0 && delta_s >= 0.0, "a=%g, delta=%g", deceleration_m_s2,
-                 delta_s);
-  if (distance_m <= 0.0) {
+  FLYBALL_ASSERT(deceleration_m_s2 > 0.0, "a=%g", deceleration_m_s2);
+  // Comparisons that are false for what is not a number, so that it stops the vehicle, too.
+  if (!(distance_m > 0.0) || !(delta_s >= 0.0) || !std::isfinite(delta_s)) {
     return 0.0;
   }
   // eq. 2, multiplied out: its own form subtracts two nearly equal numbers when delta is large
@@ -47,10 +47,18 @@ Duration Guard::reaction_time() const {
   return settings_.tick + settings_.command_age + settings_.brake_lag;
 }
 
+double Guard::cruise_speed(Duration latency_bound, double distance_m) const {
+  if (latency_bound <= Duration::zero() || latency_bound >= longest_duration) {
+    return 0.0;
+  }
+  return safe_speed(settings_.max_deceleration_m_s2, to_seconds(latency_bound + reaction_time()),
+                    distance_m);
+}
+
 bool Guard::must_brake(double speed_m_s, double known_free_now_m) const {
   const double reaction_m = speed_m_s * to_seconds(reaction_time());
   const double braking_m = speed_m_s * speed_m_s / (2.0 * settings_.max_deceleration_m_s2);
-  return reaction_m + braking_m > known_free_now_m;
+  return !(reaction_m + braking_m <= known_free_now_m);  // True for what is not a number.
 }
 
 void LatencyWindow::add(Duration latency) {

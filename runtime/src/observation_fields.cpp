@@ -2,7 +2,6 @@
 #include "flyball/runtime/observation_fields.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace flyball {
@@ -16,11 +15,6 @@ T whole(double value) {
   return value >= least && value < most ? static_cast<T>(value)
          : value == most                ? std::numeric_limits<T>::max()
                                         : T{};
-}
-
-// Not from_seconds: it rounds up, and would not undo to_seconds.
-Duration nearest(double seconds) {
-  return Duration{whole<std::int64_t>(std::nearbyint(seconds * 1e9))};
 }
 
 template <auto member>
@@ -46,7 +40,7 @@ ObservationField field(const char* name) {
 template <auto member>
 ObservationField seconds(const char* name) {
   return {name, [](const Observation& seen) { return to_seconds(seen.*member); },
-          [](Observation& seen, double value) { seen.*member = nearest(value); }};
+          [](Observation& seen, double value) { seen.*member = nearest_duration(value); }};
 }
 
 /// Of a type that carries its unit.

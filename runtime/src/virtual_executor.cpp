@@ -145,7 +145,7 @@ Job VirtualComputer::take_job(int node) {
   Job job = std::move(*nodes[index(node)].job);
   nodes[index(node)].job.reset();
   job.record.ended = queue.now();
-  job.record.busy = Duration{std::llround(job.busy_s * 1e9)};
+  job.record.busy = nearest_duration(job.busy_s);
   request_dispatch();
   return job;
 }

@@ -45,8 +45,7 @@ struct Trip {
       now += std::chrono::milliseconds{20};
       where.X_WB.translation() = navigator.follower().position_W();
       if (i % 5 == 0) {
-        navigator.map_published(now, {++revision, now - std::chrono::milliseconds{100}, now, 0.15},
-                                std::chrono::milliseconds{100});
+        navigator.map_published(now, {++revision, now - std::chrono::milliseconds{100}, now, 0.15});
       }
       (void)navigator.tick(now, std::chrono::milliseconds{20}, where);
     }

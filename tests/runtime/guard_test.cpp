@@ -2,6 +2,7 @@
 #include "flyball/runtime/guard.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,14 @@ TEST(SafeSpeed, is_zero_without_distance) {
   EXPECT_EQ(safe_speed(6.0, 0.0, 0.0), 0.0);
 }
 
+TEST(SafeSpeed, is_zero_for_a_reaction_that_is_no_time) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double delta_s : {-1e-9, -7.9e9, infinity, -infinity, std::nan("")}) {
+    EXPECT_EQ(safe_speed(6.0, delta_s, 10.0), 0.0) << delta_s;
+  }
+  EXPECT_EQ(safe_speed(6.0, 1.0, std::nan("")), 0.0);
+}
+
 TEST_F(KnownFreeDistance, ends_before_the_first_cell_that_is_not_free) {
   for (const CellState beyond : {CellState::unknown, CellState::occupied}) {
     const HalfSpace map{5.0, beyond};
@@ -107,6 +116,26 @@ TEST(Guard, brakes_exactly_above_the_safe_speed_of_its_reaction_time) {
     EXPECT_FALSE(guard.must_brake(v * (1.0 - 1e-9), d));
     EXPECT_TRUE(guard.must_brake(v * (1.0 + 1e-9), d));
   }
+}
+
+TEST(Guard, stops_for_a_bound_that_is_zero_negative_or_not_finite) {
+  const Guard guard{GuardSettings{}};
+  for (const double bound_s : {0.0, -1e-9, -0.1, -7.9e9, -1e300, 5.6e9, 1e300,
+                               std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_EQ(guard.cruise_speed(from_seconds(bound_s), 10.0), 0.0) << bound_s;
+  }
+}
+
+TEST(Guard, cruises_at_the_safe_speed_of_bound_and_reaction_time) {
+  const Guard guard{GuardSettings{}};
+  const double delta_s = 0.63 + to_seconds(guard.reaction_time());
+  EXPECT_EQ(guard.cruise_speed(std::chrono::milliseconds{630}, 6.5), safe_speed(6.0, delta_s, 6.5));
+}
+
+TEST(Guard, brakes_where_a_speed_or_a_distance_is_not_a_number) {
+  const Guard guard{GuardSettings{}};
+  EXPECT_TRUE(guard.must_brake(1.0, std::nan("")));
+  EXPECT_TRUE(guard.must_brake(std::nan(""), 10.0));
 }
 
 TEST(Guard, does_not_brake_a_vehicle_that_stands) {

@@ -180,6 +180,7 @@ void GovernorLoop::observe_computer(MissionTime now) {
   misses_ = 0;
   seen_.queue_drops = static_cast<std::uint32_t>(board.drops - last_drops_);
   last_drops_ = board.drops;
+  context_.computer = board.granted;
   seen_.cores = board.granted.cores;
   seen_.frequency = board.granted.frequency;
   seen_.computer_power = board.computer_power;
@@ -245,6 +246,7 @@ void GovernorLoop::apply(MissionTime now, const Decision& decision) {
   if (wished != asked_) {  // What is granted may be less.
     asked_ = wished;
     board_.request(wished);
+    context_.computer = board_.read().granted;
   }
 }
 

@@ -1,118 +1,133 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/navigation/map_latency.h"
 
+#include "flight/navigation/path_follower.h"
 #include <algorithm>
 #include <cmath>
 
 namespace flyball {
 namespace {
 
-/// So that one second stands for what is expected.
-Duration over(Duration measured, Duration expected) {
-  return from_seconds(ratio(measured, expected));
-}
+using namespace std::chrono_literals;
 
-Duration times(Duration share, Duration expected) {
-  return from_seconds(to_seconds(share) * to_seconds(expected));
-}
+constexpr Duration least_price = 1ms;  // A computer in a test may be free.
+constexpr std::size_t most_windows = 64;
 
 }  // namespace
 
-MapTerms terms_of(const KnobSettings& knobs) {
-  return {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
-          Hertz{knobs.value("cpu.frequency_hz")}};
+MapTerms terms_of(const MissionContext& context) {
+  return {context.knobs.value("map.resolution_m"), context.knobs.value("map.range_m"),
+          context.computer.frequency, context.computer.cores};
 }
 
-Duration expected_latency(const MissionContext& context, const MapTerms& terms) {
+FramePrice frame_price(const MissionContext& context) {
   const DepthCameraSpec& camera = context.settings.camera;
   const Intrinsics lens = camera.intrinsics();
   const double rays = static_cast<double>(camera.count) * lens.width_px * lens.height_px;
   const double tan_x = 0.5 * lens.width_px / lens.focal_px;
   const double tan_y = 0.5 * lens.height_px / lens.focal_px;
-  const double range_m = terms.range_m;
-  const double resolution_m = terms.resolution_m;
-  const double volume_m3 = camera.count * 4.0 / 3.0 * tan_x * tan_y * range_m * range_m * range_m;
-  Work work;
-  work.add("frame", 1.0);
-  work.add("rays", rays);
-  work.add("traversals", 1.5 * rays * range_m / resolution_m);
-  work.add("updates", volume_m3 / (resolution_m * resolution_m * resolution_m));
-  return context.platform.job_time(mapper_cost(context.settings.kernels), work, terms.clock);
+  const double volume_at_1_m3 = camera.count * 4.0 / 3.0 * tan_x * tan_y;
+  const std::string mapper = mapper_cost(context.settings.kernels);
+  const auto fixed_work = [rays] {
+    Work work;
+    work.add("frame", 1.0);
+    work.add("rays", rays);
+    return work;
+  };
+  FramePrice price;
+  price.least =
+      context.platform.job_time(mapper, fixed_work(), context.platform.frequencies().back());
+  price.of = [=, &platform = context.platform](const MapTerms& terms) {
+    const double range_m = terms.range_m;
+    const double resolution_m = terms.resolution_m;
+    Work work = fixed_work();
+    work.add("traversals", 1.5 * rays * range_m / resolution_m);
+    work.add("updates", volume_at_1_m3 * range_m * range_m * range_m /
+                            (resolution_m * resolution_m * resolution_m));
+    return platform.job_time(mapper, work, terms.clock);
+  };
+  return price;
 }
 
-bool MapLatency::note_knobs(MissionTime now, const MissionContext& context) {
-  const MapTerms before = terms_;
-  note_terms(now, terms_of(context.knobs));
-  const bool is_same_map =
-      terms_.resolution_m == before.resolution_m && terms_.range_m == before.range_m;
-  if (!is_same_map || !(terms_.clock < before.clock)) {
-    return false;
+// What was measured longest ago is forgotten, so that a policy that never asks for the same range
+// twice does not fill the memory.
+void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
+  const auto key = std::make_tuple(terms.cores, terms.resolution_m, terms.range_m);
+  if (windows_.find(key) == windows_.end() && windows_.size() >= most_windows) {
+    windows_.erase(std::min_element(
+        windows_.begin(), windows_.end(),
+        [](const auto& a, const auto& b) { return a.second.newest < b.second.newest; }));
   }
-  const Duration was = expected_latency(context, before);
-  if (was > Duration::zero()) {
-    stretch(ratio(expected_latency(context, terms_), was));
-  }
-  return was > Duration::zero();
+  Window& here = windows_[key];
+  here.shares.add(from_seconds(share));
+  here.newest = now;
 }
 
-void MapLatency::stretch(double factor) {
-  latency_bound_ = from_seconds(factor * to_seconds(latency_bound_));
-  interval_bound_ = from_seconds(factor * to_seconds(interval_bound_));
-}
-
-void MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
-  if (!known_terms_ || terms != terms_) {
-    since_ = known_terms_ ? now : MissionTime{};
-    known_terms_ = true;
-    terms_ = terms;
-  }
-}
-
-// A range that is new begins with what the nearest one of the same cells has shown, and cells that
-// are new with what the nearest cells have: the platform's price of a frame is an upper bound, and
-// several times too high where a wall ends most rays.
-MapLatency::Windows& MapLatency::windows() {
-  const auto key = std::make_pair(terms_.resolution_m, terms_.range_m);
-  const auto found = windows_.find(key);
-  if (found != windows_.end()) {
-    return found->second;
-  }
-  const Duration one = from_seconds(1.0);
-  Windows seeds{LatencyWindow{one}, LatencyWindow{one}};
-  using Apart = std::pair<double, double>;  // Cells first, then range.
+// The price of a frame is an upper bound, and several times too high where a wall ends most rays:
+// so the nearest settings that were measured tell more than it does. On fewer cores the same jobs
+// take at most as many times longer as there are fewer.
+double MeasuredShares::bound(const MapTerms& terms) const {
+  using Apart = std::tuple<double, double, double>;  // Cells first, then range, then cores.
   std::optional<Apart> nearest;
-  for (const auto& [known, samples] : windows_) {
-    const Apart apart{std::abs(std::log(known.first / terms_.resolution_m)),
-                      std::abs(std::log(known.second / terms_.range_m))};
+  double share = 1.0;
+  for (const auto& [key, window] : windows_) {
+    const auto& [cores, resolution_m, range_m] = key;
+    const double times_fewer = static_cast<double>(cores) / terms.cores;
+    const Apart apart{std::abs(std::log(resolution_m / terms.resolution_m)),
+                      std::abs(std::log(range_m / terms.range_m)), std::abs(std::log(times_fewer))};
     if (!nearest || apart < *nearest) {
       nearest = apart;
-      seeds = {LatencyWindow{samples.latency.bound()}, LatencyWindow{samples.interval.bound()}};
+      share = to_seconds(window.shares.bound()) * std::max(1.0, times_fewer);
     }
   }
-  return windows_.emplace(key, seeds).first->second;
+  return share;
 }
 
-void MapLatency::published(const MapRevision& revision, MissionTime now, Duration expected) {
-  constexpr Duration least = std::chrono::milliseconds{1};  // A computer in a test may be free.
-  expected = std::max(expected, least);
-  Windows& here = windows();
-  const Duration latency = now - revision.captured;
+MapLatency::MapLatency(FramePrice price) : price_{std::move(price)} {
+  price_.least = std::max(price_.least, least_price);
+}
+
+bool MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
+  if (known_terms_ && terms == terms_) {
+    return false;
+  }
+  since_ = known_terms_ ? now : MissionTime{};
+  known_terms_ = true;
+  terms_ = terms;
+  if (!last_published_) {
+    return false;
+  }
+  const Bounds before = bounds_;
+  const Bounds here = bounds_of(terms_);
+  bounds_ = {std::max(before.latency, here.latency), std::max(before.interval, here.interval)};
+  return bounds_.latency != before.latency || bounds_.interval != before.interval;
+}
+
+Duration MapLatency::price(const MapTerms& terms) const {
+  return std::max(price_.of(terms), price_.least);
+}
+
+MapLatency::Bounds MapLatency::bounds_of(const MapTerms& terms) const {
+  const double price_s = to_seconds(price(terms));
+  const auto bound = [&](const MeasuredShares& measured) {
+    return std::clamp(from_seconds(measured.bound(terms) * price_s),
+                      std::min(price_.least, longest_latency_bound), longest_latency_bound);
+  };
+  return {bound(latencies_), bound(intervals_)};
+}
+
+void MapLatency::published(const MapRevision& revision, MissionTime now) {
+  const Duration promised = last_published_ ? bounds_.latency : bounds_of(terms_).latency;
+  budget_use_ = ratio(now - revision.captured, promised);
   const bool is_of_these_terms = revision.resolution_m == terms_.resolution_m;
-  const bool knows_no_other = latency_bound_ == Duration{0};
-  const Duration under_these = times(here.latency.bound(), expected);
-  const Duration promised = knows_no_other      ? under_these
-                            : is_of_these_terms ? std::max(under_these, latency_bound_)
-                                                : latency_bound_;
-  budget_use_ = ratio(latency, promised);
   if (is_of_these_terms && revision.captured >= since_) {
-    here.latency.add(over(latency, expected));
+    latencies_.add(now, terms_, ratio(now - revision.captured, price(terms_)));
   }
   if (is_of_these_terms && last_published_ && *last_published_ >= since_) {
-    here.interval.add(over(now - *last_published_, expected));
+    intervals_.add(now, terms_, ratio(now - *last_published_, price(terms_)));
   }
   last_published_ = now;
-  latency_bound_ = times(here.latency.bound(), expected);
-  interval_bound_ = times(here.interval.bound(), expected);
+  bounds_ = bounds_of(terms_);
 }
 
 }  // namespace flyball

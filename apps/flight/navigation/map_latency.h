@@ -2,15 +2,18 @@
 #pragma once
 
 /// @file
-/// The bound on what a map takes, for the setting that makes the next one.
+/// The bound on how long a map takes, from the settings in force and from what was measured.
 
 #include "flyball/runtime/guard.h"
+#include "flyball/runtime/platform.h"
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/units.h"
 
 #include "flight/mission_context.h"
+#include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace flyball {
@@ -20,59 +23,81 @@ struct MapTerms {
   double resolution_m{};
   double range_m{};
   Hertz clock{1e9};
+  int cores{1};
   friend bool operator==(const MapTerms& a, const MapTerms& b) {
-    return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock == b.clock;
+    return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock == b.clock &&
+           a.cores == b.cores;
   }
   friend bool operator!=(const MapTerms& a, const MapTerms& b) { return !(a == b); }
 };
 
-[[nodiscard]] MapTerms terms_of(const KnobSettings& knobs);
+/// Of the knobs, and of the clock and cores that the platform grants.
+[[nodiscard]] MapTerms terms_of(const MissionContext& context);
 
-/// What a frame takes in the mapper by the platform's own price list, before one has been measured:
-/// the frustum's volume over the cell's bounds the updates, the rays' length over its edge the
-/// traversals.
-[[nodiscard]] Duration expected_latency(const MissionContext& context, const MapTerms& terms);
+/// What a frame costs, before one has been measured.
+struct FramePrice {
+  std::function<Duration(const MapTerms&)> of{};
+  Duration least{};  ///< No frame takes less.
+};
 
-/// Latencies and intervals of the last 20 maps of each resolution and range, as multiples of what
-/// the platform expects of that setting, so that another clock does not outdate them. A map that
-/// was begun under other terms than those it was published under belongs to neither: counted, one
+/// What a frame takes in the mapper by the platform's own price list: the frustum's volume over the
+/// cell's bounds the updates, the rays' length over its edge the traversals. The least one has the
+/// same rays, which end at once, and the highest clock.
+[[nodiscard]] FramePrice frame_price(const MissionContext& context);
+
+/// Times as multiples of the platform's price of a frame, each with the settings that it was
+/// measured at: the last 20 of each cell size, range and number of cores.
+class MeasuredShares {
+ public:
+  void add(MissionTime now, const MapTerms& terms, double share);
+  /// 1.1 times the largest of these settings, or of the nearest ones that were measured; 1 if none
+  /// were: the price itself.
+  [[nodiscard]] double bound(const MapTerms& terms) const;
+
+ private:
+  struct Window {
+    LatencyWindow shares{Duration{}};  ///< A second stands for 1.
+    MissionTime newest{};
+  };
+  std::map<std::tuple<int, double, double>, Window> windows_{};  ///< Cores, cell size, range.
+};
+
+/// A bound is the largest measured share times the price of the settings in force, so that it
+/// depends on these settings and on what was measured, and not on how often a knob was turned. A
+/// map that was begun under other settings than those it was published under is not counted: one
 /// frame that was begun at a long range and a low clock would hold the vehicle back for twenty
 /// maps.
 class MapLatency {
  public:
-  /// Terms in force; call at least at each publication, better at each tick.
-  void note_terms(MissionTime now, const MapTerms& terms);
-  /// The same of a mission's knobs. What a lowered clock delays is known at once; the next map,
-  /// which would show it, is itself late.
+  explicit MapLatency(FramePrice price);
+  /// Settings in force; call at least at each publication, better at each tick.
   /// @return  Whether the bounds are others now.
-  bool note_knobs(MissionTime now, const MissionContext& context);
-  /// The clock was lowered: the map that is being made takes so many times as long, and so may all
-  /// until one shows better. (A clock that is raised shortens the bounds with the next map.)
-  void stretch(double factor);
-  /// @param expected  What the platform expects a frame to take under the terms in force.
-  void published(const MapRevision& revision, MissionTime now, Duration expected);
-  /// For the terms in force: from sensor to published map, and from map to map.
-  [[nodiscard]] Duration latency_bound() const { return latency_bound_; }
-  [[nodiscard]] Duration interval_bound() const { return interval_bound_; }
-  /// The newest map's share of the bound that was in force when it came: of that before a clock
-  /// was raised, since it was begun then.
+  bool note_terms(MissionTime now, const MapTerms& terms);
+  void published(const MapRevision& revision, MissionTime now);
+  /// From sensor to published map, and from map to map. Since the settings may change while a map
+  /// is made, these are the largest bounds of all settings that have been in force since the newest
+  /// map. Zero before the first map, else within the least price and `longest_latency_bound`.
+  [[nodiscard]] Duration latency_bound() const { return bounds_.latency; }
+  [[nodiscard]] Duration interval_bound() const { return bounds_.interval; }
+  /// The newest map's share of the bound that was in force when it came.
   [[nodiscard]] double budget_use() const { return budget_use_; }
 
  private:
-  /// In multiples of what is expected: one second of these stands for it.
-  struct Windows {
-    LatencyWindow latency;
-    LatencyWindow interval;
+  struct Bounds {
+    Duration latency{};
+    Duration interval{};
   };
-  [[nodiscard]] Windows& windows();
+  [[nodiscard]] Duration price(const MapTerms& terms) const;
+  [[nodiscard]] Bounds bounds_of(const MapTerms& terms) const;
 
-  std::map<std::pair<double, double>, Windows> windows_{};  ///< By resolution and range.
+  FramePrice price_;
+  MeasuredShares latencies_{};
+  MeasuredShares intervals_{};
   MapTerms terms_{};
   bool known_terms_{};
   MissionTime since_{};  ///< The first ones hold from the beginning.
   std::optional<MissionTime> last_published_{};
-  Duration latency_bound_{};
-  Duration interval_bound_{};
+  Bounds bounds_{};
   double budget_use_{};
 };
 

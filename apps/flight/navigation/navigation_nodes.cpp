@@ -26,8 +26,7 @@ void add_check(Graph& graph,
     if (!revision) {
       return work;
     }
-    navigator.map_published(job.now(), *revision,
-                            expected_latency(context, terms_of(context.knobs)));
+    navigator.map_published(job.now(), *revision);
     const PathFollower& follower = navigator.follower();
     if (!follower.has_path()) {
       return work;

@@ -25,7 +25,8 @@ constexpr double rounding_m = 1e-6;
 
 }  // namespace
 
-Navigator::Navigator(MissionContext& context) : context_{context}, follower_{context} {}
+Navigator::Navigator(MissionContext& context)
+    : context_{context}, follower_{context}, map_latency_{frame_price(context)} {}
 
 void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
@@ -53,11 +54,9 @@ bool Navigator::has_arrived() const {
   return goal_W_ && follower_.is_at_end() && (follower_.position_W() - *goal_W_).norm() < arrival_m;
 }
 
-void Navigator::map_published(MissionTime now,
-                              const MapRevision& revision,
-                              Duration expected_latency) {
-  (void)map_latency_.note_knobs(now, context_);
-  map_latency_.published(revision, now, expected_latency);
+void Navigator::map_published(MissionTime now, const MapRevision& revision) {
+  (void)map_latency_.note_terms(now, terms_of(context_));
+  map_latency_.published(revision, now);
   newest_latency_ = now - revision.captured;
   map_revision_ = revision.number;
   if (map_latency_.budget_use() > 1.0) {
@@ -254,7 +253,7 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   if (const auto search = search_place(now, where)) {
     return *search;
   }
-  if (map_latency_.note_knobs(now, context_)) {
+  if (map_latency_.note_terms(now, terms_of(context_))) {
     follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
   }
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();

@@ -57,7 +57,7 @@ class Navigator {
   [[nodiscard]] bool has_arrived() const;
 
   /// A map was published: known-free space, latency bound, and whether the path is still good.
-  void map_published(MissionTime now, const MapRevision& revision, Duration expected_latency);
+  void map_published(MissionTime now, const MapRevision& revision);
   void path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number);
   [[nodiscard]] std::uint64_t path_number() const { return path_number_; }
   /// A plan to ask for now, if any.
@@ -109,7 +109,7 @@ class Navigator {
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
-  MapLatency map_latency_{};
+  MapLatency map_latency_;
   Duration newest_latency_{};
   std::uint64_t map_revision_{};
   MissionTime newest_capture_{};

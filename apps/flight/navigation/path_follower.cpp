@@ -118,10 +118,13 @@ double PathFollower::room_m(std::size_t tier) const {
   return std::min(from_here_m + distance_since(newest_capture_), in_sight_m);
 }
 
+// Without a map there is none to wait for.
 double PathFollower::cruise_speed(std::size_t tier) const {
-  const double delta_s = to_seconds(latency_bound() + guard_.reaction_time());
-  return std::min(tier_speeds_m_s()[tier],
-                  safe_speed(guard_.settings().max_deceleration_m_s2, delta_s, room_m(tier)));
+  const double safe_m_s = context_.maps_obstacles
+                              ? guard_.cruise_speed(latency_bound(), room_m(tier))
+                              : safe_speed(guard_.settings().max_deceleration_m_s2,
+                                           to_seconds(guard_.reaction_time()), room_m(tier));
+  return std::min(tier_speeds_m_s()[tier], safe_m_s);
 }
 
 std::array<double, 3> PathFollower::tier_speeds_m_s() const {
@@ -131,7 +134,9 @@ std::array<double, 3> PathFollower::tier_speeds_m_s() const {
 
 Duration PathFollower::latency_bound() const {
   const double factor = context_.restraint.bound_factor;
-  return factor == 1.0 ? latency_bound_ : from_seconds(factor * to_seconds(latency_bound_));
+  const Duration bound =
+      factor == 1.0 ? latency_bound_ : from_seconds(factor * to_seconds(latency_bound_));
+  return std::min(bound, longest_latency_bound);
 }
 
 double PathFollower::safe_cruise() const {

@@ -14,6 +14,10 @@
 
 namespace flyball {
 
+/// A bound that is longer is not told: at a minute the vehicle barely moves, and its guard stops it
+/// before what is unknown in any case.
+inline constexpr Duration longest_latency_bound = std::chrono::seconds{60};
+
 /// Where the vehicle is, seen from its reference.
 struct TrackingError {
   double size_m{};
@@ -44,7 +48,8 @@ class PathFollower {
   /// Looks up anew how far the path is known to be free. Call after each change of map or path.
   void refresh_known_free(const OccupancyView& map);
   void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
-  /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b.
+  /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b. Until it is
+  /// set, the vehicle does not move through space that has to be mapped.
   void set_latency_bound(Duration bound) { latency_bound_ = bound; }
 
   /// Moves the reference by `dt`; it was `error_W` away from the vehicle.

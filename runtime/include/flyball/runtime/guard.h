@@ -15,8 +15,9 @@
 namespace flyball {
 
 /// Largest speed from which the vehicle stops within `distance_m` after reacting for `delta_s`:
-/// v = a (sqrt(delta^2 + 2 d / a) - delta), MAVBench (MICRO 2018) eq. 2. Zero for d <= 0.
-/// @pre `deceleration_m_s2 > 0`, `delta_s >= 0`.
+/// v = a (sqrt(delta^2 + 2 d / a) - delta), MAVBench (MICRO 2018) eq. 2. Zero for d <= 0, and for a
+/// delta that is negative or not finite: nobody can react within such a time.
+/// @pre `deceleration_m_s2 > 0`.
 [[nodiscard]] double safe_speed(double deceleration_m_s2, double delta_s, double distance_m);
 
 /// The tube that the body needs around its reference at a speed: e(v) [m].
@@ -51,6 +52,10 @@ class Guard {
 
   /// t_b = tick + age of the command + brake lag.
   [[nodiscard]] Duration reaction_time() const;
+  /// Speed from which the vehicle stops within `distance_m` if the next map comes within
+  /// `latency_bound`. Zero for a bound that is zero, negative or saturated (see `from_seconds`):
+  /// such a bound says nothing about the next map.
+  [[nodiscard]] double cruise_speed(Duration latency_bound, double distance_m) const;
   /// The test of each tick: v t_b + v^2 / (2 a) > d_now, so stop along the committed path.
   [[nodiscard]] bool must_brake(double speed_m_s, double known_free_now_m) const;
   [[nodiscard]] const GuardSettings& settings() const { return settings_; }

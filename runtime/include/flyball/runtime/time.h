@@ -35,9 +35,28 @@ using HostTime = std::chrono::steady_clock::time_point;
   return to_seconds(t.time_since_epoch());
 }
 
-/// Rounded up to the next nanosecond, so that no job ends before its work is done.
+/// What a conversion yields for times that are longer, for infinity, and for what is not a number:
+/// 126 years. The sum of two still fits.
+inline constexpr Duration longest_duration{4'000'000'000'000'000'000};
+
+/// A number of nanoseconds as a duration, within `longest_duration` on both sides of zero.
+[[nodiscard]] inline Duration saturated(double ns) {
+  constexpr auto most_ns = static_cast<double>(longest_duration.count());
+  if (!(ns < most_ns)) {  // Not a number is no short time.
+    return longest_duration;
+  }
+  return ns > -most_ns ? Duration{static_cast<std::int64_t>(ns)} : -longest_duration;
+}
+
+/// Rounded up to the next nanosecond, so that no job ends before its work is done; saturates at
+/// `longest_duration`.
 [[nodiscard]] inline Duration from_seconds(double s) {
-  return Duration{static_cast<std::int64_t>(std::ceil(s * 1e9))};
+  return saturated(std::ceil(s * 1e9));
+}
+
+/// Rounded to the nearest nanosecond, which undoes `to_seconds`; saturates at `longest_duration`.
+[[nodiscard]] inline Duration nearest_duration(double s) {
+  return saturated(std::round(s * 1e9));
 }
 
 }  // namespace flyball

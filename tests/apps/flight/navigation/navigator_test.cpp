@@ -50,7 +50,7 @@ TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
     now += 20ms;
     where.X_WB.translation() = navigator.follower().position_W();
     if (i % 5 == 0) {
-      navigator.map_published(now, {static_cast<std::uint64_t>(i), now - 100ms, now, 0.15}, 100ms);
+      navigator.map_published(now, {static_cast<std::uint64_t>(i), now - 100ms, now, 0.15});
     }
     (void)navigator.tick(now, 20ms, where);
     const double x_m = navigator.follower().position_W().x();
@@ -265,9 +265,10 @@ TEST(Navigator, gives_up_with_no_plan_after_the_time_limit) {
 TEST(Navigator, bounds_latency_by_the_worst_of_late_and_counts_what_exceeds_it) {
   Trip trip;
   trip.tick(30);
-  EXPECT_EQ(trip.rig.context->counters.bound_overruns, 0U);
-  trip.navigator.map_published(trip.now, {99, trip.now - 900ms, trip.now, 0.15}, 100ms);
-  EXPECT_EQ(trip.rig.context->counters.bound_overruns, 1U);
+  const std::uint64_t before = trip.rig.context->counters.bound_overruns;
+  EXPECT_LE(before, 1U) << "the first map, since this computer's price is none";
+  trip.navigator.map_published(trip.now, {99, trip.now - 900ms, trip.now, 0.15});
+  EXPECT_EQ(trip.rig.context->counters.bound_overruns, before + 1);
   EXPECT_GE(trip.navigator.follower().latency_bound(), 990ms);
 }
 
