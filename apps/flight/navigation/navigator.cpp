@@ -19,6 +19,7 @@ constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
 constexpr double arrival_m = 0.3;
 constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
+constexpr double creeps_below_m_s = 0.05;
 constexpr double least_lead_in_m = 0.3;
 constexpr double straight = 0.999;  // Chord over arc.
 constexpr double rounding_m = 1e-6;
@@ -151,11 +152,14 @@ double Navigator::last_stop_m() const {
 
 // At first the new path leaves the old one ahead of the moving vehicle. If it then bends too
 // sharply for the vehicle's speed, or comes too late, the next one leaves where the vehicle would
-// soon come to rest, so that the bend can begin before that; at last it starts from rest.
+// soon come to rest, so that the bend can begin before that; at last it starts from rest. So does
+// the plan of a vehicle that stands already: it creeps on with each cell that becomes known, and
+// would have left a splice where it stands before the plan is there.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
-  const double stop_m = refusals_ == 0 ? last_stop_m() : follower_.planned_stop_m();
+  const bool leaves_moving = refusals_ == 0 && follower_.speed_m_s() >= creeps_below_m_s;
+  const double stop_m = leaves_moving ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
   const Vec3 moving_W = path.at(moving_m).p_W;
   const Vec3 stop_W = path.at(stop_m).p_W;
@@ -164,8 +168,8 @@ void Navigator::start_from_path(PlanQuery& query) {
     query.lead_in_W = moving_W;
   }
   follower_.commit_stop(stop_m);
-  splice_m_ = refusals_ == 0 || query.lead_in_W ? moving_m : stop_m;
-  query.start_W = refusals_ == 0 ? moving_W : stop_W;
+  splice_m_ = leaves_moving || query.lead_in_W ? moving_m : stop_m;
+  query.start_W = leaves_moving ? moving_W : stop_W;
   query.start_direction_W =
       follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
 }

@@ -94,6 +94,28 @@ TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
   EXPECT_NEAR(again->start_W.x(), trip.navigator.follower().position_W().x(), 0.02);
 }
 
+// It creeps on with each cell that becomes known, and was beyond every splice where it stood.
+TEST(Navigator, adopts_the_first_plan_where_it_stands_before_unknown_space) {
+  Trip trip;
+  trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
+  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  const auto first = trip.navigator.next_query(trip.now);
+  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.tick(500);
+  ASSERT_LT(trip.navigator.follower().speed_m_s(), 0.05);
+  const double stands_at_m = trip.navigator.follower().position_W().x();
+  trip.navigator.path_checked(trip.now, {30.0, 5.0}, trip.navigator.path_number());
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.map.fill({Vec3{5, -3, 0}, Vec3{5.15, 3, 3}}, CellState::free);
+  trip.tick(100);
+  EXPECT_NEAR(trip.navigator.follower().position_W().x(), stands_at_m, 0.01) << "it waits";
+  const auto number = trip.navigator.path_number();
+  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
+  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "it was adopted";
+}
+
 /// Its path is blocked; the new one is longer by `detour_m`.
 void replan(Trip& trip, double detour_m) {
   trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
