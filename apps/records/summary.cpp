@@ -2,6 +2,8 @@
 
 #include "flyball/records/summary.h"
 
+#include "records/json_counts.h"
+#include "records/summary_reader.h"
 #include <array>
 #include <limits>
 #include <utility>
@@ -33,7 +35,7 @@ Value named(const std::array<Value, n>& values, const std::string& name) {
       return value;
     }
   }
-  throw std::out_of_range{name};
+  throw std::out_of_range{"no status or failure is called \"" + name + "\""};
 }
 
 /// JSON has no infinity: a clearance without any obstacle is written as null.
@@ -54,9 +56,9 @@ Json kernels_json(const Summary& summary) {
 
 void read_kernels(const Json& json, Summary& summary) {
   for (const auto& [name, kernel] : json.items()) {
-    summary.kernels[name] = {
-        kernel.at("calls").get<std::uint64_t>(), number(kernel.at("mission_ms_mean")),
-        number(kernel.at("mission_ms_p95")), number(kernel.at("host_ms_mean"))};
+    summary.kernels[name] = {count_in(kernel, "calls"), number(kernel.at("mission_ms_mean")),
+                             number(kernel.at("mission_ms_p95")),
+                             number(kernel.at("host_ms_mean"))};
   }
 }
 
@@ -74,9 +76,8 @@ Json promises_json(const Summary& summary) {
 void read_promises(const Json& json, Summary& summary) {
   for (const Json& level : json) {
     const Json& most = level.at("most_late");
-    summary.promises.push_back({level.at("resolution_m").get<double>(),
-                                level.at("issued").get<std::uint64_t>(),
-                                level.at("late").get<std::uint64_t>(),
+    summary.promises.push_back({level.at("resolution_m").get<double>(), count_in(level, "issued"),
+                                count_in(level, "late"),
                                 most.is_null() ? std::nullopt : std::optional{most.get<double>()}});
   }
 }
@@ -84,7 +85,7 @@ void read_promises(const Json& json, Summary& summary) {
 void read_head(const Json& json, Summary& summary) {
   summary.scenario = json.at("scenario").get<std::string>();
   summary.policy = json.at("policy").get<std::string>();
-  summary.seed = json.at("seed").get<std::uint64_t>();
+  summary.seed = count_in(json, "seed");
   summary.status = named(statuses, json.at("status").get<std::string>());
   summary.failure = named(failures, json.at("failure").get<std::string>());
   summary.host_s = number(json.at("host_s"));
@@ -108,21 +109,21 @@ void read_flight(const Json& json, Summary& summary) {
 }
 
 void read_computing(const Json& json, Summary& summary) {
-  summary.replans = json.at("replans").get<int>();
-  summary.deadline_overruns = json.at("deadline_overruns").get<std::uint64_t>();
-  summary.decisions = json.at("decisions").get<std::uint64_t>();
-  summary.knob_changes = json.at("knob_changes").get<std::uint64_t>();
-  summary.policy_faults = json.at("policy_faults").get<std::uint64_t>();
+  summary.replans = count_in<int>(json, "replans");
+  summary.deadline_overruns = count_in(json, "deadline_overruns");
+  summary.decisions = count_in(json, "decisions");
+  summary.knob_changes = count_in(json, "knob_changes");
+  summary.policy_faults = count_in(json, "policy_faults");
   summary.policy_trouble = json.at("policy_trouble").get<std::string>();
   summary.latency_p50_s = number(json.at("latency_s").at("p50"));
   summary.latency_p95_s = number(json.at("latency_s").at("p95"));
   summary.latency_max_s = number(json.at("latency_s").at("max"));
-  summary.maps = json.at("maps").get<std::uint64_t>();
-  summary.bound_overruns = json.at("bound_overruns").get<std::uint64_t>();
+  summary.maps = count_in(json, "maps");
+  summary.bound_overruns = count_in(json, "bound_overruns");
   summary.budget_use_p50 = number(json.at("budget_use_p50"));
   summary.decision_host_us_p50 = number(json.at("decision_host_us").at("p50"));
   summary.decision_host_us_p99 = number(json.at("decision_host_us").at("p99"));
-  summary.throttle_events = json.at("throttle_events").get<std::uint64_t>();
+  summary.throttle_events = count_in(json, "throttle_events");
   if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
     summary.hottest_c = hottest.get<double>();
   }
@@ -191,16 +192,23 @@ std::string to_json(const Summary& summary, int indent) {
 }
 
 bool from_json(const std::string& text, Summary& summary) {
+  Result<Summary> read = read_summary(text);
+  if (read) {
+    summary = std::move(*read);
+  }
+  return read.ok();
+}
+
+Result<Summary> read_summary(const std::string& text) {
   try {
     const Json json = Json::parse(text);
     Summary read;
     read_head(json, read);
     read_flight(json, read);
     read_computing(json, read);
-    summary = std::move(read);
-    return true;
-  } catch (const std::exception&) {  // Not JSON, a key is missing, or a value is of another kind.
-    return false;
+    return read;
+  } catch (const std::exception& error) {  // No JSON, a key is missing, a value of another kind.
+    return Error{ErrorCode::invalid_input, std::string{"is no summary: "} + error.what()};
   }
 }
 

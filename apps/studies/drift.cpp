@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/studies/drift.h"
 
+#include "records/json_counts.h"
 #include "scenario/scenario_fields.h"
 #include <fstream>
 
@@ -23,9 +24,8 @@ std::vector<std::string> event(int number,
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
   if (row.at("channel").get_ref<const std::string&>() == "promise") {
-    const MissionTime at{nearest_duration(row.at("t_s").get<double>())};
     record.push_back(
-        {at, row.at("issued").get<std::uint64_t>(), row.at("late").get<std::uint64_t>()});
+        {MissionTime{seconds_in(row, "t_s")}, count_in(row, "issued"), count_in(row, "late")});
   }
 }
 

@@ -70,34 +70,27 @@ Result<std::unique_ptr<PolicyGovernor>> governor_for(Scenario scenario, const st
   return std::move(setup->governor);
 }
 
-/// How the knobs stand after a decision in the words of `choice_text`.
-void put_in_force(const std::string& choice, std::map<std::string, std::string>& in_force) {
-  const std::size_t begin = choice.find(": ") + 2;
-  const std::string settings = choice.substr(begin, choice.find(';', begin) - begin);
-  for (std::size_t at = 0; at < settings.size();) {
-    const std::size_t end = std::min(settings.find(' ', at), settings.size());
-    const std::string one = settings.substr(at, end - at);
-    if (const std::size_t equals = one.find('='); equals != std::string::npos) {
-      in_force[one.substr(0, equals)] = one.substr(equals + 1);
-    }
-    at = end + 1;
+using InForce = std::map<std::string, double>;
+
+/// How the knobs stand after a decision in the words of `choice_text`; no words change nothing.
+void put_in_force(const std::string& choice, InForce& in_force) {
+  for (const auto& [knob, value] : settings_of(choice).value_or(InForce{})) {
+    in_force[knob] = value;
   }
 }
 
-std::string short_number(const std::string& value) {
-  std::string text = std::to_string(std::stod(value));
+std::string short_number(double value) {
+  std::string text = std::to_string(value);
   text.erase(text.find_last_not_of('0') + 1);
   return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
 }
-
-using InForce = std::map<std::string, std::string>;
 
 /// The knobs that stand otherwise, each with its value in `of`.
 std::string where_they_differ(const InForce& of, const InForce& other) {
   std::string text;
   for (const auto& [knob, value] : of) {
     const auto found = other.find(knob);
-    if (found != other.end() && found->second != value) {
+    if (found != other.end() && !have_same_bits(found->second, value)) {
       text += (text.empty() ? "" : ", ") + knob + " " + short_number(value);
     }
   }
@@ -106,11 +99,9 @@ std::string where_they_differ(const InForce& of, const InForce& other) {
 
 InForce standing_at_start(const KnobSettings& knobs) {
   InForce all;
-  Decision defaults;
   for (const KnobSpec& spec : knobs.specs()) {
-    defaults.set(spec.name, spec.fallback);
+    all[spec.name] = spec.fallback;
   }
-  put_in_force(": " + settings_text(defaults), all);
   return all;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: replay
 
-#include "flyball/records/summary.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/studies/replay.h"
 
+#include "flight/governing/choice_text.h"
+#include "records/json_counts.h"
+#include "records/summary_reader.h"
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,7 +23,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 MissionTime time_of(const Json& row) {
-  return MissionTime{nearest_duration(row.at("t_s").get<double>())};
+  return MissionTime{seconds_in(row, "t_s")};
 }
 
 /// A number that was not finite stands as null.
@@ -47,18 +50,23 @@ void take_observation(const Json& row, RecordedFlight& flight) {
   }
 }
 
-/// @return  Whether the row is about decisions.
+/// @throw As the library's getters, or in words, when the row is damaged.
 void take_row(const Json& row, RecordedFlight& flight) {
   const auto& channel = row.at("channel").get_ref<const std::string&>();
   if (channel == "observation" || channel == "computer") {
     take_observation(row, flight);
   } else if (channel == "choice") {
-    flight.choices[time_of(row)] = row.at("what").get<std::string>();
+    const auto& what = row.at("what").get_ref<const std::string&>();
+    if (!settings_of(what)) {
+      throw std::out_of_range{"what = \"" + what + "\" is no choice"};
+    }
+    flight.choices[time_of(row)] = what;
   } else if (channel == "governor") {
-    flight.period = nearest_duration(row.at("period_s").get<double>());
+    flight.period = seconds_in(row, "period_s");
   } else if (channel == "mission") {
     flight.version = row.at("version").get<std::string>();
   }
+  flight.end = std::max(flight.end, time_of(row));
 }
 
 Status read_trace(const std::string& path, RecordedFlight& flight) {
@@ -72,9 +80,10 @@ Status read_trace(const std::string& path, RecordedFlight& flight) {
     ++number;
     try {
       take_row(Json::parse(line), flight);
-    } catch (const Json::exception&) {
+    } catch (const std::exception& error) {
       return Error{ErrorCode::invalid_input, path + ":" + std::to_string(number) +
-                                                 ": is no row of a trace; fly the mission again"};
+                                                 ": is no row of a trace (" + error.what() +
+                                                 "); fly the mission again"};
     }
   }
   if (flight.period <= Duration::zero() || flight.choices.empty()) {
@@ -97,6 +106,29 @@ Status read_scenario(const std::string& path, RecordedFlight& flight) {
   return Done{};
 }
 
+/// The number of decisions, which must be no more than the flight had time for.
+Status read_decisions(const std::string& path, RecordedFlight& flight) {
+  std::ifstream file{path};
+  const std::string text{std::istreambuf_iterator<char>{file}, {}};
+  const Result<Summary> summary = read_summary(text);
+  if (!summary) {
+    return Error{ErrorCode::invalid_input,
+                 path + ": " + summary.error().message + "; fly the mission again"};
+  }
+  // One is at 0, and some may come after the last row: rows come at 10 Hz at least.
+  constexpr Duration after_last = std::chrono::seconds{1};
+  const auto most =
+      static_cast<std::uint64_t>((flight.end.time_since_epoch() + after_last) / flight.period + 1);
+  if (summary->decisions > most) {
+    return Error{ErrorCode::invalid_input,
+                 path + ": decisions = " + std::to_string(summary->decisions) +
+                     ", but a trace of " + std::to_string(to_seconds(flight.end)) +
+                     " s has time for " + std::to_string(most) + "; fly the mission again"};
+  }
+  flight.decisions = summary->decisions;
+  return Done{};
+}
+
 }  // namespace
 
 Result<RecordedFlight> read_flight(const std::string& folder) {
@@ -108,14 +140,9 @@ Result<RecordedFlight> read_flight(const std::string& folder) {
   if (const Status read = read_scenario((in / "mission.toml").string(), flight); !read) {
     return read.error();
   }
-  std::ifstream file{in / "summary.json"};
-  const std::string text{std::istreambuf_iterator<char>{file}, {}};
-  Summary summary;
-  if (!from_json(text, summary)) {
-    return Error{ErrorCode::invalid_input,
-                 (in / "summary.json").string() + ": is no summary; fly the mission again"};
+  if (const Status read = read_decisions((in / "summary.json").string(), flight); !read) {
+    return read.error();
   }
-  flight.decisions = summary.decisions;
   return flight;
 }
 

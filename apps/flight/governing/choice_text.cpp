@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
+#include <system_error>
 
 namespace flyball {
 namespace {
@@ -16,6 +19,14 @@ std::string number(double value) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
   std::snprintf(text.data(), text.size(), "%.17g", value);
   return text.data();
+}
+
+/// The number that the rest of a word is, if it is one.
+std::optional<double> number_in(const std::string& word, std::size_t begin) {
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto [at, failed] = std::from_chars(word.data() + begin, end, value);
+  return failed == std::errc{} && at == end ? std::optional{value} : std::nullopt;
 }
 
 bool equal(const Decision& a, const Decision& b) {
@@ -53,6 +64,26 @@ std::string choice_text(const PolicyGovernor& governor, const Decision& answer) 
     text += "; fallback " + std::string{to_string(governor.fallback())};
   }
   return text;
+}
+
+std::optional<std::map<std::string, double>> settings_of(const std::string& choice) {
+  const std::size_t colon = choice.find(": ");
+  if (colon == std::string::npos) {
+    return std::nullopt;
+  }
+  std::map<std::string, double> settings;
+  std::istringstream words{choice.substr(colon + 2, choice.find(';', colon) - (colon + 2))};
+  std::size_t count = 0;
+  for (std::string word; words >> word; ++count) {
+    const std::size_t equals = word.find('=');
+    const auto value = equals == std::string::npos ? std::nullopt : number_in(word, equals + 1);
+    if (value) {
+      settings[word.substr(0, equals)] = *value;
+    } else if (word != "nothing") {
+      return std::nullopt;
+    }
+  }
+  return count == 0 ? std::nullopt : std::optional{settings};
 }
 
 bool ChoiceMemory::is_new(const PolicyGovernor& governor, const Decision& answer) {

@@ -6,6 +6,8 @@
 
 #include "flyball/governors/policy_governor.h"
 
+#include <map>
+#include <optional>
 #include <string>
 
 namespace flyball {
@@ -17,6 +19,9 @@ namespace flyball {
 [[nodiscard]] std::string settings_text(const Decision& decision);
 /// Reason, wish, answer and step of the fallback of the last decision.
 [[nodiscard]] std::string choice_text(const PolicyGovernor& governor, const Decision& answer);
+
+/// The answer in the words of `choice_text`, as values by knob; nothing when it is no such text.
+[[nodiscard]] std::optional<std::map<std::string, double>> settings_of(const std::string& choice);
 
 /// Tells a decision that is as the last one was, without putting it into words.
 class ChoiceMemory {

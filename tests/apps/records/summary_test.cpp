@@ -3,6 +3,7 @@
 #include "flyball/records/summary.h"
 
 #include "made_flights.h"
+#include "records/summary_reader.h"
 #include <limits>
 #include <set>
 #include <string>
@@ -124,6 +125,29 @@ TEST(Summary, what_is_no_summary_is_refused_and_changes_nothing) {
        {std::string{}, std::string{"{}"}, std::string{"[1"}, json.dump()}) {
     EXPECT_FALSE(from_json(text, kept)) << text;
   }
+  EXPECT_EQ(kept.policy, "kept");
+}
+
+TEST(Summary, a_count_that_is_none_is_named) {
+  const auto good = nlohmann::json::parse(to_json(made_summary("a", 1)));
+  Summary kept = made_summary("kept", 1);
+  for (const char* key : {"seed", "replans", "deadline_overruns", "decisions", "knob_changes",
+                          "policy_faults", "maps", "bound_overruns", "throttle_events"}) {
+    for (const char* value : {"-1", "1e300", "18446744073709551616", "2.5", "null", "\"7\""}) {
+      auto json = good;
+      json[key] = nlohmann::json::parse(value);
+      const auto read = read_summary(json.dump());
+      ASSERT_FALSE(read.ok()) << key << " " << value;
+      EXPECT_NE(read.error().message.find(std::string{key} + " = "), std::string::npos)
+          << read.error().message;
+    }
+  }
+  auto json = good;
+  json["replans"] = 3000000000U;
+  EXPECT_FALSE(from_json(json.dump(), kept)) << "more than an int holds";
+  json = good;
+  json["kernels"]["octomap"]["calls"] = -1;
+  EXPECT_FALSE(from_json(json.dump(), kept));
   EXPECT_EQ(kept.policy, "kept");
 }
 

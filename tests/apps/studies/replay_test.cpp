@@ -142,5 +142,74 @@ TEST(Replay, says_what_a_folder_lacks) {
   EXPECT_NE(std::string::npos, read_flight(folder.path()).error().message.find("no decisions"));
 }
 
+/// Writes a file of a record anew, with one text in place of another, and reads the record.
+Result<RecordedFlight> read_with(const ScratchFolder& folder,
+                                 const std::string& file,
+                                 const std::string& text,
+                                 const std::string& instead) {
+  const std::string whole = folder.content(file);
+  std::string damaged = whole;
+  EXPECT_NE(std::string::npos, damaged.find(text)) << file << " has no " << text;
+  damaged.replace(damaged.find(text), text.size(), instead);
+  static_cast<void>(folder.file(file, damaged));
+  auto read = read_flight(folder.path());
+  static_cast<void>(folder.file(file, whole));
+  return read;
+}
+
+TEST(Replay, refuses_more_or_fewer_decisions_than_a_flight_can_have) {
+  const ScratchFolder folder;
+  const RecordedFlight flight = flown_with("fixed_coarse", folder);
+  const std::string right = "\"decisions\": " + std::to_string(flight.decisions);
+  for (const char* wrong : {"-5", "18446744073709551615", "100000000000", "1e300"}) {
+    const auto read =
+        read_with(folder, "summary.json", right, std::string{"\"decisions\": "} + wrong);
+    ASSERT_FALSE(read.ok()) << wrong;
+    EXPECT_EQ(ErrorCode::invalid_input, read.error().code);
+    EXPECT_NE(std::string::npos, read.error().message.find("summary.json: ")) << wrong;
+    EXPECT_NE(std::string::npos, read.error().message.find("decisions = ")) << read.error().message;
+  }
+  EXPECT_TRUE(read_with(folder, "summary.json", right, right).ok());
+}
+
+TEST(Replay, refuses_choices_and_times_that_are_none) {
+  const ScratchFolder folder;
+  static_cast<void>(flown_with("fixed_coarse", folder));
+  const std::string choice = "\"channel\":\"choice\",\"what\":\"";
+  const std::string resolution = "map.resolution_m=0.80000000000000004";
+  const std::pair<std::string, std::string> damages[] = {
+      {resolution, "map.resolution_m=abc"},
+      {resolution, "map.resolution_m="},
+      {resolution, "map.resolution_m=1e999"},
+      {resolution, "map.resolution_m"},
+      {choice + "fixed: " + resolution, choice},
+      {choice + "fixed: " + resolution, choice + "fixed: "},
+      {choice + "fixed: " + resolution, choice + "fixed:" + resolution},
+      {"\"period_s\":0.25", "\"period_s\":1e300"},
+      {"\"period_s\":0.25", "\"period_s\":-1"},
+      {"\"period_s\":0.25", "\"period_s\":null"},
+      {"{\"t_s\":0.25,", "{\"t_s\":-1e300,"},
+      {"{\"t_s\":0.25,", "{\"t_s\":1e300,"},
+      {"{\"t_s\":0.25,", "{\"t_s\":\"now\","}};
+  for (const auto& [right, wrong] : damages) {
+    const auto read = read_with(folder, "trace.jsonl", right, wrong);
+    ASSERT_FALSE(read.ok()) << wrong;
+    EXPECT_EQ(ErrorCode::invalid_input, read.error().code);
+    EXPECT_NE(std::string::npos, read.error().message.find("trace.jsonl:")) << wrong;
+    EXPECT_NE(std::string::npos, read.error().message.find("; fly the mission again")) << wrong;
+  }
+}
+
+TEST(Replay, takes_a_choice_without_words_for_one_that_turns_no_knob) {
+  const ScratchFolder folder;
+  RecordedFlight flight = flown_with("fixed_coarse", folder);
+  for (const char* what : {"", "map.resolution_m", "fixed: map.resolution_m=abc", "; "}) {
+    flight.choices.begin()->second = what;
+    const auto other = shadow(flight, "fixed_coarse");
+    ASSERT_TRUE(other.ok()) << what;
+    EXPECT_EQ(other->decisions, other->different) << what;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

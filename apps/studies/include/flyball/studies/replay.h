@@ -19,6 +19,7 @@ struct RecordedFlight {
   Scenario scenario{};
   std::string version{};
   Duration period{};  ///< Between two decisions; the first is at 0.
+  MissionTime end{};    ///< Of the last row of the trace.
   std::uint64_t decisions{};
   /// Members of the observation that changed, by the time of the decision.
   std::map<MissionTime, std::vector<std::pair<std::size_t, double>>> changes{};
