@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include <algorithm>
 #include <memory>
 
@@ -16,6 +17,7 @@ namespace {
 
 struct ExplainOptions {
   std::string folder;
+  bool trusts{};
   double at_s{};
 };
 
@@ -65,10 +67,11 @@ std::string worth_text(const Explanation& e) {
 }
 
 int run_explain(const ExplainOptions& options) {
-  const Result<RecordedFlight> flight = read_flight(options.folder);
+  Result<RecordedFlight> flight = read_flight(options.folder);
   if (!flight) {
     return refuse({flight.error()});
   }
+  flight->may_load_library = options.trusts;
   const Result<Explanation> told = explain(*flight, MissionTime{from_seconds(options.at_s)});
   if (!told) {
     return refuse({told.error()});
@@ -86,6 +89,7 @@ void add_explain(CLI::App& program, int& exit_code) {
       "explain", "what a policy saw and weighed at one moment of a recorded flight");
   const auto options = std::make_shared<ExplainOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
+  add_trust(*command, options->trusts);
   command->add_option("--at", options->at_s, "mission time")
       ->type_name("SECONDS")
       ->required()

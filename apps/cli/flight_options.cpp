@@ -50,6 +50,12 @@ void add_jobs(CLI::App& command, std::size_t& jobs) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_trust(CLI::App& command, bool& trusts) {
+  command.add_flag("--trust", trusts,
+                   "loads the library that the record's policy comes from: its code then runs "
+                   "with your rights");
+}
+
 std::string run_folder(const std::string& out, const std::string& policy, std::uint64_t seed) {
   namespace fs = std::filesystem;
   return (fs::path{out} / "runs" / fs::path{policy}.stem() / ("seed_" + std::to_string(seed)))

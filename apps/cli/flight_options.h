@@ -38,6 +38,9 @@ void add_contest(CLI::App& command, std::vector<std::string>& policies, std::str
 /// Adds `--jobs`.
 void add_jobs(CLI::App& command, std::size_t& jobs);
 
+/// Adds `--trust`, for records, which may be somebody else's.
+void add_trust(CLI::App& command, bool& trusts);
+
 /// The folder of one run: `OUT/runs/POLICY/seed_N`. A policy's file counts by its stem.
 [[nodiscard]] std::string run_folder(const std::string& out,
                                      const std::string& policy,

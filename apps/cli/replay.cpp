@@ -16,6 +16,7 @@ namespace {
 
 struct ReplayOptions {
   std::string folder;
+  bool trusts{};
   std::string policy{};
 };
 
@@ -66,10 +67,11 @@ int ask(const RecordedFlight& flight, const std::string& policy) {
 }
 
 int run_replay(const ReplayOptions& options) {
-  const Result<RecordedFlight> flight = read_flight(options.folder);
+  Result<RecordedFlight> flight = read_flight(options.folder);
   if (!flight) {
     return refuse({flight.error()});
   }
+  flight->may_load_library = options.trusts;
   return options.policy.empty() ? repeat(*flight) : ask(*flight, options.policy);
 }
 
@@ -80,6 +82,7 @@ void add_replay(CLI::App& program, int& exit_code) {
       program.add_subcommand("replay", "makes every decision of a recorded flight again");
   const auto options = std::make_shared<ReplayOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
+  add_trust(*command, options->trusts);
   refuse_empty(
       *command
            ->add_option("--policy", options->policy,

@@ -44,7 +44,27 @@ Result<std::unique_ptr<Policy>> start_half(const std::string& name,
   return start_one(name, seed, knobs);
 }
 
+/// The library that one policy comes from; empty: none.
+std::string library_of_one(const std::string& name) {
+  const auto file = find_shipped("presets", name);
+  for (const std::string& part : file ? files_of_policy(*file) : std::vector<std::string>{}) {
+    if (std::filesystem::path{part}.extension() == ".so") {
+      return part;
+    }
+  }
+  return {};
+}
+
 }  // namespace
+
+std::string library_of_policy(const std::string& name) {
+  const Preset both = combination_of(name);
+  if (!both.is_combination()) {
+    return library_of_one(name);
+  }
+  const std::string library = library_of_one(both.application);
+  return library.empty() ? library_of_one(both.clock) : library;
+}
 
 Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed) {
   const auto file = find_shipped("presets", name);

@@ -101,6 +101,19 @@ MissionBrief brief_of(const World& world, const std::string& name) {
 }
 
 Result<MissionSetup> set_up(const Scenario& scenario) {
+  auto setup = set_up_without_governor(scenario);
+  if (!setup) {
+    return setup;
+  }
+  auto governor = make_governor(scenario, setup->equipment.knobs);
+  if (!governor) {
+    return governor.error();
+  }
+  setup->governor = std::move(*governor);
+  return setup;
+}
+
+Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
   MissionSetup setup;
   auto platform = make_platform(scenario);
   if (!platform) {
@@ -148,11 +161,6 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   }
   setup.equipment.knobs = KnobSettings{
       standard_knobs(scenario, *setup.platform, setup.equipment.kernels.mapper->resolutions_m())};
-  auto governor = make_governor(scenario, setup.equipment.knobs);
-  if (!governor) {
-    return governor.error();
-  }
-  setup.governor = std::move(*governor);
   return setup;
 }
 

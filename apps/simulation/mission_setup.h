@@ -25,5 +25,8 @@ struct MissionSetup {
 
 /// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
 [[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);
+/// For whoever asks about a mission that nobody governs: the policy is not even loaded, so a
+/// scenario of somebody else runs no code of theirs. `governor` is null.
+[[nodiscard]] Result<MissionSetup> set_up_without_governor(const Scenario& scenario);
 
 }  // namespace flyball

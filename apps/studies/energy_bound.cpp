@@ -134,7 +134,7 @@ Result<EnergyBound> bound_energy(const Scenario& scenario) {
     return Error{ErrorCode::invalid_input,
                  "a bound is known without gusts only: set vehicle.gust_wind_m_s to 0"};
   }
-  const auto setup = set_up(scenario);
+  const auto setup = set_up_without_governor(scenario);
   if (!setup) {
     return setup.error();
   }

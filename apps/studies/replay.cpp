@@ -4,6 +4,7 @@
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/scenario/policy_choice.h"
 #include "flyball/simulation/mission.h"
 
 #include "flight/governing/choice_text.h"
@@ -55,10 +56,7 @@ void note(ReplayResult& result, MissionTime at, const std::string& recorded, std
   }
 }
 
-Result<std::unique_ptr<PolicyGovernor>> governor_for(Scenario scenario, const std::string& policy) {
-  if (!policy.empty()) {
-    scenario.governor.policy = policy;
-  }
+Result<std::unique_ptr<PolicyGovernor>> governor_for(const Scenario& scenario) {
   auto setup = set_up(scenario);
   if (!setup) {
     return setup.error();
@@ -68,6 +66,17 @@ Result<std::unique_ptr<PolicyGovernor>> governor_for(Scenario scenario, const st
                                              "\" is told what no record holds; fly it instead"};
   }
   return std::move(setup->governor);
+}
+
+/// With the policy that the record names.
+Result<std::unique_ptr<PolicyGovernor>> recorded_governor(const RecordedFlight& flight) {
+  const std::string library = library_of_policy(flight.scenario.governor.policy);
+  if (!library.empty() && !flight.may_load_library) {
+    return Error{ErrorCode::invalid_input,
+                 "the record's policy is code from library \"" + library +
+                     "\", which was not loaded; add --trust if you trust whoever made it"};
+  }
+  return governor_for(flight.scenario);
 }
 
 using InForce = std::map<std::string, double>;
@@ -108,7 +117,7 @@ InForce standing_at_start(const KnobSettings& knobs) {
 }  // namespace
 
 Result<ReplayResult> replay(const RecordedFlight& flight) {
-  const auto governor = governor_for(flight.scenario, "");
+  const auto governor = recorded_governor(flight);
   if (!governor) {
     return governor.error();
   }
@@ -129,7 +138,9 @@ Result<ReplayResult> replay(const RecordedFlight& flight) {
 }
 
 Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& policy) {
-  const auto governor = governor_for(flight.scenario, policy);
+  Scenario scenario = flight.scenario;
+  scenario.governor.policy = policy;
+  const auto governor = governor_for(scenario);
   if (!governor) {
     return governor.error();
   }
@@ -158,7 +169,7 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
                  "there is no decision at " + std::to_string(to_seconds(at)) +
                      " s; the flight lasts from 0 to " + std::to_string(to_seconds(end)) + " s"};
   }
-  const auto governor = governor_for(flight.scenario, "");
+  const auto governor = recorded_governor(flight);
   if (!governor) {
     return governor.error();
   }

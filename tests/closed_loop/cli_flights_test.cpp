@@ -81,6 +81,35 @@ TEST(CliFlights, a_comparison_flies_each_mission_once) {
   EXPECT_EQ(fs::last_write_time(flyball.place.path(kept)), written);
 }
 
+TEST(CliFlights, a_record_of_somebody_else_is_refused_in_a_sentence_and_runs_no_code) {
+  const FlyballProgram flyball;
+  ASSERT_EQ(flyball.run(std::string{"run "} + short_flight + "--out r").exit_code, 0);
+  const std::string summary = flyball.place.content("r/summary.json");
+  std::string mission = flyball.place.content("r/mission.toml");
+  static_cast<void>(flyball.place.file("r/summary.json", "{\"decisions\": -1}"));
+  const auto expect_refused = [&flyball](const std::string& arguments, const std::string& why) {
+    const auto outcome = flyball.run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
+    EXPECT_NE(outcome.errors.find(why), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+  };
+  expect_refused("replay r", "r/summary.json: is no summary");
+  expect_refused("explain r --at 3", "r/summary.json: is no summary");
+  static_cast<void>(flyball.place.file("r/summary.json", summary));
+  EXPECT_EQ(flyball.run("replay r").exit_code, 0);
+  const std::string policy = "policy = \"fixed_fine\"";
+  ASSERT_NE(mission.find(policy), std::string::npos);
+  mission.replace(mission.find(policy), policy.size(), "policy = \"r/theirs.so\"");
+  static_cast<void>(flyball.place.file("r/mission.toml", mission));
+  static_cast<void>(flyball.place.file("r/theirs.so", "nothing that could be loaded"));
+  expect_refused("replay r", "add --trust");
+  expect_refused("explain r --at 3", "add --trust");
+  expect_refused("replay r --trust", "r/theirs.so: cannot be loaded");
+  expect_refused("explain r --at 3 --trust", "r/theirs.so: cannot be loaded");
+  EXPECT_EQ(flyball.run("replay r --policy fixed_fine").exit_code, 0);
+  EXPECT_EQ(flyball.run("bound r/mission.toml").exit_code, 0);
+}
+
 /// The scenario of `short_flight` as a file, with this name.
 std::string short_world(const FlyballProgram& flyball, const std::string& name) {
   return flyball.place.file(name + ".toml",

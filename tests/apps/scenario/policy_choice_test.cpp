@@ -30,5 +30,23 @@ TEST(PolicyChoice, that_does_not_exist_is_named_with_the_way_out) {
       << message;
 }
 
+TEST(PolicyChoice, says_which_library_would_run_without_loading_it) {
+  const ScratchFolder scratch;
+  const std::string library = scratch.file("mine.so", "nothing that could be loaded");
+  EXPECT_EQ(library, library_of_policy(library));
+  const std::string preset = scratch.file("mine.toml", "policy = 'mine.so'\n");
+  EXPECT_EQ(library, library_of_policy(preset));
+  for (const std::string& halves : {"application = '" + library + "'\nclock = 'schedutil_10ms'\n",
+                                    "application = 'two_level'\nclock = '" + preset + "'\n"}) {
+    EXPECT_EQ(library, library_of_policy(scratch.file("both.toml", halves)));
+  }
+  const std::string script = scratch.file("mine.lua", "function decide(seen) end\n");
+  for (const std::string& harmless :
+       {std::string{"two_level"}, std::string{"density"}, std::string{"just_in_tme"},
+        std::string{"two_level_schedutil_10ms"}, std::string{"./gone.so"}, script}) {
+    EXPECT_EQ("", library_of_policy(harmless)) << harmless;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

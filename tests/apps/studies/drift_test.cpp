@@ -3,6 +3,7 @@
 
 #include "flyball/studies/drift.h"
 
+#include "scratch_folder.h"
 #include "short_delivery.h"
 #include <algorithm>
 
@@ -27,6 +28,23 @@ TEST(Drift, promises_are_counted_from_the_event_on) {
   EXPECT_EQ(count.late, 50U / 4U - 30U / 4U);
   EXPECT_EQ(count_promises(record, after(20.5), 71, 500).decisions, 10U) << "the mission ended";
   EXPECT_EQ(count_promises(record, after(500.0), 1, 9).decisions, 0U);
+}
+
+TEST(Drift, a_damaged_record_is_refused) {
+  const ScratchFolder folder;
+  const auto read = [&folder](const std::string& counts) {
+    static_cast<void>(folder.file("trace.jsonl", "{\"channel\":\"promise\"," + counts + "}\n"));
+    return read_drift_record(folder.path());
+  };
+  ASSERT_TRUE(read("\"t_s\":1.5,\"issued\":7,\"late\":1").ok());
+  for (const char* counts :
+       {"\"t_s\":1e300,\"issued\":7,\"late\":1", "\"t_s\":-1,\"issued\":7,\"late\":1",
+        "\"t_s\":1.5,\"issued\":-7,\"late\":1", "\"t_s\":1.5,\"issued\":7,\"late\":1e30"}) {
+    const auto damaged = read(counts);
+    ASSERT_FALSE(damaged.ok()) << counts;
+    EXPECT_NE(damaged.error().message.find("trace.jsonl\": "), std::string::npos)
+        << damaged.error().message;
+  }
 }
 
 TEST(Drift, every_case_is_settings_of_a_scenario) {

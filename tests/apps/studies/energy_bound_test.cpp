@@ -38,6 +38,16 @@ TEST(EnergyBound, a_payload_costs_on_the_way_out_only) {
   EXPECT_GT(bound->legs[0].energy_j, 1.5 * bound->legs[1].energy_j);  // .197 W a gram by eq. 1.
 }
 
+TEST(EnergyBound, loads_no_policy) {
+  const ScratchFolder scratch;
+  Scenario scenario = over_open_ground(50.0);
+  const auto bound = bound_energy(scenario);
+  scenario.governor.policy = scratch.file("theirs.so", "nothing that could be loaded");
+  const auto theirs = bound_energy(scenario);
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  EXPECT_EQ(theirs->energy_j(), bound->energy_j());
+}
+
 TEST(EnergyBound, where_the_mission_is_slow_a_metre_costs_more) {
   Scenario indoors;
   indoors.world.generator = "outdoor_to_indoor";

@@ -131,6 +131,28 @@ TEST(Replay, does_not_repeat_what_only_the_simulator_knew) {
   EXPECT_FALSE(replay(flight).ok());
 }
 
+TEST(Replay, loads_the_library_of_a_record_only_when_it_is_trusted) {
+  const ScratchFolder folder;
+  RecordedFlight flight = flown_with("fixed_coarse", folder);
+  const std::string library = folder.file("theirs.so", "nothing that could be loaded");
+  const std::string preset = folder.file("theirs.toml", "policy = 'theirs.so'\n");
+  for (const std::string& policy : {library, preset}) {
+    flight.scenario.governor.policy = policy;
+    flight.may_load_library = false;
+    const std::string refusal =
+        "the record's policy is code from library \"" + library +
+        "\", which was not loaded; add --trust if you trust whoever made it";
+    EXPECT_EQ(refusal, replay(flight).error().message);
+    EXPECT_EQ(refusal, explain(flight, MissionTime{}).error().message);
+    EXPECT_TRUE(shadow(flight, "two_level").ok()) << "which does not ask the recorded one";
+    flight.may_load_library = true;
+    for (const std::string& tried :
+         {replay(flight).error().message, explain(flight, MissionTime{}).error().message}) {
+      EXPECT_NE(std::string::npos, tried.find("theirs.so: cannot be loaded")) << tried;
+    }
+  }
+}
+
 TEST(Replay, says_what_a_folder_lacks) {
   const ScratchFolder folder;
   EXPECT_EQ(ErrorCode::not_found, read_flight(folder.path()).error().code);

@@ -14,6 +14,10 @@ namespace flyball {
 /// @error `not_found` with the way out; those of `load_policy`.
 [[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed);
 
+/// The library whose code would run if the policy was chosen, also where a preset or a combination
+/// names it; empty: none. Loads nothing.
+[[nodiscard]] std::string library_of_policy(const std::string& name);
+
 /// One that is ready to decide; also a preset that combines two others (combined_policy.h), whose
 /// application is asked once per `application_period`.
 [[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const std::string& name,

@@ -17,9 +17,12 @@ namespace flyball {
 /// What the record of a run says about its decisions.
 struct RecordedFlight {
   Scenario scenario{};
+  /// Whether the library that the scenario's policy comes from may be loaded. A record may be
+  /// somebody else's, and a library's code runs with the rights of whoever loads it.
+  bool may_load_library{};
   std::string version{};
   Duration period{};  ///< Between two decisions; the first is at 0.
-  MissionTime end{};    ///< Of the last row of the trace.
+  MissionTime end{};  ///< Of the last row of the trace.
   std::uint64_t decisions{};
   /// Members of the observation that changed, by the time of the decision.
   std::map<MissionTime, std::vector<std::pair<std::size_t, double>>> changes{};
@@ -46,11 +49,13 @@ struct ReplayResult {
 
 /// Makes every decision again with the recorded policy and compares wish, answer, reason and step
 /// of the fallback, bit for bit.
-/// @error As `fly`, when the scenario names something that is gone.
+/// @error As `fly`, when the scenario names something that is gone; `invalid_input` where
+///        `may_load_library` is needed.
 [[nodiscard]] Result<ReplayResult> replay(const RecordedFlight& flight);
 
 /// Asks another policy at each recorded decision what it would have done, and compares how the
-/// knobs would stand. It sees what the recorded policy's flight came to, not its own.
+/// knobs would stand. It sees what the recorded policy's flight came to, not its own. The other
+/// policy is the caller's own choice: it may be a library.
 [[nodiscard]] Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& policy);
 
 /// One decision, looked at closely.
@@ -66,7 +71,7 @@ struct Explanation {
 };
 
 /// The last decision not after `at`, and how the policy came to it.
-/// @error `invalid_input` when `at` is not within the flight.
+/// @error `invalid_input` when `at` is not within the flight; those of `replay`.
 [[nodiscard]] Result<Explanation> explain(const RecordedFlight& flight, MissionTime at);
 
 }  // namespace flyball
