@@ -2,13 +2,14 @@
 
 #include "children.h"
 
+#include "console.h"
 #include <array>
 #include <csignal>
 #include <map>
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,10 +36,39 @@ std::string read_and_close(int file) {
   return text;
 }
 
-void take_signals(sigset_t& signals) {
+/// Those that end the missions, unless they are ignored (as under nohup), and the end of one.
+sigset_t awaited_signals() {
+  sigset_t signals{};
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGCHLD);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler != SIG_IGN) {
+      sigaddset(&signals, signal);
+    }
+  }
+  return signals;
+}
+
+/// The rest of a process's life as a mission. Nothing here may ask for memory: this is a copy of a
+/// process that may have had threads.
+[[noreturn]] void become_mission(pid_t parent, int errors, char* const* argv) {
+  // Whatever ends the parent, SIGKILL too, ends the mission.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) {  // It ended before that line.
+    _exit(cannot_start);
+  }
+  // A group of its own: else the terminal's Ctrl-C would reach it beside ours, and two end it at
+  // once.
+  setpgid(0, 0);
+  sigset_t none{};
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  execv("/proc/self/exe", argv);
+  _exit(cannot_start);
 }
 
 /// The process, or -1.
@@ -51,27 +81,16 @@ pid_t start(const std::vector<std::string>& arguments, int errors) {
     argv.push_back(word.data());
   }
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t files{};
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
-  // A group of its own: else the terminal's Ctrl-C would reach it beside ours, and two end it at
-  // once.
-  sigset_t none{};
-  sigemptyset(&none);
-  posix_spawnattr_t ways{};
-  posix_spawnattr_init(&ways);
-  posix_spawnattr_setflags(&ways, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-  posix_spawnattr_setsigmask(&ways, &none);
-  pid_t child = -1;
-  const int failed = posix_spawn(&child, "/proc/self/exe", &files, &ways, argv.data(), environ);
-  posix_spawnattr_destroy(&ways);
-  posix_spawn_file_actions_destroy(&files);
-  return failed == 0 ? child : -1;
+  const pid_t parent = getpid();
+  const pid_t child = fork();  // Not posix_spawn: it cannot tie the child's life to ours.
+  if (child == 0) {
+    become_mission(parent, errors, argv.data());
+  }
+  return child;
 }
 
 int exit_code_of(int status) {
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return WIFSIGNALED(status) ? exit_by_signal + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 /// Tells of every process that has ended by now.
@@ -87,32 +106,35 @@ void collect(Children& running, const std::function<void(const ChildEnd&)>& ende
   }
 }
 
-/// Waits until a process ends or Ctrl-C comes; true for the latter.
-bool wait_for_signal(const sigset_t& signals, const Children& running) {
-  const bool interrupted = sigwaitinfo(&signals, nullptr) == SIGINT;
-  for (const auto& [process, child] : running) {
-    if (interrupted) {
-      kill(process, SIGINT);
-    }
+/// Waits until a process ends or somebody wants all to end: then that signal, which the processes
+/// get, too; else 0.
+int wait_for_signal(const sigset_t& signals, const Children& running) {
+  const int signal = sigwaitinfo(&signals, nullptr);
+  if (signal <= 0 || signal == SIGCHLD) {
+    return 0;
   }
-  return interrupted;
+  for (const auto& [process, child] : running) {
+    kill(process, signal);
+  }
+  return signal;
 }
 
 }  // namespace
 
-bool run_children(const std::vector<std::vector<std::string>>& arguments,
-                  std::size_t jobs,
-                  const std::function<void(const ChildEnd&)>& ended) {
-  sigset_t signals{};
+int run_children(const std::vector<std::vector<std::string>>& arguments,
+                 std::size_t jobs,
+                 const std::function<void(const ChildEnd&)>& ended) {
+  std::signal(SIGCHLD, SIG_DFL);  // Who ignores it, as its caller may have, hears of no end.
+  const sigset_t signals = awaited_signals();
   sigset_t before{};
-  take_signals(signals);
   pthread_sigmask(SIG_BLOCK, &signals, &before);  // They wait for `sigwaitinfo`: none is lost.
   Children running;
   std::size_t next = 0;
-  bool interrupted = false;
-  while (!running.empty() || (next < arguments.size() && !interrupted)) {
-    if (running.size() >= jobs || next >= arguments.size() || interrupted) {
-      interrupted = wait_for_signal(signals, running) || interrupted;
+  int interrupted = 0;
+  while (!running.empty() || (next < arguments.size() && interrupted == 0)) {
+    if (running.size() >= jobs || next >= arguments.size() || interrupted != 0) {
+      const int signal = wait_for_signal(signals, running);
+      interrupted = interrupted == 0 ? signal : interrupted;
       collect(running, ended);
       continue;
     }

@@ -20,13 +20,14 @@ struct ChildEnd {
 };
 
 /// Runs this program once for each list of arguments, `jobs` at a time, in order. Standard output
-/// is thrown away. After Ctrl-C no further one starts and the running ones are told; after another
-/// one they are told again.
+/// is thrown away. After SIGINT (Ctrl-C), SIGTERM or SIGHUP no further one starts and the running
+/// ones get the signal; after another one they get that, too. They do not outlive this process,
+/// however it ends.
 ///
 /// @param ended  Called for each one that ends; in the order of their ends.
-/// @return       Whether it was interrupted.
-bool run_children(const std::vector<std::vector<std::string>>& arguments,
-                  std::size_t jobs,
-                  const std::function<void(const ChildEnd&)>& ended);
+/// @return       The signal that interrupted it; 0: none did.
+int run_children(const std::vector<std::vector<std::string>>& arguments,
+                 std::size_t jobs,
+                 const std::function<void(const ChildEnd&)>& ended);
 
 }  // namespace flyball

@@ -3,7 +3,8 @@
 
 /// @file
 /// One function for each sub-command: adds it to the program. When it is called it leaves its exit
-/// code in `exit_code`: 0 done, 1 a failed mission, 2 bad input, 130 interrupted.
+/// code in `exit_code`: 0 done, 1 a failed mission, 2 bad input, 128 + the signal that interrupted
+/// it.
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;

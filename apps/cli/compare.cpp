@@ -3,6 +3,7 @@
 #include "flyball/records/report.h"
 #include "flyball/studies/comparison.h"
 
+#include "claimed_folder.h"
 #include "commands.h"
 #include "flight_batch.h"
 #include "seed_list.h"
@@ -135,16 +136,16 @@ int compare(const CompareOptions& options) {
   }
   Entries& entries = std::get<Entries>(planned);
   const std::string folder = comparison_folder(options.flight, entries.front().scenario);
-  const auto prepared = prepare_folder(folder);
-  if (!prepared) {
-    return refuse({prepared.error()});
+  const auto claimed = ClaimedFolder::claim(folder);
+  if (!claimed) {
+    return refuse({claimed.error()});
   }
   reuse_finished(entries, folder);
   const Flown flown = fly_missing(entries, options.jobs);
   if (const std::optional<int> code = unfinished(flown)) {
-    if (!flown.interrupted) {
+    if (flown.signal == 0) {
       remove_traces(entries);
-      remove_empty(*prepared);
+      remove_empty(claimed->made());
     }
     return *code;
   }

@@ -14,8 +14,12 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupted = 0;
 
-void remember(int) {
-  interrupted = 1;
+void remember(int signal) {
+  if (interrupted != 0) {  // The second one has its usual effect.
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupted = signal;
 }
 
 }  // namespace
@@ -42,14 +46,23 @@ bool has_watcher() {
 }
 
 void catch_interrupt() {
-  struct sigaction action {};
-  action.sa_handler = remember;
-  action.sa_flags = SA_RESETHAND;  // The second one has its usual effect.
-  sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) {  // As nohup leaves it.
+      action = {};
+      action.sa_handler = remember;
+      sigaction(signal, &action, nullptr);
+    }
+  }
 }
 
 bool was_interrupted() {
   return interrupted != 0;
+}
+
+int interrupted_exit_code() {
+  return exit_by_signal + interrupted;
 }
 
 }  // namespace flyball

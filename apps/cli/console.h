@@ -14,7 +14,7 @@ namespace flyball {
 constexpr int exit_success = 0;
 constexpr int exit_mission_failed = 1;
 constexpr int exit_bad_input = 2;
-constexpr int exit_interrupted = 130;  // 128 + SIGINT, as shells say it.
+constexpr int exit_by_signal = 128;  // And the signal's number, as shells say it.
 
 /// Prints to standard output.
 void print(const std::string& text);
@@ -26,8 +26,11 @@ void note(const std::string& line);
 /// Whether somebody watches standard error: only then progress is shown.
 [[nodiscard]] bool has_watcher();
 
-/// From now on Ctrl-C is only remembered; a second one ends the program at once.
+/// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP are only remembered, unless they are ignored; a
+/// second one ends the program at once.
 void catch_interrupt();
 [[nodiscard]] bool was_interrupted();
+/// 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP.
+[[nodiscard]] int interrupted_exit_code();
 
 }  // namespace flyball

@@ -91,7 +91,7 @@ int detect(DetectOptions& options) {
     print(options.json ? to_json(totals) + "\n" : line_of(totals));
   }
   if (was_interrupted()) {
-    return exit_interrupted;
+    return interrupted_exit_code();
   }
   return totals.unreadable > 0 ? exit_mission_failed : exit_success;
 }

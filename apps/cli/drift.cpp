@@ -5,6 +5,7 @@
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 
+#include "claimed_folder.h"
 #include "commands.h"
 #include "flight_batch.h"
 #include "seed_list.h"
@@ -165,6 +166,11 @@ int drift(const DriftOptions& options) {
     return refuse(*errors);
   }
   const Entries& entries = std::get<Entries>(planned);
+  const auto claimed =
+      ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
+  if (!claimed) {
+    return refuse({claimed.error()});
+  }
   std::vector<const PlannedFlight*> flights;
   for (const Entry& entry : entries) {
     if (!finished_run(entry.folder, entry.scenario)) {

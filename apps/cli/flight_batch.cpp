@@ -12,8 +12,8 @@ namespace {
 
 /// What a process that left no record said, or how it ended.
 Error failure_of(const PlannedFlight& flight, const ChildEnd& end) {
-  const bool by_signal = end.exit_code > 128;
-  std::string why = by_signal ? "ended by signal " + std::to_string(end.exit_code - 128)
+  const bool by_signal = end.exit_code > exit_by_signal;
+  std::string why = by_signal ? "ended by signal " + std::to_string(end.exit_code - exit_by_signal)
                               : "no record, exit code " + std::to_string(end.exit_code);
   if (!end.errors.empty()) {
     why += "; " + end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
@@ -96,7 +96,7 @@ Flown fly_all(const std::vector<const PlannedFlight*>& flights,
     arguments.push_back(flight->arguments);
   }
   Flown flown;
-  flown.interrupted = run_children(arguments, jobs, [&](const ChildEnd& end) {
+  flown.signal = run_children(arguments, jobs, [&](const ChildEnd& end) {
     if (!took(end.index)) {
       add_failure(*flights[end.index], end, flown);
     }
@@ -105,9 +105,9 @@ Flown fly_all(const std::vector<const PlannedFlight*>& flights,
 }
 
 std::optional<int> unfinished(const Flown& flown) {
-  if (flown.interrupted) {
+  if (flown.signal != 0) {
     note("interrupted; the same command goes on from here");
-    return exit_interrupted;
+    return exit_by_signal + flown.signal;
   }
   if (!flown.errors.empty()) {
     (void)refuse(flown.errors);

@@ -36,7 +36,7 @@ struct PlannedFlight {
 [[nodiscard]] std::string name_of(const PlannedFlight& flight);
 
 struct Flown {
-  bool interrupted{};
+  int signal{};  ///< That interrupted it; 0: none.
   int exit_code{exit_success};
   std::vector<Error> errors{};  ///< Of missions that left no record.
 };

@@ -95,7 +95,7 @@ int localize(const LocalizeOptions& options) {
   }
   print(options.as_json ? to_json(*run, options) : to_text(*run, options.uncertain_above_m));
   if (was_interrupted()) {
-    return exit_interrupted;
+    return interrupted_exit_code();
   }
   return run->path.empty() ? exit_mission_failed : exit_success;
 }

@@ -167,7 +167,7 @@ int map_from(MapFromOptions& options) {
   }
   if (was_interrupted()) {
     note("flyball: interrupted; no map is written");
-    return exit_interrupted;
+    return interrupted_exit_code();
   }
   if (const Status written = (*mapper)->write(options.out, std::nullopt); !written) {
     return refuse({written.error()});

@@ -96,7 +96,7 @@ int exit_code_of(const Summary& summary) {
     case MissionStatus::failed:
       return exit_mission_failed;
     case MissionStatus::interrupted:
-      return exit_interrupted;
+      return interrupted_exit_code();
   }
   return exit_mission_failed;
 }
@@ -130,6 +130,9 @@ int run(const RunOptions& options) {
   }
   print(options.flight.json ? to_json(record->summary) + "\n"
                             : result_text(record->summary, folder));
+  if (was_interrupted()) {
+    note("interrupted; the record ends early: " + folder);
+  }
   return exit_code_of(record->summary);
 }
 

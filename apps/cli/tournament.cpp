@@ -6,6 +6,7 @@
 #include "flyball/studies/energy_bound.h"
 #include "flyball/studies/tournament_store.h"
 
+#include "claimed_folder.h"
 #include "commands.h"
 #include "flight_batch.h"
 #include "seed_list.h"
@@ -218,13 +219,13 @@ int hold_tournament(TournamentOptions options) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
-  const auto prepared = prepare_folder(out_folder(options));
-  if (!prepared) {
-    return refuse({prepared.error()});
+  const auto claimed = ClaimedFolder::claim(out_folder(options));
+  if (!claimed) {
+    return refuse({claimed.error()});
   }
   auto store = TournamentStore::open(out_folder(options) + "/tournament.db");
   if (!store) {
-    remove_empty(*prepared);
+    remove_empty(claimed->made());
     return refuse({store.error()});
   }
   return fly_and_show(options, *store, std::get<Entries>(planned));

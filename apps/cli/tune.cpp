@@ -5,6 +5,7 @@
 #include "flyball/studies/tournament_store.h"
 #include "flyball/studies/tuning.h"
 
+#include "claimed_folder.h"
 #include "commands.h"
 #include "flight_batch.h"
 #include "seed_list.h"
@@ -92,7 +93,7 @@ Flown fly_round(Race& race, const std::vector<Heat>& heats) {
     std::filesystem::remove_all(flight.folder, ignored);
     return true;
   });
-  if (!flown.interrupted && flown.errors.empty()) {
+  if (flown.signal == 0 && flown.errors.empty()) {
     for (const Heat& heat : heats) {
       race.candidates[heat.candidate].flights.push_back(*race.store.find(heat.scenario));
     }
@@ -203,9 +204,9 @@ int tune(const TuneOptions& options) {
     tried.push_back(std::move(*parameter));
   }
   const std::string folder = out_folder(options);
-  const auto prepared = prepare_folder(folder);
-  if (!prepared) {
-    return refuse({prepared.error()});
+  const auto claimed = ClaimedFolder::claim(folder);
+  if (!claimed) {
+    return refuse({claimed.error()});
   }
   auto store = TournamentStore::open(folder + "/tune.db");
   if (!store) {

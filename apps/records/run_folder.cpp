@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace flyball {
 namespace {
 
@@ -142,7 +144,8 @@ void remove_empty(const std::vector<std::string>& folders) {
 }
 
 Status write_file(const std::string& path, const std::string& content) {
-  const std::string temporary = path + ".part";
+  // Of this process: two that write one file must not take each other's half.
+  const std::string temporary = path + "." + std::to_string(getpid()) + ".part";
   std::error_code failed;
   std::ofstream file{temporary, std::ios::binary | std::ios::trunc};
   file << content;

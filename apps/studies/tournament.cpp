@@ -65,7 +65,6 @@ Json json_of(const WorldResult& world) {
     Json& row = json["rows"][i];
     row["overrun_percent"] = json_of(world.decisions[i].overrun_percent);
     row["budget_use"] = json_of(world.decisions[i].budget_use);
-    row["decision_us"] = json_of(world.decisions[i].decision_us);
     if (world.decisions[i].over_bound) {
       row["energy_over_bound"] = json_of(world.decisions[i].over_bound);
     }
@@ -118,8 +117,7 @@ std::string differences_text(const std::string& head,
 std::string decisions_text(const WorldResult& world) {
   const bool has_bound = world.has_bound();
   const bool has_heat = world.has_heat();
-  std::vector<std::vector<std::string>> lines{
-      {"decisions", "late maps %", "budget use", "99 % within us"}};
+  std::vector<std::vector<std::string>> lines{{"decisions", "late maps %", "budget use"}};
   if (has_bound) {
     lines.front().emplace_back("energy / bound");
   }
@@ -127,8 +125,7 @@ std::string decisions_text(const WorldResult& world) {
     lines.front().emplace_back("throttled");
   }
   for (const DecisionFigures& d : world.decisions) {
-    lines.push_back({d.policy, figure(d.overrun_percent, 1.0, 2), figure(d.budget_use, 1.0, 2),
-                     figure(d.decision_us, 1.0, 1)});
+    lines.push_back({d.policy, figure(d.overrun_percent, 1.0, 2), figure(d.budget_use, 1.0, 2)});
     if (has_bound) {
       lines.back().push_back(figure(d.over_bound, 1.0, 2));
     }

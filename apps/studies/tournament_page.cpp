@@ -98,14 +98,13 @@ std::string decisions_html(const WorldResult& world) {
   std::string table =
       "<h3>Decisions</h3><div class=\"table\"><table><tr><th>policy</th><th>maps later than "
       "bounded %</th><th>budget "
-      "use</th><th>99 % within us, on the host</th>";
+      "use</th>";
   const bool has_heat = world.has_heat();
   table += has_bound ? "<th>energy over its bound</th>" : "";
   table += has_heat ? "<th>times throttled</th></tr>\n" : "</tr>\n";
   for (const DecisionFigures& d : world.decisions) {
     table += "<tr><td>" + html_text(d.policy) + "</td>" + cell(d.overrun_percent, 1.0, 2) +
-             cell(d.budget_use, 1.0, 2) + cell(d.decision_us, 1.0, 1) +
-             (has_bound ? cell(d.over_bound, 1.0, 2) : "") +
+             cell(d.budget_use, 1.0, 2) + (has_bound ? cell(d.over_bound, 1.0, 2) : "") +
              (has_heat ? "<td>" + (d.throttle_events ? std::to_string(*d.throttle_events) : "-") +
                              "</td>"
                        : "") +

@@ -4,6 +4,9 @@
 
 #include "made_flights.h"
 #include "scratch_folder.h"
+#include <atomic>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +60,33 @@ TEST(TournamentStore, puts_a_newer_flight_in_an_older_ones_place) {
   ASSERT_TRUE(store.add(scenario, made_summary("fixed_fine", 3)));
   ASSERT_TRUE(store.add(scenario, newer));
   EXPECT_EQ(store.find(scenario)->mission_time_s, 7.0);
+}
+
+TEST(TournamentStore, waits_for_others_that_write_at_the_same_time) {
+  const ScratchFolder folder;
+  constexpr std::uint64_t each = 40;
+  std::vector<std::thread> writers;
+  std::atomic<int> refused{0};
+  for (std::uint64_t writer = 0; writer < 4; ++writer) {
+    writers.emplace_back([&, writer] {
+      for (std::uint64_t i = 0; i < each; ++i) {
+        auto store = TournamentStore::open(folder.path("t.db"));  // As a process of its own would.
+        const std::uint64_t seed = 1 + writer * each + i;
+        refused +=
+            store && store->add(scenario_of("fixed_fine", seed), made_summary("fixed_fine", seed))
+                ? 0
+                : 1;
+      }
+    });
+  }
+  for (std::thread& writer : writers) {
+    writer.join();
+  }
+  EXPECT_EQ(refused, 0);
+  const TournamentStore store = opened(folder.path("t.db"));
+  for (std::uint64_t seed = 1; seed <= 4 * each; ++seed) {
+    EXPECT_TRUE(store.find(scenario_of("fixed_fine", seed))) << seed;
+  }
 }
 
 TEST(TournamentStore, says_what_is_wrong_with_a_file) {

@@ -127,6 +127,24 @@ TEST(Tournament, counts_how_often_heat_took_clocks_away_where_it_is_known) {
   EXPECT_EQ(to_text(tournament_of(flights)).find("throttled"), std::string::npos);
 }
 
+TEST(Tournament, prints_nothing_that_depends_on_the_hosts_speed) {
+  std::vector<Summary> slow = two_worlds();
+  for (Summary& flight : slow) {
+    flight.host_s *= 10.0;
+    flight.real_time_factor /= 10.0;
+    flight.decision_host_us_p50 *= 10.0;
+    flight.decision_host_us_p99 *= 10.0;
+    for (auto& [name, kernel] : flight.kernels) {
+      kernel.host_ms_mean *= 10.0;
+    }
+  }
+  EXPECT_EQ(to_text(tournament_of(slow)), to_text(tournament_of(two_worlds())));
+  EXPECT_EQ(to_json(tournament_of(slow)), to_json(tournament_of(two_worlds())));
+  const auto tables = [](const std::string& page) { return page.substr(0, page.find("<svg")); };
+  EXPECT_EQ(tables(tournament_page("T", tournament_of(slow))),
+            tables(tournament_page("T", tournament_of(two_worlds()))));
+}
+
 TEST(Tournament, prints_an_object_for_each_world_in_the_shape_of_a_comparison) {
   const auto json = nlohmann::json::parse(to_json(tournament_of(two_worlds())));
   ASSERT_EQ(json.size(), 2U);

@@ -43,9 +43,10 @@ struct DecisionFigures {
   std::string policy;
   std::optional<MedianInterval> overrun_percent{};  ///< Maps later than their bound.
   std::optional<MedianInterval> budget_use{};       ///< Latency over its bound.
-  std::optional<MedianInterval> decision_us{};      ///< 99th percentile, on the host.
-  std::optional<MedianInterval> over_bound{};       ///< Energy over what any flight takes at least.
-  std::optional<std::uint64_t> throttle_events{};   ///< In all; empty: its heat is not known.
+  /// 99th percentile, on the host: in the page only, since tables are the same wherever one flies.
+  std::optional<MedianInterval> decision_us{};
+  std::optional<MedianInterval> over_bound{};      ///< Energy over what any flight takes at least.
+  std::optional<std::uint64_t> throttle_events{};  ///< In all; empty: its heat is not known.
 };
 
 /// The promises that a policy made at one level of map resolution, in all its flights.
