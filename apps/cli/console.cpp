@@ -2,9 +2,13 @@
 
 #include "console.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace flyball {
@@ -13,6 +17,10 @@ namespace {
 // A signal handler has nowhere else to leave its word.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupted = 0;
+
+// Of the first result that could not be written; 0: all could.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+int output_error = 0;
 
 void remember(int signal) {
   if (interrupted != 0) {  // The second one has its usual effect.
@@ -25,8 +33,33 @@ void remember(int signal) {
 }  // namespace
 
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+  const bool is_written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!is_written && output_error == 0) {
+    output_error = errno;
+  }
+}
+
+int exit_code_with_output(int exit_code) {
+  if (output_error == 0) {
+    return exit_code;
+  }
+  note(std::string{"flyball: cannot write the result to standard output: "} +
+       std::strerror(output_error) +  // NOLINT(concurrency-mt-unsafe): one thread prints
+       "; send it to another place");
+  return std::max(exit_code, exit_bad_input);
+}
+
+void open_standard_files() {
+  for (int file = open("/dev/null", O_RDWR); file >= 0; file = open("/dev/null", O_RDWR)) {
+    if (file > STDERR_FILENO) {
+      close(file);
+      return;
+    }
+    if (file == STDOUT_FILENO) {  // Results that nobody can read are not written.
+      output_error = EBADF;
+    }
+  }
 }
 
 void note(const std::string& line) {

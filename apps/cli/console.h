@@ -18,6 +18,12 @@ constexpr int exit_by_signal = 128;  // And the signal's number, as shells say i
 
 /// Prints to standard output.
 void print(const std::string& text);
+/// With what the program ends: `exit_bad_input` at least, and a sentence, where a result could not
+/// be written.
+[[nodiscard]] int exit_code_with_output(int exit_code);
+/// Before anything else is opened: where the caller closed standard output or another one, the next
+/// file that is opened would get its number, and results would go into that.
+void open_standard_files();
 /// Prints one line to standard error.
 void note(const std::string& line);
 /// Prints each error as one line; returns `exit_bad_input`.

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "console.h"
 #include <exception>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -11,7 +12,6 @@ namespace {
 int parse_and_run(int argc, char** argv) {
   CLI::App program{
       "Flies simulated missions of micro aerial vehicles and compares governor policies."};
-  program.require_subcommand(1);
   int exit_code = flyball::exit_success;
   flyball::add_run(program, exit_code);
   flyball::add_compare(program, exit_code);
@@ -34,9 +34,15 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_version(program, exit_code);
   try {
     program.parse(argc, argv);
+    if (program.get_subcommands().empty()) {
+      flyball::print(program.help());
+    }
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help
-      return program.exit(error);
+      std::ostringstream help;
+      program.exit(error, help, help);
+      flyball::print(help.str());
+      return flyball::exit_success;
     }
     flyball::note(std::string{"flyball: "} + error.what() + "; try: flyball --help");
     return flyball::exit_bad_input;
@@ -47,8 +53,9 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  flyball::open_standard_files();
   try {
-    return parse_and_run(argc, argv);
+    return flyball::exit_code_with_output(parse_and_run(argc, argv));
   } catch (const std::exception& error) {  // Out of memory, or a third-party library's surprise.
     flyball::note(std::string{"flyball: "} + error.what());
     return flyball::exit_mission_failed;

@@ -34,6 +34,26 @@ TEST(CliFlights, a_run_leaves_its_record_and_its_summary) {
   }
 }
 
+TEST(CliFlights, a_result_that_cannot_be_printed_is_told_and_leaves_its_record) {
+  const FlyballProgram flyball;
+  const std::string policies = "--policies fixed_fine,fixed_coarse --jobs 1 ";
+  for (const std::string& command :
+       {std::string{"run "} + short_flight + "--out r",
+        std::string{"run "} + short_flight + "--json",
+        std::string{"compare "} + short_flight + policies + "--out c",
+        std::string{"compare "} + short_flight + policies + "--out c --json",
+        std::string{"replay r"}, std::string{"replay r --policy fixed_coarse"},
+        std::string{"explain r --at 3"}}) {
+    const auto full = flyball.run_into("> /dev/full", command);
+    EXPECT_EQ(full.exit_code, 2) << command;
+    EXPECT_NE(full.errors.find("standard output: No space left on device"), std::string::npos)
+        << command << "\n"
+        << full.errors;
+  }
+  EXPECT_TRUE(fs::exists(flyball.place.path("r/mission.toml")));
+  EXPECT_TRUE(fs::exists(flyball.place.path("c/report.html")));
+}
+
 TEST(CliFlights, a_failed_mission_is_a_result) {
   const FlyballProgram flyball;
   const auto outcome =

@@ -102,7 +102,6 @@ TEST_F(Cli, refuses_a_world_that_cannot_be_made) {
 }
 
 TEST_F(Cli, refuses_what_is_no_command) {
-  expect_refused("", "try: flyball --help");
   expect_refused("fly delivery_forest", "try: flyball --help");
   expect_refused("run", "SCENARIO");
   expect_refused("run delivery_forest --fast", "--fast");
@@ -146,6 +145,36 @@ TEST_F(Cli, prints_a_workload_as_text_and_for_graphviz) {
   EXPECT_NE(text.output, "");
   const FlyballProgram::Outcome dot = flyball.run("graph package_delivery --format dot");
   EXPECT_EQ(dot.output.rfind("digraph", 0), 0U) << dot.output;
+}
+
+TEST_F(Cli, lists_its_commands_when_it_is_given_none) {
+  const FlyballProgram::Outcome outcome = flyball.run("");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.errors, "");
+  for (const char* command :
+       {"run", "compare", "tournament", "tune", "drift", "bound", "list", "graph", "config",
+        "policy", "replay", "explain", "map", "detect", "models", "fit", "localize", "version"}) {
+    EXPECT_NE(outcome.output.find(std::string{"\n  "} + command + " "), std::string::npos)
+        << command << " is not in\n"
+        << outcome.output;
+  }
+}
+
+TEST_F(Cli, says_when_its_output_cannot_be_written) {
+  for (const char* command :
+       {"", "--help", "run --help", "version", "list scenarios", "list workloads", "list kernels",
+        "list policies", "list platforms", "list worlds", "list airframes", "list knobs",
+        "graph package_delivery", "config delivery_forest", "policy check two_level", "models",
+        "bound delivery_open"}) {
+    const FlyballProgram::Outcome full = flyball.run_into("> /dev/full", command);
+    EXPECT_EQ(full.exit_code, 2) << command;
+    EXPECT_EQ(full.errors,
+              "flyball: cannot write the result to standard output: No space left on device; send "
+              "it to another place\n")
+        << command;
+    EXPECT_EQ(flyball.run_into(">&-", command).exit_code, 2) << command;
+  }
+  EXPECT_TRUE(flyball.place.is_empty());
 }
 
 TEST_F(Cli, prints_its_version_and_help) {
