@@ -3,6 +3,7 @@
 #include "flyball/scenario/files.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -17,12 +18,37 @@ bool looks_like_path(const std::string& kind, const std::string& text) {
   return text.find('/') != std::string::npos || ending == ".toml" || is_program;
 }
 
+/// Those that may hold what is shipped, in the order in which they are asked.
+std::vector<fs::path> data_folders() {
+  // Read before any thread is started.
+  const char* given = std::getenv("FLYBALL_DATA");  // NOLINT(concurrency-mt-unsafe)
+  if (given != nullptr && *given != '\0') {
+    return {fs::path{given}};  // Whoever names one does not want another.
+  }
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  return {program.parent_path().parent_path() / "share" / "flyball", fs::path{FLYBALL_DATA_FOLDER}};
+}
+
+/// Why nothing that is shipped can be found by its name.
+Error no_data(const std::string& thing, const std::string& name, const std::string& folder) {
+  return {ErrorCode::not_found, "no " + thing + " \"" + name + "\", because there is no folder \"" +
+                                    folder +
+                                    "\"; set FLYBALL_DATA to the folder share/flyball of the "
+                                    "install, or of the build"};
+}
+
 }  // namespace
 
 std::string share_folder(const std::string& kind) {
   std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  return (program.parent_path().parent_path() / "share" / "flyball" / kind).string();
+  const std::vector<fs::path> folders = data_folders();
+  for (const fs::path& folder : folders) {
+    if (fs::is_directory(folder / kind, failed)) {
+      return (folder / kind).string();
+    }
+  }
+  return (folders.front() / kind).string();
 }
 
 std::vector<std::string> shipped(const std::string& kind) {
@@ -51,6 +77,10 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
       kind == "presets";  // People choose a policy; that it has a preset is ours.
   const std::string thing = is_preset ? "policy" : kind.substr(0, kind.size() - 1);
   const std::string list = is_preset ? "policies" : kind;
+  if (const std::string folder = share_folder(kind);
+      !is_path && !fs::is_directory(folder, failed)) {
+    return no_data(thing, name_or_path, folder);
+  }
   const std::string endings = is_preset ? ".toml, .lua or .so" : ".toml";
   return Error{ErrorCode::not_found,
                is_path ? "no file \"" + name_or_path + "\" to read the " + thing +

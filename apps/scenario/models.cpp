@@ -48,7 +48,11 @@ Result<std::vector<KnownModel>> known_models() {
   try {
     const toml::table list = toml::parse_file(list_path());
     std::vector<KnownModel> models;
-    for (const toml::node& node : *list.at("model").as_array()) {
+    const toml::array* entries = list.at("model").as_array();
+    if (entries == nullptr || !entries->is_homogeneous<toml::table>()) {
+      throw std::out_of_range{"model is no array of tables"};
+    }
+    for (const toml::node& node : *entries) {
       const toml::table& entry = *node.as_table();
       models.push_back({entry.at("file").value<std::string>().value(),
                         static_cast<std::uint64_t>(entry.at("bytes").value<std::int64_t>().value()),

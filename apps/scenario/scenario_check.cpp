@@ -69,10 +69,9 @@ std::vector<NamedThing> files_of(const Scenario& scenario) {
   };
 }
 
-/// The kinds of `find_shipped` for `files_of`, where a path to a file is as good as a name.
-bool is_file(const NamedThing& wanted) {
-  const std::string kind = wanted.list == "policies" ? "presets" : wanted.list;
-  return find_shipped(kind, wanted.name).ok();
+/// With the kinds of `find_shipped` for `files_of`: a path to a file is as good as a name.
+Result<std::string> file_of(const NamedThing& wanted) {
+  return find_shipped(wanted.list == "policies" ? "presets" : wanted.list, wanted.name);
 }
 
 std::string list_of(const std::vector<double>& numbers) {
@@ -168,8 +167,9 @@ std::vector<Error> check_names(const Scenario& scenario, const GivenValues& give
     }
   }
   for (const NamedThing& thing : files_of(scenario)) {
-    if (!is_known(thing) && !is_file(thing)) {
-      errors.push_back(unknown(thing, given));
+    if (const auto file = file_of(thing); !is_known(thing) && !file) {
+      // Where nothing is shipped at all, the place is what is wrong, not the name.
+      errors.push_back(thing.known.empty() ? file.error() : unknown(thing, given));
     }
   }
   for (Error& error : check_operating_point(scenario, given)) {

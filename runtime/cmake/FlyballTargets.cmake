@@ -16,16 +16,30 @@ function(flyball_quick_to_compile target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
 endfunction()
 
+# A program that stands elsewhere finds share/flyball and lib/flyball here: where they are installed,
+# or in the build tree of whoever took this project as a part of his own.
+if(PROJECT_IS_TOP_LEVEL)
+  set(FLYBALL_RUN_PREFIX ${CMAKE_INSTALL_PREFIX})
+else()
+  set(FLYBALL_RUN_PREFIX ${PROJECT_BINARY_DIR})
+endif()
+
 # flyball_data(<name> <folder>): the program finds it in ../share/flyball/<name>, seen from its own
 # folder, in the build tree and installed.
 function(flyball_data name folder)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/flyball)
   file(CREATE_LINK ${folder} ${PROJECT_BINARY_DIR}/share/flyball/${name} SYMBOLIC)
-  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/flyball/${name})
+  install(DIRECTORY ${folder}/ DESTINATION share/flyball/${name})
+endfunction()
+
+# flyball_needs(<component> <line>): what an installed Flyball has to do before the component's target
+# can be used: `find_dependency(Eigen3)`.
+function(flyball_needs component line)
+  set_property(GLOBAL APPEND PROPERTY FLYBALL_NEEDS_${component} "${line}")
 endfunction()
 
 # flyball_module(<name> SOURCES ... [INCLUDES <folders>] [PUBLIC <targets>] [PRIVATE <targets>])
-#   One folder, one target: flyball_<name>, alias flyball::<name>.
+#   One folder, one target: flyball_<name>, alias flyball::<name>; installed, a component <name>.
 #   Public headers are exactly the files under <folder>/include/, or under the folders named.
 function(flyball_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;INCLUDES;PUBLIC;PRIVATE" ${ARGN})
@@ -44,7 +58,12 @@ function(flyball_module name)
     POSITION_INDEPENDENT_CODE ON)
   flyball_compile_options(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  install(TARGETS ${target} EXPORT FlyballTargets FILE_SET HEADERS)
+  install(TARGETS ${target} EXPORT Flyball_${name} FILE_SET HEADERS)
+  set(uses ${arg_PUBLIC})
+  list(FILTER uses INCLUDE REGEX "^flyball::")
+  list(TRANSFORM uses REPLACE "^flyball::" "")
+  set_property(GLOBAL APPEND PROPERTY FLYBALL_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY FLYBALL_USES_${name} "${uses}")
 endfunction()
 
 # flyball_loaded_module(<name> SOURCES ... LINKS <libraries>)
@@ -86,7 +105,8 @@ function(flyball_plugins target table)
         continue()
       endif()
       list(JOIN package " " package)
-      set_property(GLOBAL APPEND PROPERTY FLYBALL_DEPENDENCIES "find_dependency(${package})")
+      string(REPLACE "flyball_" "" component ${target})
+      flyball_needs(${component} "find_dependency(${package})")
     endif()
     target_sources(${target} PRIVATE ${file})
     target_link_libraries(${target} PRIVATE ${links})
@@ -106,15 +126,35 @@ void @table@([[maybe_unused]] Registry& registry) {
   target_sources(${target} PRIVATE ${out})
 endfunction()
 
+# The part of the package file that finds one component: its dependencies on this machine, its target.
+function(flyball_component_block component block)
+  get_property(needs GLOBAL PROPERTY FLYBALL_NEEDS_${component})
+  list(REMOVE_DUPLICATES needs)
+  list(JOIN needs "\n  " needs)
+  set(${block} "if(\"${component}\" IN_LIST _flyball_wanted)
+  ${needs}
+  include(\${CMAKE_CURRENT_LIST_DIR}/FlyballTargets_${component}.cmake)
+  set(Flyball_${component}_FOUND TRUE)
+endif()\n" PARENT_SCOPE)
+endfunction()
+
 function(flyball_install_package)
   include(CMakePackageConfigHelpers)
   set(dir ${CMAKE_INSTALL_LIBDIR}/cmake/Flyball)
-  get_property(dependencies GLOBAL PROPERTY FLYBALL_DEPENDENCIES)
-  list(REMOVE_DUPLICATES dependencies)
-  list(JOIN dependencies "\n" FLYBALL_DEPENDENCIES)
+  get_property(components GLOBAL PROPERTY FLYBALL_COMPONENTS)  # From the lowest layer up.
+  set(FLYBALL_USES "")
+  set(FLYBALL_BLOCKS "")
+  foreach(component IN LISTS components)
+    get_property(uses GLOBAL PROPERTY FLYBALL_USES_${component})
+    string(APPEND FLYBALL_USES "set(_flyball_uses_${component} ${uses})\n")
+    flyball_component_block(${component} block)
+    string(APPEND FLYBALL_BLOCKS "${block}")
+    install(EXPORT Flyball_${component} NAMESPACE flyball:: FILE FlyballTargets_${component}.cmake
+            DESTINATION ${dir})
+  endforeach()
+  list(JOIN components " " FLYBALL_COMPONENTS)
   configure_package_config_file(runtime/cmake/FlyballConfig.cmake.in FlyballConfig.cmake INSTALL_DESTINATION ${dir})
   write_basic_package_version_file(FlyballConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-  install(EXPORT FlyballTargets NAMESPACE flyball:: DESTINATION ${dir})
   install(FILES ${PROJECT_BINARY_DIR}/FlyballConfig.cmake ${PROJECT_BINARY_DIR}/FlyballConfigVersion.cmake DESTINATION ${dir})
   if(FLYBALL_BUILD_SIM)
     install(FILES runtime/cmake/FlyballOmpl.cmake DESTINATION ${dir})

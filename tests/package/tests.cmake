@@ -7,6 +7,7 @@ set(consumer_settings
   -D compiler=${CMAKE_CXX_COMPILER}
   -D launcher=${CMAKE_CXX_COMPILER_LAUNCHER}
   -D type=${CMAKE_BUILD_TYPE}
+  -D install_prefix=${CMAKE_INSTALL_PREFIX}
   -D sim=${FLYBALL_BUILD_SIM})
 foreach(way find_package add_subdirectory)
   add_test(NAME package.${way} COMMAND ${CMAKE_COMMAND} ${consumer_settings} -D way=${way}

@@ -2,8 +2,11 @@
 
 #include "flyball/scenario/files.h"
 
+#include "flyball/scenario/scenario.h"
+
 #include "scratch_folder.h"
 #include <algorithm>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +38,44 @@ TEST(Files, what_is_missing_is_named_with_the_way_out) {
   EXPECT_EQ(find_shipped("scenarios", "./abacus.toml").error().code, ErrorCode::not_found);
   EXPECT_FALSE(find_shipped("scenarios", "").ok());
   EXPECT_FALSE(find_shipped("scenarios", "./").ok()) << "a folder is no file";
+}
+
+/// The environment of one test.
+struct GivenData {
+  explicit GivenData(const std::string& folder) { setenv("FLYBALL_DATA", folder.c_str(), 1); }
+  GivenData(const GivenData&) = delete;
+  GivenData& operator=(const GivenData&) = delete;
+  ~GivenData() { unsetenv("FLYBALL_DATA"); }
+};
+
+TEST(Files, are_those_of_the_folder_that_the_environment_names_and_no_others) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch.path("scenarios"));
+  const std::string mine = scratch.file("scenarios/mine.toml", "");
+  {
+    const GivenData given{scratch.path()};
+    EXPECT_EQ(shipped("scenarios"), std::vector<std::string>{"mine"});
+    EXPECT_TRUE(find_shipped("scenarios", "mine").ok());
+    EXPECT_EQ(find_shipped("scenarios", "delivery_open").error().message,
+              "no scenario \"delivery_open\"; try: flyball list scenarios");
+  }
+  {
+    const GivenData empty{""};
+    EXPECT_TRUE(find_shipped("scenarios", "delivery_open").ok()) << "nothing is named";
+  }
+}
+
+TEST(Files, that_cannot_be_there_are_named_with_the_folder_and_the_way_out) {
+  const ScratchFolder scratch;
+  const GivenData given{scratch.path("nowhere")};
+  EXPECT_EQ(find_shipped("scenarios", "delivery_open").error().message,
+            "no scenario \"delivery_open\", because there is no folder \"" +
+                scratch.path("nowhere/scenarios") +
+                "\"; set FLYBALL_DATA to the folder share/flyball of the install, or of the build");
+  const auto loaded = load_scenario(scratch.file("mine.toml", ""), {});
+  ASSERT_TRUE(std::holds_alternative<std::vector<Error>>(loaded));
+  EXPECT_NE(std::get<std::vector<Error>>(loaded).front().message.find("set FLYBALL_DATA"),
+            std::string::npos);
 }
 
 TEST(Files, a_kind_that_is_not_shipped_is_empty) {

@@ -12,7 +12,8 @@
 namespace flyball {
 
 /// `kind` is a folder of the share directory: `scenarios`, `presets`, `airframes`, `platforms`,
-/// `viewer`. Looked for in ../share/flyball beside the program's own folder.
+/// `viewer`. Looked for in the folder that the environment variable FLYBALL_DATA names; without it
+/// in ../share/flyball beside the program's own folder, then where this library was installed.
 [[nodiscard]] std::string share_folder(const std::string& kind);
 /// Stems of the .toml files of a kind, sorted.
 [[nodiscard]] std::vector<std::string> shipped(const std::string& kind);
