@@ -11,8 +11,9 @@
 
 namespace flyball {
 
-/// The first line describes the mission; every other one is a row: `t_s`, `channel`, its fields.
-/// Numbers have 17 digits, so that they read back to the same bits; one that is not finite is null.
+/// The first line describes the mission. Every other line is a row with `t_s`, `channel` and its
+/// fields. Numbers have 17 digits, so that they read back to the same bits; a number that is not
+/// finite is null.
 [[nodiscard]] std::string trace_lines(const Scenario& scenario, const MemoryRecorder& trace);
 
 }  // namespace flyball

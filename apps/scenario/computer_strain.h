@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the events of a scenario come to for the computer at one moment.
+/// How the events of a scenario strain the computer at one moment.
 
 #include "flyball/runtime/drifting_platform.h"
 #include "flyball/scenario/scenario.h"
@@ -21,12 +21,12 @@ namespace flyball {
 [[nodiscard]] std::optional<MissionTime> end_of(const ComputerEvent& event);
 [[nodiscard]] bool is_active(const ComputerEvent& event, MissionTime now);
 
-/// Slowdowns of one kernel multiply; co-runners add up, and what they leave of the memory's
-/// bandwidth multiplies. A kernel waits for memory in inverse proportion to the bandwidth that is
-/// left to it. Without a cap on the clock.
+/// The strain at a time, without a cap on the clock. Slowdowns of one kernel multiply. Co-runners
+/// add up, and the shares of memory bandwidth that they leave multiply. A kernel waits for memory
+/// in inverse proportion to the bandwidth that is left to it.
 [[nodiscard]] Strain strain_at(const std::vector<ComputerEvent>& events, MissionTime now);
 
-/// What of them the platform cannot do, one sentence each.
+/// The events that the platform cannot represent, one sentence each.
 [[nodiscard]] std::vector<Error> impossible_events(const std::vector<ComputerEvent>& events,
                                                    const PlatformModel& platform);
 

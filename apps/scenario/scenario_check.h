@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Whether the things that a scenario names exist.
+/// Checks that everything a scenario names exists.
 
 #include "scenario/scenario_reader.h"
 #include <vector>

@@ -13,13 +13,13 @@ namespace flyball {
 /// Whether `key` belongs to an event (`events.1.at_s`), known or not: `read_events` judges it.
 [[nodiscard]] bool is_event_key(const std::string& key);
 
-/// Takes what was given into `scenario.events`, and looks whether the platform can do it.
+/// Reads the given values into `scenario.events` and checks that the platform can represent them.
 ///
-/// @return  Unknown kinds and keys, what is missing, wrong kinds and bounds, kernels without a
-///          price, co-runners that leave no core, heat where nothing is known of it.
+/// @return  Errors: unknown kinds and keys, missing keys, wrong types and bounds, kernels without a
+///          price, co-runners that leave no core, cooling for a platform without a thermal model.
 [[nodiscard]] std::vector<Error> read_events(Scenario& scenario, const GivenValues& given);
 
-/// Without their origins.
+/// The entries for `flyball config`, without their origins.
 [[nodiscard]] std::vector<ConfigEntry> event_entries(const Scenario& scenario);
 /// As `[[events]]` tables; empty without events.
 [[nodiscard]] std::string events_toml(const Scenario& scenario);

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// The one table of what a scenario holds. Reading, `--set`, checking, printing and writing all go
-/// through it, so that a new setting is one new line.
+/// The one table of all settings of a scenario. Reading, `--set`, checking, printing and writing
+/// all go through it, so that a new setting is one new line.
 
 #include "flyball/scenario/scenario.h"
 
@@ -34,20 +34,20 @@ struct ScenarioField {
 /// generator.
 [[nodiscard]] std::vector<ScenarioField> scenario_fields();
 
-/// What somebody wrote for a key, and where.
+/// The value that was given for a key, and where it was given.
 struct GivenValue {
   std::variant<double, std::int64_t, bool, std::string> value;
   std::string origin;  ///< `mine.toml:12` or `--set`.
   std::string text;    ///< As written, for messages and for texts given by `--set`.
 };
 
-/// Sets the field. Says what is wrong (wrong kind, out of range), in one sentence, when it cannot.
+/// Sets the field. Returns one sentence when the value has the wrong type or is out of range.
 [[nodiscard]] std::optional<Error> assign(Scenario& scenario,
                                           const ScenarioField& field,
                                           const GivenValue& given);
-/// A number that may stand for a real: integers do too. Empty when it is none or not finite.
+/// The value as a real number; integers count, too. Empty when it is not a finite number.
 [[nodiscard]] std::optional<double> as_number(const GivenValue& given);
-/// A text that is not empty; on the command line `--set name=079` is one too.
+/// The value as a text that is not empty; `--set name=079` on the command line is a text, too.
 [[nodiscard]] std::optional<std::string> as_text(const GivenValue& given);
 
 /// The field's value as TOML writes it.

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Keys with units in their names: which unit a key is in, and which key somebody meant.
+/// Keys with units in their names: finds the unit of a key, and the key that was probably meant.
 
 #include <string>
 #include <vector>
@@ -16,13 +16,14 @@ struct KeyParts {
 };
 [[nodiscard]] KeyParts parts_of(const std::string& key);
 
-/// What to say about a key that nobody knows: the right unit, the nearest key, or nothing.
+/// The hint for an unknown key: the right unit, the nearest key, or nothing.
 ///
 /// @return  A clause such as `did you mean map.range_m?`; empty when no key is near.
 [[nodiscard]] std::string suggest_key(const std::string& unknown,
                                       const std::vector<std::string>& known);
 
-/// The name with the fewest edits (Levenshtein); empty when every one differs by over a third.
+/// The name with the fewest edits (Levenshtein); empty when every name differs by more than a
+/// third.
 [[nodiscard]] std::string nearest_name(const std::string& wanted,
                                        const std::vector<std::string>& names);
 

@@ -22,29 +22,29 @@ struct ParameterGroup {
   std::string selector;  ///< The key that names the plug-in: `world.generator`.
   std::string prefix;    ///< `world.`
   std::string owner;     ///< For messages: `world "forest"`.
-  bool exists{};         ///< False: of a plug-in that does not exist nobody knows the parameters.
+  bool exists{};         ///< False when there is no such plug-in, so its parameters are unknown.
   std::vector<ParameterSpec> specs{};
 };
 
 [[nodiscard]] std::vector<ParameterGroup> parameter_groups(const Scenario& scenario);
-/// Where a group's values are kept.
+/// The values of a group inside the scenario.
 [[nodiscard]] ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group);
 [[nodiscard]] const ParameterValues& values_of(const Scenario& scenario,
                                                const ParameterGroup& group);
 
-/// Takes what was given; unknown names are left to the caller. On success the groups' values are
-/// in `scenario`, every one of them.
+/// Reads the given values; unknown names are left to the caller. On success `scenario` holds every
+/// value of every group.
 ///
-/// @return  Wrong kinds and bounds.
+/// @return  Errors: wrong types and bounds.
 [[nodiscard]] std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given);
 
-/// One error of many, a line for each. @pre There is one.
+/// Joins errors into one, with a line for each. @pre There is at least one.
 [[nodiscard]] Error joined(const std::vector<Error>& errors);
 /// `no policy "slow"; try: flyball list policies`
 [[nodiscard]] Error unknown(const std::string& what,
                             const std::string& name,
                             const std::string& list);
-/// A plug-in's parameters, checked; what is wrong with them comes in one error.
+/// Checks the parameters of a plug-in; all mistakes come in one error.
 [[nodiscard]] Result<Parameters> resolved(const std::string& owner,
                                           const std::vector<ParameterSpec>& specs,
                                           const ParameterValues& given);

@@ -20,9 +20,9 @@ struct TrajectoryError {
   double path_m{};  ///< Length of the true path between the first and the last pair.
 };
 
-/// Pairs each estimate with the true pose nearest in time, at most .02 s away, moves the estimated
-/// path by the rigid motion that fits it best (Horn 1987; Umeyama 1991, doi:10.1109/34.88573,
-/// without scale) and measures what is left.
+/// Pairs each estimate with the true pose that is nearest in time, at most .02 s away, aligns the
+/// estimated path by the best rigid motion (Horn 1987; Umeyama 1991, doi:10.1109/34.88573, without
+/// scale) and measures the remaining error.
 /// @return Empty with fewer than three pairs.
 [[nodiscard]] std::optional<TrajectoryError> absolute_trajectory_error(
     const std::vector<TimedPose>& estimate, const std::vector<TimedPose>& truth);

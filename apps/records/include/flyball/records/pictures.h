@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Pictures and video from files, one frame after the other; pictures to files, with boxes.
+/// Reads pictures and video from files, one frame after the other, and writes pictures to files.
 
 #include "flyball/runtime/colour_image.h"
 #include "flyball/runtime/result.h"

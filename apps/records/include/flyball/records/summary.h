@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a mission came to.
+/// The result of one mission.
 
 #include "flyball/flight/mission_end.h"
 #include "flyball/governors/policy.h"
@@ -19,7 +19,7 @@ struct KernelStatistics {
   std::uint64_t calls{};
   double mission_ms_mean{};
   double mission_ms_p95{};
-  /// The job that looks at a frame first is the one that renders it.
+  /// The job that reads a frame first also renders it, so its host time includes that.
   double host_ms_mean{};
 };
 
@@ -42,20 +42,19 @@ struct Summary {
   std::uint64_t deadline_overruns{};
   std::uint64_t decisions{};
   std::uint64_t knob_changes{};
-  std::uint64_t policy_faults{};  ///< Decisions in which safe settings stood in for the policy.
-  std::string policy_trouble{};   ///< Why it failed first, in one sentence; empty: it did not.
+  std::uint64_t policy_faults{};  ///< Decisions in which safe settings replaced the policy's.
+  std::string policy_trouble{};   ///< Why it failed first, in one sentence; empty: it never did.
   double latency_p50_s{};         ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
-  std::uint64_t maps{};                   ///< Published; each was expected within a bound.
-  std::uint64_t bound_overruns{};         ///< Maps that came later than bounded.
+  std::uint64_t maps{};                   ///< Published; each had a latency bound.
+  std::uint64_t bound_overruns{};         ///< Maps that violated their bound.
   double budget_use_p50{};                ///< Latency over its bound.
-  std::vector<LevelPromises> promises{};  ///< Empty for a policy that makes none.
+  std::vector<LevelPromises> promises{};  ///< Empty for a policy that states no bounds.
   double decision_host_us_p50{};          ///< One decision of the governor, on the host.
   double decision_host_us_p99{};
-  std::uint64_t throttle_events{};  ///< How often heat took clocks away.
-  std::optional<double>
-      hottest_c{};  ///< Of the computer; empty where nothing is known of its heat.
+  std::uint64_t throttle_events{};    ///< How often heat lowered the granted clock.
+  std::optional<double> hottest_c{};  ///< Of the computer; empty without a thermal model.
   double min_clearance_m{};
   std::map<std::string, KernelStatistics> kernels{};
   /// The workload's own quality of flight; the unit is the name's ending.
@@ -80,7 +79,7 @@ struct Summary {
 [[nodiscard]] std::string trouble_text(std::uint64_t faults,
                                        std::uint64_t decisions,
                                        const std::string& why);
-/// @return Empty optional-like result when the text is not a summary.
+/// @return False, and `summary` is unchanged, when the text is not a summary.
 [[nodiscard]] bool from_json(const std::string& text, Summary& summary);
 
 }  // namespace flyball

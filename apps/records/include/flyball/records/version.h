@@ -10,8 +10,8 @@ namespace flyball {
 
 /// `0.1.0`
 [[nodiscard]] std::string version();
-/// Hash over the build ids of the program and of every library that it starts with: another build,
-/// or another OctoMap, has another one. The same for as long as the program runs.
+/// Hash over the build ids of the program and of every library that it starts with, so that another
+/// build or another OctoMap has another fingerprint. It is constant while the program runs.
 [[nodiscard]] std::string build_fingerprint();
 
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a scenario may name: plug-ins compiled in, and data that is shipped.
+/// The names that a scenario may use: plug-ins that are compiled in, and data that is shipped.
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Weights of networks: what flyball knows, and where they lie. They do not come with it.
+/// Weights of networks: which ones are known, and where they are searched for. None are shipped.
 
 #include "flyball/runtime/result.h"
 
@@ -23,8 +23,8 @@ struct KnownModel {
 /// @error The list is missing or broken.
 [[nodiscard]] Result<std::vector<KnownModel>> known_models();
 
-/// Folders that are looked in, in this order: `folder` (unless it is `shipped`), the one that the
-/// environment's FLYBALL_MODELS names, the install's share folder.
+/// The folders to search, in this order: `folder` (unless it is `shipped`), the folder that the
+/// environment variable FLYBALL_MODELS names, the install's share folder.
 [[nodiscard]] std::vector<std::string> model_folders(const std::string& folder);
 
 /// Path of the first file of this name; it is the file that the list describes, byte for byte.

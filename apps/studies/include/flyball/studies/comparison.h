@@ -22,15 +22,15 @@ struct ComparisonRow {
   int succeeded{};
   int collisions{};
   std::map<std::string, int> failures{};
-  std::uint64_t decisions{};      ///< Of all its flights.
-  std::uint64_t policy_faults{};  ///< Of these.
-  std::string policy_trouble{};   ///< The first one's.
+  std::uint64_t decisions{};      ///< In all its flights.
+  std::uint64_t policy_faults{};  ///< Decisions in which safe settings replaced the policy's.
+  std::string policy_trouble{};   ///< Reason of the first of these.
   std::optional<MedianInterval> mission_time_s{};
   std::optional<MedianInterval> energy_total_j{};
   std::optional<MedianInterval> battery_used_percent{};
   std::optional<MedianInterval> mean_speed_m_s{};
   std::optional<MedianInterval> latency_p50_s{};
-  /// To the first policy, seed by seed, over the seeds where both succeed.
+  /// Ratios to the first policy, paired by seed, over the seeds where both succeed.
   int pairs{};
   std::optional<MedianInterval> battery_ratio{};
   std::optional<MedianInterval> time_ratio{};
@@ -46,7 +46,7 @@ struct Comparison {
 [[nodiscard]] Comparison compare_flights(const std::vector<Summary>& flights);
 
 [[nodiscard]] std::string to_json(const Comparison& comparison);
-/// A table for a terminal, with what its figures mean.
+/// A table for a terminal, with an explanation of its figures.
 [[nodiscard]] std::string to_text(const Comparison& comparison);
 [[nodiscard]] std::string to_html(const Comparison& comparison);
 /// `1..10`, or `1, 5, 7`.

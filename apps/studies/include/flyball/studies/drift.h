@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// What a drifting computer does to a policy's promises: the events, and the count after them.
+/// How well a policy keeps its latency bounds ("promises") while the computer changes: the events,
+/// and the count of violations after them.
 
 #include "flyball/runtime/recorder.h"
 #include "flyball/runtime/result.h"
@@ -25,23 +26,23 @@ struct DriftCase {
 /// and memory, a computer behind a heat sink that gets bad.
 [[nodiscard]] std::vector<DriftCase> drift_cases(double at_s);
 
-/// One promise of a policy that was kept or not, as the record tells.
+/// The count of a policy's latency bounds at one moment, as recorded.
 struct PromiseRow {
   MissionTime at{};
-  std::uint64_t issued{};  ///< Until now.
-  std::uint64_t late{};    ///< Of them.
+  std::uint64_t issued{};  ///< Bounds that were settled until now.
+  std::uint64_t late{};    ///< How many of them were violated.
 };
 
-/// All promises of a record, in order.
+/// All rows of channel `promise` in a record, in order.
 using DriftRecord = std::vector<PromiseRow>;
 
 [[nodiscard]] DriftRecord drift_record(const MemoryRecorder& trace);
-/// Of a flight that is on disk.
+/// The same for a flight on disk.
 ///
 /// @error `not_found`, `invalid_input` when there is no such record or it is broken.
 [[nodiscard]] Result<DriftRecord> read_drift_record(const std::string& run_folder);
 
-/// Promises `first` to `last` (from 1) after an event.
+/// Latency bounds number `first` to `last` after an event, counted from 1.
 struct DriftCount {
   std::uint64_t decisions{};  ///< Fewer than `last - first + 1` when the mission ended before.
   std::uint64_t late{};

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a delivery takes at least, whatever computer and policy fly it.
+/// A lower bound on the energy of a delivery, whatever computer and policy fly it.
 
 #include "flyball/runtime/result.h"
 #include "flyball/scenario/scenario.h"
@@ -12,10 +12,10 @@
 
 namespace flyball {
 
-/// One way of the mission.
+/// One direction of the mission.
 struct BoundedLeg {
   double energy_j{};
-  double length_m{};  ///< Of the way that takes it, an under-estimate.
+  double length_m{};  ///< Of the path with that energy; an under-estimate.
 };
 
 struct EnergyBound {
@@ -23,7 +23,7 @@ struct EnergyBound {
   [[nodiscard]] double energy_j() const;
 };
 
-/// The least-energy way through the true world, at each place as fast as anything allows:
+/// The energy of the cheapest path through the true world, flown everywhere as fast as possible:
 ///
 ///     E = sum ds (P_rotor(v) + P_computer) / v
 ///
@@ -34,13 +34,14 @@ struct EnergyBound {
 ///   of that weight has a lower mean than: power goes with thrust^1.5, which is convex).
 /// - P_computer is the idle computer at its lowest clock.
 /// - Speeding up, turning, climbing, take-off, landing and hovering are free.
-/// - The way is Dijkstra's over cells of .25 m that hold the bare body somewhere at some height, to
-///   eight neighbours, over 1.0824: so much longer than straight ones such ways can be at most.
+/// - The path is Dijkstra's over cells of .25 m that have room for the bare body at some height,
+/// with eight neighbours. Its length is divided by 1.0824, because such paths can be longer than
+/// straight ones by at most that factor.
 ///
-/// No policy: it sees the world.
+/// It is not a policy, because it sees the true world.
 ///
 /// @error `invalid_input` for other missions than `package_delivery`, and in gusts.
-///        `failed` when no way leads to the goal.
+///        `failed` when no path leads to the goal.
 [[nodiscard]] Result<EnergyBound> bound_energy(const Scenario& scenario);
 
 [[nodiscard]] std::string to_json(const EnergyBound& bound, const Scenario& scenario);

@@ -23,7 +23,7 @@ struct KernelFit {
   double fitted_scale{};  ///< With which `model_ms` would be `paper_ms`.
 };
 
-/// A kernel on other work than it was fitted on.
+/// A prediction for a kernel on other work than it was fitted on.
 struct KernelPrediction {
   std::string kernel{};
   std::string scene{};
@@ -35,8 +35,8 @@ struct PlatformFit {
   std::string platform{};
   std::vector<KernelFit> kernels{};
   std::vector<KernelPrediction> predictions{};
-  /// Modeled time of a map's frame at .15 m over that at .98 m: without, and with MAVBench's fixed
-  /// cost per frame.
+  /// Modeled time of one frame in the mapper at .15 m over that at .98 m, without and with
+  /// MAVBench's fixed cost per frame.
   double resolution_ratio{};
   double resolution_ratio_with_fixed_cost{};
 

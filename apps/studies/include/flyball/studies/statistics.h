@@ -19,9 +19,9 @@ struct MedianInterval {
 /// @pre `values` is not empty and finite.
 [[nodiscard]] double median_of(std::vector<double> values);
 
-/// Percentile bootstrap of the median: 2000 resamples from a fixed seed, so the same values give
-/// the same interval. With fewer than six values it is their whole range. Empty for no values.
-/// Efron 1979, doi:10.1214/aos/1176344552.
+/// Percentile bootstrap of the median with 2000 resamples from a fixed seed, so that the same
+/// values give the same interval. With fewer than six values the interval is their whole range.
+/// Empty for no values. Efron 1979, doi:10.1214/aos/1176344552.
 [[nodiscard]] std::optional<MedianInterval> bootstrap_median(const std::vector<double>& values);
 
 }  // namespace flyball

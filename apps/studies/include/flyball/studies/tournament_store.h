@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The results of a tournament in one SQLite file, so that it can be gone on with and asked.
+/// The results of a tournament in one SQLite file, so that it can be continued and queried.
 
 #include "flyball/records/summary.h"
 #include "flyball/scenario/scenario.h"
@@ -13,12 +13,12 @@
 
 namespace flyball {
 
-/// Names exactly this mission, flown by exactly this program. Another build, or another file of
-/// data that it reads, has another key.
+/// Identifies exactly this mission, flown by exactly this program. Another build, or another
+/// content of a data file that it reads, gives another key.
 [[nodiscard]] std::string mission_key(const Scenario& scenario);
 
-/// One row for each world, policy and seed in the table `flights`. Written after each flight, so an
-/// interrupted tournament loses none.
+/// The table `flights` has one row for each world, policy and seed. It is written after each
+/// flight, so that an interrupted tournament loses none.
 class TournamentStore {
  public:
   /// Makes the file if there is none.

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// Which parameters of a policy cost the least energy: a race between all combinations.
+/// Finds the parameters with which a policy uses the least energy, by a race between all
+/// combinations.
 
 #include "flyball/records/summary.h"
 #include "flyball/runtime/result.h"
@@ -13,7 +14,7 @@
 
 namespace flyball {
 
-/// Values that one parameter may get.
+/// The values to try for one parameter.
 struct TriedParameter {
   std::string name;
   std::vector<double> values{};
@@ -23,7 +24,7 @@ struct TriedParameter {
 /// @error `invalid_input` for anything else, and for a value that comes twice.
 [[nodiscard]] Result<TriedParameter> read_tried(const std::string& text);
 
-/// One combination, and how it flew so far.
+/// One combination of values, and its flights so far.
 struct Candidate {
   std::map<std::string, double> parameters{};
   std::vector<Summary> flights{};
@@ -33,7 +34,7 @@ struct Candidate {
   [[nodiscard]] double mean_energy_j() const;
 };
 
-/// Every combination; one that is empty for no parameters.
+/// Every combination of the values; without parameters a single empty one.
 [[nodiscard]] std::vector<Candidate> combinations(const std::vector<TriedParameter>& tried);
 
 /// Fewer failures first, then less energy. @pre Both flew the same seeds.
