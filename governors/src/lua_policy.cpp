@@ -18,8 +18,10 @@ Result<std::unique_ptr<Policy>> open_lua_policy(const std::string& path, std::ui
 
 #include "flyball/runtime/observation_fields.h"
 
+#include "lua_lists.h"
 #include "lua_sandbox.h"
 #include <array>
+#include <cmath>
 #include <utility>
 
 extern "C" {
@@ -245,12 +247,16 @@ class LuaPolicy final : public Policy {
     if (!lua_isnil(state, -1) && !lua_istable(state, -1)) {
       luaL_error(state, "parameters must be a table, this is a %s", luaL_typename(state, -1));
     }
-    const auto count = lua_isnil(state, -1) ? 0 : lua_rawlen(state, -1);
-    for (lua_Unsigned i = 1; i <= count; ++i) {
-      if (lua_rawgeti(state, -1, static_cast<lua_Integer>(i)) != LUA_TTABLE) {
-        luaL_error(state, "parameters[%d] must be a table", static_cast<int>(i));
+    const auto count = lua_isnil(state, -1) ? 0 : length_of_list(state, -1);
+    constexpr int most = 100;
+    if (count > most) {
+      luaL_error(state, "parameters has more than %d", most);
+    }
+    for (int i = 1; i <= static_cast<int>(count); ++i) {
+      if (lua_rawgeti(state, -1, i) != LUA_TTABLE) {
+        luaL_error(state, "parameters[%d] must be a table", i);
       }
-      read_parameter(state, static_cast<int>(i));
+      read_parameter(state, i);
       lua_pop(state, 1);
     }
     lua_pop(state, 1);
@@ -263,9 +269,9 @@ class LuaPolicy final : public Policy {
     if (*name == '\0') {
       luaL_error(state, "parameters[%d] has no name", place);
     }
-    const double min = number_field(state, "min", 0.0);
-    const double max = number_field(state, "max", 0.0);
-    const double otherwise = number_field(state, "default", min);
+    const double min = number_field(state, "min", -HUGE_VAL);
+    const double max = number_field(state, "max", HUGE_VAL);
+    const double otherwise = number_field(state, "default", std::isinf(min) ? 0.0 : min);
     lua_getfield(state, -1, "required");
     const bool required = lua_toboolean(state, -1) != 0;
     lua_pop(state, 1);
