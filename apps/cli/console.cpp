@@ -2,6 +2,8 @@
 
 #include "console.h"
 
+#include "flyball/runtime/printable.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -32,7 +34,11 @@ void remember(int signal) {
 
 }  // namespace
 
-void print(const std::string& text) {
+// Names, reasons and descriptions come from files and plug-ins, which must not steer the terminal.
+constexpr const char* layout = "\n\t";
+
+void print(const std::string& given) {
+  const std::string text = printable(given, layout);
   const bool is_written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!is_written && output_error == 0) {
@@ -63,7 +69,7 @@ void open_standard_files() {
 }
 
 void note(const std::string& line) {
-  const std::string text = line + "\n";
+  const std::string text = printable(line, layout) + "\n";
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -18,6 +18,9 @@ int check(const std::string& file) {
   if (!choice) {
     return refuse({choice.error()});
   }
+  if (!choice->caution.empty()) {
+    note("flyball: " + choice->caution);
+  }
   std::string why;
   PolicyConformance conformance{{[&choice, &why]() -> std::unique_ptr<Policy> {
                                    auto made = choice->make();

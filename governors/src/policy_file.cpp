@@ -3,9 +3,9 @@
 
 #include "flyball/governors/preset.h"
 
-#include "isolated_policy.h"
-#include "library_policy.h"
-#include "lua_policy.h"
+#include "libraries/isolated_policy.h"
+#include "libraries/library_policy.h"
+#include "scripts/lua_policy.h"
 #include <filesystem>
 #include <utility>
 
@@ -48,10 +48,18 @@ Result<PolicyChoice> load_library(const std::string& path, std::uint64_t seed) {
     const bool is_named = error.message.find(path) != std::string::npos;
     return Error{error.code, is_named ? error.message : path + ": " + error.message};
   }
-  return PolicyChoice{path, [path, make, limits, declared = std::move(*declaration)] {
-                        return Result<std::unique_ptr<Policy>>{
-                            std::make_unique<IsolatedPolicy>(path, make, declared, limits)};
-                      }};
+  PolicyChoice choice;
+  choice.name = path;
+  if (!declaration->is_confined) {
+    choice.caution = path +
+                     ": this kernel has no seccomp filters, so nothing keeps this library from "
+                     "files and the network; run it only if you trust it";
+  }
+  choice.make = [path, make, limits, declared = std::move(*declaration)] {
+    return Result<std::unique_ptr<Policy>>{
+        std::make_unique<IsolatedPolicy>(path, make, declared, limits)};
+  };
+  return choice;
 }
 
 Result<PolicyChoice> load_named(const std::string& path,

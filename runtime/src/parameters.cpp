@@ -4,8 +4,10 @@
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 
 namespace flyball {
 
@@ -53,16 +55,42 @@ std::optional<std::string> fault_of(const ParameterSpec& spec, const ParameterVa
   return "\"" + text + "\" is none of: " + list_of(choices);
 }
 
+/// What is wrong with how parameters were declared, by a plug-in that may be anyone's.
+std::vector<Error> faults_of_declaration(const std::string& owner,
+                                         const std::vector<ParameterSpec>& specs) {
+  std::vector<Error> errors;
+  std::set<std::string> names;
+  for (const ParameterSpec& spec : specs) {
+    const std::string start = owner + " declares \"" + spec.name + "\" ";
+    if (!names.insert(spec.name).second) {
+      errors.push_back({ErrorCode::invalid_input, start + "twice"});
+    }
+    if (!std::holds_alternative<double>(spec.fallback)) {
+      continue;
+    }
+    if (!(spec.min <= spec.max)) {  // true for NaN
+      errors.push_back({ErrorCode::invalid_input,
+                        start + "from " + text_of(spec.min) + " to " + text_of(spec.max) +
+                            "; its minimum must not be above its maximum"});
+    } else if (std::isnan(std::get<double>(spec.fallback))) {
+      errors.push_back({ErrorCode::invalid_input, start + "with a default that is no number"});
+    }
+  }
+  return errors;
+}
+
 }  // namespace
 
 std::variant<Parameters, std::vector<Error>> Parameters::resolve(
     const std::string& owner,
     const std::vector<ParameterSpec>& specs,
     const std::map<std::string, ParameterValue>& given) {
+  if (auto faults = faults_of_declaration(owner, specs); !faults.empty()) {
+    return faults;
+  }
   Parameters resolved;
   for (const ParameterSpec& spec : specs) {
-    const bool is_new = resolved.values_.emplace(spec.name, spec.fallback).second;
-    FLYBALL_ASSERT(is_new, "%s declares \"%s\" twice", owner.c_str(), spec.name.c_str());
+    resolved.values_.emplace(spec.name, spec.fallback);
   }
   std::vector<Error> errors;
   for (const ParameterSpec& spec : specs) {

@@ -55,6 +55,20 @@ std::string TraceHash::hex() const {
   return text;
 }
 
+namespace {
+
+/// In memory, about.
+std::size_t size_of(const std::vector<Field>& row) {
+  std::size_t bytes = sizeof(MemoryRecorder::Row) + row.size() * sizeof(Field);
+  for (const Field& field : row) {
+    const auto* text = std::get_if<std::string>(&field.value);
+    bytes += text != nullptr ? text->size() : 0;
+  }
+  return bytes;
+}
+
+}  // namespace
+
 void MemoryRecorder::record(MissionTime at,
                             std::string_view channel,
                             const std::vector<Field>& row) {
@@ -63,6 +77,18 @@ void MemoryRecorder::record(MissionTime at,
   hash_.add(static_cast<std::uint64_t>(row.size()));
   for (const Field& field : row) {
     add_field(hash_, field);
+  }
+  if (is_full_) {
+    return;
+  }
+  bytes_ += size_of(row);
+  is_full_ = bytes_ > most_bytes_;
+  if (is_full_) {
+    rows_.push_back({at,
+                     "event",
+                     {{"what", std::string{"the record is full; what follows is "
+                                           "part of its hash only"}}}});
+    return;
   }
   rows_.push_back({at, std::string{channel}, row});
 }

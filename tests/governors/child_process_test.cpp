@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "child_process.h"
+#include "libraries/child_process.h"
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace flyball {
@@ -81,6 +87,102 @@ TEST(ChildProcess, is_refused_memory_beyond_its_limit) {
   ASSERT_EQ(Received::packet, child->socket().receive(&blocks, sizeof blocks, 10s));
   EXPECT_GT(blocks, 0);
   EXPECT_LT(blocks, 16);
+}
+
+TEST(ChildProcess, is_refused_shared_memory_beyond_its_limit) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer has more addresses than any limit";
+#endif
+  const auto child = forked(
+      [](const PacketSocket& socket) {
+        int refused = mmap(nullptr, std::size_t{32} << 20U, PROT_READ | PROT_WRITE,
+                           MAP_SHARED | MAP_ANONYMOUS, -1, 0) == MAP_FAILED
+                          ? 1
+                          : 0;
+        static_cast<void>(socket.send(&refused, sizeof refused));
+      },
+      std::size_t{8} << 20U);
+  int refused = 0;
+  ASSERT_EQ(Received::packet, child->socket().receive(&refused, sizeof refused, 10s));
+  EXPECT_EQ(1, refused);
+}
+
+TEST(ChildProcess, has_none_of_its_parents_files) {
+  const int open_here = open("/dev/null", O_RDONLY);
+  ASSERT_GE(open_here, 0);
+  const auto child = forked([open_here](const PacketSocket& socket) {
+    int open_there = fcntl(open_here, F_GETFD) != -1 && open_here != socket.descriptor() ? 1 : 0;
+    char byte = 0;
+    open_there += static_cast<int>(read(STDIN_FILENO, &byte, 1));
+    static_cast<void>(socket.send(&open_there, sizeof open_there));
+  });
+  close(open_here);
+  int open_there = -1;
+  ASSERT_EQ(Received::packet, child->socket().receive(&open_there, sizeof open_there, 10s));
+  EXPECT_EQ(0, open_there);
+}
+
+TEST(ChildProcess, a_packet_of_another_size_is_told) {
+  const auto child = forked([](const PacketSocket& socket) {
+    for (const std::size_t size : {1U, 64U}) {
+      const std::vector<char> packet(size);
+      static_cast<void>(socket.send(packet.data(), size));
+    }
+    pause();
+  });
+  int number = 7;
+  EXPECT_EQ(Received::of_other_size, child->socket().receive(&number, sizeof number, 10s));
+  EXPECT_EQ(Received::of_other_size, child->socket().receive(&number, sizeof number, 10s));
+}
+
+/// Whether a process that is not ours has ended, or does so soon.
+bool ends_soon(pid_t process) {
+  for (int i = 0; i < 1000; ++i) {
+    std::ifstream status{"/proc/" + std::to_string(process) + "/stat"};
+    std::string number;
+    std::string name;
+    std::string state;
+    if (!(status >> number >> name >> state) || state == "Z") {
+      return true;
+    }
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+TEST(ChildProcess, takes_its_own_children_along) {
+  const auto child = forked([](const PacketSocket& socket) {
+    pid_t grandchild = fork();
+    if (grandchild != 0) {
+      static_cast<void>(socket.send(&grandchild, sizeof grandchild));
+    }
+    pause();
+  });
+  pid_t grandchild = 0;
+  ASSERT_EQ(Received::packet, child->socket().receive(&grandchild, sizeof grandchild, 10s));
+  child->end();
+  EXPECT_TRUE(ends_soon(grandchild));
+}
+
+TEST(ChildProcess, ends_with_its_parent) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(0, pipe(ends.data()));
+  const pid_t parent = fork();
+  if (parent == 0) {
+    const auto child = forked([](const PacketSocket& socket) {
+      pid_t self = getpid();
+      static_cast<void>(socket.send(&self, sizeof self));
+      pause();
+    });
+    pid_t id = 0;
+    static_cast<void>(child->socket().receive(&id, sizeof id, 10s));
+    const bool wrote = write(ends[1], &id, sizeof id) == sizeof id;
+    _exit(wrote ? 0 : 1);
+  }
+  pid_t child = 0;
+  ASSERT_EQ(static_cast<ssize_t>(sizeof child), read(ends[0], &child, sizeof child));
+  waitpid(parent, nullptr, 0);
+  EXPECT_TRUE(ends_soon(child));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 //
 // Scripts that somebody wrote to break a mission: each ends in a sentence that names what it did.
 #ifdef FLYBALL_HAS_LUA
-#include "lua_policy.h"
 #include "policy_start.h"
 #include "scratch_folder.h"
+#include "scripts/lua_policy.h"
 
 #include <gtest/gtest.h>
 
@@ -169,7 +169,7 @@ TEST(HostileScripts, that_answer_nonsense_are_told_so) {
       {deciding("do return {}, 'because' end"), "gives a reason that there is none of"},
       {deciding("error({})"), "raised a table instead of a text"},
       {deciding("error(nil)"), "raised a nil instead of a text"},
-      {"period_s = 0 / 0 function decide() end", "period_s must be a number of seconds"},
+      {"period_s = 0 / 0 function decide() end", "it must be a number of seconds, 0.001 to 3600"},
       {"parameters = {} for i = 1, 101 do parameters[i] = {name = 'p' .. i} end "
        "function decide() end",
        "parameters has more than 100"},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: fault
-#include "isolated_policy.h"
+#include "libraries/isolated_policy.h"
 
-#include "library_policy.h"
+#include "libraries/library_policy.h"
 #include "policy_start.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST(IsolatedPolicy, that_refuses_to_start_says_why) {
   const auto thrower = isolated("thrower");
   const Status thrown = kit::start(*thrower, {{"at_start", 1.0}});
   ASSERT_FALSE(thrown.ok());
-  EXPECT_EQ("threw: no licence", thrown.error().message);
+  EXPECT_EQ("thrower: threw: no licence", thrown.error().message);
 }
 
 TEST(IsolatedPolicy, that_cannot_be_loaded_says_why) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "library_policy.h"
+#include "libraries/library_policy.h"
 
 #include "policy_start.h"
 #include "scratch_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lua_policy.h"
+#include "scripts/lua_policy.h"
 
 #include "policy_start.h"
 #include "scratch_folder.h"
@@ -108,7 +108,7 @@ TEST_F(LuaPolicy, is_refused_when_it_is_no_policy) {
       {"parameters = 3 function decide() end", "parameters must be a table, this is a number"},
       {"parameters = {{}} function decide() end", "parameters[1] has no name"},
       {"parameters = {{name='a'}, {name='a'}} function decide() end", "\"a\" twice"},
-      {"period_s = -1 function decide() end", "period_s must be a number of seconds"},
+      {"period_s = -1 function decide() end", "period_s is -1; it must be a number of seconds"},
       {"function decide() end end", "mine.lua:1:"}};
   for (const auto& [script, sentence] : sentences) {
     const auto policy = open(script);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifdef FLYBALL_HAS_LUA
-#include "lua_sandbox.h"
+#include "scripts/lua_sandbox.h"
 
 #include "scratch_folder.h"
 

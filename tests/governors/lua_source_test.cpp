@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lua_source.h"
+#include "scripts/lua_source.h"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@ flyball_test_plugin(culprit culprit.c)
 flyball_test_plugin(culprit_older culprit.c OLDER)
 flyball_test_plugin(culprit_too_old culprit.c TOO_OLD)
 flyball_test_plugin(thrower thrower.cpp)
+flyball_test_plugin(hostile hostile.c)
 target_compile_definitions(test_governors PRIVATE
   FLYBALL_TEST_PLUGINS="${PROJECT_BINARY_DIR}/test_plugins")
 if(TARGET flyball_lua)

@@ -47,6 +47,22 @@ TEST(Parameters, report_all_faults_at_once) {
   EXPECT_EQ(errors[2].message, "world \"forest\", ground: \"mud\" is none of: grass, sand");
 }
 
+TEST(Parameters, that_are_declared_impossibly_are_refused_all_at_once) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<ParameterSpec> impossible{{"a", 1.0, 2.0, 1.0, ""}, {"b", 1.0, nan, 1.0, ""},
+                                              {"c", 1.0, 0.0, nan, ""}, {"d", nan, 0.0, 1.0, ""},
+                                              {"e", 0.5, 0.0, 1.0, ""}, {"e", 0.5, 0.0, 1.0, ""}};
+  const auto resolved = Parameters::resolve("policy \"mine\"", impossible, {});
+  const auto* errors = std::get_if<std::vector<Error>>(&resolved);
+  ASSERT_NE(nullptr, errors);
+  ASSERT_EQ(5U, errors->size());
+  EXPECT_EQ("policy \"mine\" declares \"a\" from 2 to 1; its minimum must not be above its maximum",
+            (*errors)[0].message);
+  EXPECT_EQ("policy \"mine\" declares \"d\" with a default that is no number",
+            (*errors)[3].message);
+  EXPECT_EQ("policy \"mine\" declares \"e\" twice", (*errors)[4].message);
+}
+
 TEST(Parameters, a_number_must_be_one) {
   EXPECT_EQ(errors_of({{"spread_m", std::numeric_limits<double>::quiet_NaN()}}).size(), 1U);
   EXPECT_EQ(errors_of({{"spread_m", std::numeric_limits<double>::infinity()}}).size(), 1U);

@@ -65,5 +65,25 @@ TEST(MemoryRecorder, keeps_all_rows_in_order) {
   EXPECT_EQ(std::get<std::string>(recorder.rows()[1].fields[0].value), "landed");
 }
 
+TEST(MemoryRecorder, that_is_full_says_so_and_goes_on_hashing) {
+  MemoryRecorder small{10'000};
+  MemoryRecorder usual;
+  std::size_t kept = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::vector<Field> row{{"text", std::string(100, 'x')}, {"i", static_cast<double>(i)}};
+    small.record(MissionTime{Duration{i}}, "state", row);
+    usual.record(MissionTime{Duration{i}}, "state", row);
+    kept = i == 99 ? small.rows().size() : kept;
+  }
+  ASSERT_TRUE(small.is_full());
+  EXPECT_FALSE(usual.is_full());
+  EXPECT_EQ(kept, small.rows().size()) << "no more is kept";
+  EXPECT_LT(small.rows().size(), 100U);
+  EXPECT_EQ("event", small.rows().back().channel);
+  EXPECT_NE(std::string::npos,
+            std::get<std::string>(small.rows().back().fields[0].value).find("the record is full"));
+  EXPECT_EQ(usual.hash().value(), small.hash().value());
+}
+
 }  // namespace
 }  // namespace flyball

@@ -14,6 +14,10 @@
  * The host supplies time, random numbers and a log. A library that reads a clock or makes its own
  * randomness gives up the promise that equal missions have equal records.
  *
+ * It runs in a process of its own. It may read files until `create` has returned; from then on a
+ * request for a file, and at any time one for the network, another process or shared memory, ends
+ * it. Standard output and error lead nowhere: `log` is heard. It may have threads.
+ *
  * C++ has plugin_policy.h on top of this.
  */
 
@@ -165,7 +169,7 @@ typedef struct FlyballPolicy {
   int32_t (*decide)(void* policy, const FlyballObservation* seen, FlyballDecision* decision);
   /* The first version ends here; what follows may be absent or NULL. */
 
-  /** How often it wants to be asked; 0: as often as the scenario says. */
+  /** How often it wants to be asked, .001 to 3600; 0: as often as the scenario says. */
   double (*period_s)(void* policy);
 } FlyballPolicy;
 

@@ -7,7 +7,8 @@
 ///   be a file of the other kinds, seen from the preset's folder.
 /// - `mine.lua`: a script, with a budget of instructions and memory and without a way out.
 /// - `libmine.so`: a library behind plugin_abi.h, in a process of its own, because it may crash,
-///   hang or eat memory.
+///   hang or eat memory. That process reads files until the policy has started and none afterwards;
+///   writing, the network, other processes and shared memory end it.
 
 #include "flyball/governors/policy.h"
 #include "flyball/runtime/registry.h"
@@ -25,6 +26,7 @@ struct PolicyChoice {
   std::string name{};  ///< For messages: `policy "density"`, `./mine.lua`.
   std::function<Result<std::unique_ptr<Policy>>()> make{};
   std::map<std::string, ParameterValue> parameters{};
+  std::string caution{};  ///< What its user should know before it flies; empty: nothing.
 
   /// One that is ready to decide.
   /// @error What is wrong with the parameters, a line for each, or why it does not start.

@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/time.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -45,9 +46,15 @@ class Recorder {
   virtual void record(MissionTime at, std::string_view channel, const std::vector<Field>& row) = 0;
 };
 
-/// Keeps all rows in memory, in order, with their hash.
+/// Keeps all rows in memory, in order, with their hash. When they fill `most_bytes`, one last row
+/// says so; what follows is hashed and not kept.
 class MemoryRecorder final : public Recorder {
  public:
+  /// A policy that is asked every .45 ms leaves a megabyte a second.
+  static constexpr std::size_t usual_most_bytes = std::size_t{1} << 30U;
+  MemoryRecorder() : MemoryRecorder{usual_most_bytes} {}
+  explicit MemoryRecorder(std::size_t most_bytes) : most_bytes_{most_bytes} {}
+
   struct Row {
     MissionTime at;
     std::string channel;
@@ -56,8 +63,12 @@ class MemoryRecorder final : public Recorder {
   void record(MissionTime at, std::string_view channel, const std::vector<Field>& row) override;
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] const TraceHash& hash() const { return hash_; }
+  [[nodiscard]] bool is_full() const { return is_full_; }
 
  private:
+  std::size_t most_bytes_;
+  std::size_t bytes_{};
+  bool is_full_{};
   std::vector<Row> rows_;
   TraceHash hash_;
 };

@@ -21,9 +21,9 @@ class PacketSocket {
   explicit PacketSocket(int descriptor) : descriptor_{descriptor} {}
   /// False when nobody listens any more.
   [[nodiscard]] bool send(const void* packet, std::size_t size) const noexcept;
-  enum class Received { packet, ended, late };
-  /// Waits for one packet of at most `size` bytes; a negative limit: for ever. The rest of a
-  /// shorter one keeps its old content.
+  enum class Received { packet, ended, late, of_other_size };
+  /// Waits for one packet of `size` bytes; a negative limit: for ever. A packet `of_other_size` is
+  /// lost.
   [[nodiscard]] Received receive(void* packet, std::size_t size, Duration limit) const noexcept;
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
@@ -32,7 +32,8 @@ class PacketSocket {
 };
 
 /// Runs `work` in a copy of this process. The copy ignores Ctrl-C (its parent decides), ends with
-/// its parent, and writes what it prints to standard error.
+/// its parent and takes its own children along, has none of the parent's files, gains no
+/// privileges, writes no file, and what it prints goes nowhere.
 class ChildProcess {
  public:
   /// @param memory_bytes  That it may take beyond what it has when it begins.

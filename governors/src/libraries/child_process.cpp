@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "child_process.h"
 
+#include "confinement.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -10,47 +11,92 @@
 #include <exception>
 #include <memory>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace flyball {
 namespace {
 
-/// Private memory of this process now; 0 when the system does not say.
-std::size_t own_memory_bytes() {
-  unsigned long pages = 0;
+struct MemoryInUse {
+  std::size_t addresses{};
+  std::size_t own{};  ///< Not shared with others, nor read from a file.
+};
+
+/// Of this process now; zeros when the system does not say.
+MemoryInUse memory_in_use() {
+  unsigned long size = 0;
+  unsigned long data = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
     // size resident shared text lib data dt (proc(5))
-    if (std::fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1) {  // NOLINT(cert-err34-c)
-      pages = 0;
+    // NOLINTNEXTLINE(cert-err34-c)
+    if (std::fscanf(file, "%lu %*u %*u %*u %*u %lu", &size, &data) != 2) {
+      size = data = 0;
     }
     std::fclose(file);
   }
-  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return {size * page, data * page};
+}
+
+void set_limit(int what, rlim_t limit) {
+  const rlimit both{limit, limit};
+  setrlimit(static_cast<__rlimit_resource_t>(what), &both);
 }
 
 void limit_memory(std::size_t bytes) {
-  const rlim_t limit = own_memory_bytes() + bytes;
-  const rlimit both{limit, limit};
-  // RLIMIT_DATA, not RLIMIT_AS: sanitizers reserve terabytes of addresses.
-  setrlimit(RLIMIT_DATA, &both);
+  const MemoryInUse now = memory_in_use();
+  set_limit(RLIMIT_DATA, now.own + bytes);
+  // Shared memory counts here only. A sanitizer reserves terabytes and needs more now and then.
+  constexpr std::size_t reserved_by_sanitizer = std::size_t{1} << 40U;
+  if (now.addresses < reserved_by_sanitizer) {
+    set_limit(RLIMIT_AS, now.addresses + bytes);
+  }
 }
 
-void settle_in(pid_t parent, std::size_t memory_bytes) {
+/// Standard input, output and error lead nowhere; of the rest only the socket stays open.
+int keep_only(int socket) {
+  constexpr int first_own = 3;
+  const int kept = fcntl(socket, F_DUPFD_CLOEXEC, first_own);  // The others are overwritten now.
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (int standard = 0; standard < first_own; ++standard) {
+    dup2(nowhere, standard);
+  }
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  if (syscall(__NR_close_range, first_own, kept - 1, 0) != 0 ||
+      syscall(__NR_close_range, kept + 1, ~0U, 0) != 0) {
+    for (int other = first_own; other < static_cast<int>(files.rlim_cur); ++other) {
+      if (other != kept) {
+        close(other);
+      }
+    }
+  }
+  return kept;
+}
+
+/// Returns the socket's new number.
+int settle_in(pid_t parent, int socket, std::size_t memory_bytes) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) {  // It ended before that line.
     _exit(0);
   }
+  setpgid(0, 0);
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   std::signal(SIGINT, SIG_IGN);
+  const int kept = keep_only(socket);
   // Crashes are the parent's to report; nobody wants a core file of each.
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_FSIZE, 0);
+  constexpr rlim_t most_files = 64;
+  set_limit(RLIMIT_NOFILE, most_files);
   limit_memory(memory_bytes);
+  return kept;
 }
 
 int milliseconds(Duration limit) {
@@ -81,9 +127,11 @@ PacketSocket::Received PacketSocket::receive(void* packet,
   }
   ssize_t got = -1;
   do {
-    got = recv(descriptor_, packet, size, 0);
+    got = recv(descriptor_, packet, size, MSG_TRUNC);  // Says how long it was.
   } while (got < 0 && errno == EINTR);
-  return got > 0 ? Received::packet : Received::ended;
+  return got <= 0                            ? Received::ended
+         : got == static_cast<ssize_t>(size) ? Received::packet
+                                             : Received::of_other_size;
 }
 
 Result<std::unique_ptr<ChildProcess>> ChildProcess::fork(
@@ -96,9 +144,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::fork(
   const pid_t parent = getpid();
   const pid_t child = ::fork();
   if (child == 0) {
-    close(ends[0]);
-    settle_in(parent, memory_bytes);
-    work(PacketSocket{ends[1]});
+    work(PacketSocket{settle_in(parent, ends[1], memory_bytes)});
     _exit(0);  // Not exit: what the parent registered to happen at its end is not ours.
   }
   close(ends[1]);
@@ -107,6 +153,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::fork(
     return Error{ErrorCode::failed, std::string{"no process for a policy: "} +
                                         std::strerror(errno)};  // NOLINT(concurrency-mt-unsafe)
   }
+  setpgid(child, child);  // Both do it: nobody knows who comes first.
   return std::make_unique<ChildProcess>(child, ends[0]);
 }
 
@@ -117,14 +164,20 @@ std::string ChildProcess::end() {
   int status = 0;
   close(socket_.descriptor());  // Who listens hears the end, ...
   kill(id_, SIGKILL);           // ... who does not is ended; one that has ended keeps its reason.
+  kill(-id_, SIGKILL);          // Its children, while its number cannot be another one's.
   waitpid(id_, &status, 0);
   id_ = 0;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     const char* name = strsignal(signal);  // NOLINT(concurrency-mt-unsafe): one thread forks
-    how_ = "was ended by signal " + std::to_string(signal) + " (" + name + ")";
+    // A forbidden request while the signal that tells it was blocked.
+    how_ = signal == SIGSYS ? "was ended because it " + any_forbidden_request()
+                            : "was ended by signal " + std::to_string(signal) + " (" + name + ")";
   } else {
-    how_ = "ended by itself with exit code " + std::to_string(WEXITSTATUS(status));
+    const int code = WEXITSTATUS(status);
+    const auto request = forbidden_request(code);
+    how_ = request ? "was ended because it " + *request
+                   : "ended by itself with exit code " + std::to_string(code);
   }
   return how_;
 }

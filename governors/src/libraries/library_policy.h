@@ -25,7 +25,7 @@ class LibraryPolicy final : public Policy {
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override;
   Status start(const Parameters& given, const KnobSettings& knobs) override;
-  [[nodiscard]] std::optional<Duration> period() const override;
+  [[nodiscard]] std::optional<Duration> period() const override { return period_; }
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }
   [[nodiscard]] std::string_view remark() const noexcept override { return remark_; }
@@ -36,6 +36,7 @@ class LibraryPolicy final : public Policy {
   };
   using Library = std::unique_ptr<void, Unload>;
   LibraryPolicy(std::string path, Library library, const FlyballPolicy& policy, std::uint64_t seed);
+  Status ask_period();
   [[nodiscard]] Decision decision_of(const FlyballDecision& answer) const noexcept;
 
   std::string path_;
@@ -47,6 +48,7 @@ class LibraryPolicy final : public Policy {
   MissionTime now_{};
   KnobSettings knobs_{};
   void* state_{};
+  std::optional<Duration> period_{};
   std::string trouble_{};
   std::string remark_{};
 };

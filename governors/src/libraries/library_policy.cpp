@@ -2,7 +2,9 @@
 #include "library_policy.h"
 
 #include "flyball/governors/plugin_policy.h"
+#include "flyball/governors/policy_period.h"
 
+#include "policy_packets.h"
 #include <array>
 #include <cstddef>
 #include <exception>
@@ -46,6 +48,10 @@ std::string fault_of(const FlyballPolicy* given) {
   }
   if (given->parameter_count > 0 && given->parameters == nullptr) {
     return "parameters must not be NULL, because parameter_count is not 0";
+  }
+  if (given->parameter_count > most_parameters) {
+    return "declares " + std::to_string(given->parameter_count) + " parameters, at most " +
+           std::to_string(most_parameters) + " are possible";
   }
   for (std::uint32_t i = 0; i < given->parameter_count; ++i) {
     const FlyballParameter* one = given->parameters[i];
@@ -219,16 +225,20 @@ Status LibraryPolicy::start(const Parameters& given, const KnobSettings& knobs) 
     return broken(path_, refusal[0] == '\0' ? "does not start and does not say why"
                                             : std::string{refusal.data()});
   }
-  return Done{};
+  return ask_period();
 }
 
-std::optional<Duration> LibraryPolicy::period() const {
-  const double period_s =
-      policy_.period_s == nullptr || state_ == nullptr ? 0.0 : policy_.period_s(state_);
-  // A wild number is not worth a crash: a decision a microsecond would never end.
-  constexpr double least_s = 1e-5;
-  return period_s >= least_s && period_s < 3600.0 ? std::optional{from_seconds(period_s)}
-                                                  : std::nullopt;
+Status LibraryPolicy::ask_period() {
+  const double period_s = policy_.period_s == nullptr ? 0.0 : policy_.period_s(state_);
+  period_ = std::nullopt;
+  if (period_s == 0.0) {
+    return Done{};
+  }
+  if (const auto fault = fault_of_period(period_s); fault[0] != '\0') {
+    return broken(path_, fault.data());
+  }
+  period_ = from_seconds(period_s);
+  return Done{};
 }
 
 Decision LibraryPolicy::decide(const Observation& seen) noexcept {

@@ -16,12 +16,14 @@ Result<std::unique_ptr<Policy>> open_lua_policy(const std::string& path, std::ui
 
 #else
 
+#include "flyball/governors/policy_period.h"
 #include "flyball/runtime/observation_fields.h"
 
 #include "lua_lists.h"
 #include "lua_sandbox.h"
+#include "lua_values.h"
 #include <array>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 extern "C" {
@@ -37,62 +39,6 @@ constexpr std::array<Reason, 6> reasons{Reason::fixed,  Reason::density, Reason:
                                         Reason::energy, Reason::load,    Reason::fallback};
 
 // Everything below that takes a lua_State may be left by longjmp: no destructors in it.
-/// A number of the table at the top, or `otherwise`.
-double number_field(lua_State* state, const char* name, double otherwise) {
-  const int type = lua_getfield(state, -1, name);
-  if (type != LUA_TNUMBER && type != LUA_TNIL) {
-    luaL_error(state, "%s must be a number, this is a %s", name, lua_typename(state, type));
-  }
-  const double value = type == LUA_TNIL ? otherwise : lua_tonumber(state, -1);
-  lua_pop(state, 1);
-  return value;
-}
-
-/// A text of the table at the top, which keeps it alive; empty when there is none.
-const char* text_field(lua_State* state, const char* name) {
-  const int type = lua_getfield(state, -1, name);
-  if (type != LUA_TSTRING && type != LUA_TNIL) {
-    luaL_error(state, "%s must be a text, this is a %s", name, lua_typename(state, type));
-  }
-  const char* text = type == LUA_TNIL ? "" : lua_tostring(state, -1);
-  lua_pop(state, 1);
-  return text;
-}
-
-void set_number(lua_State* state, const char* name, double value) {
-  lua_pushnumber(state, value);
-  lua_setfield(state, -2, name);
-}
-
-void push_knob(lua_State* state, const KnobSpec& spec, double value) {
-  lua_createtable(state, 0, 6);
-  lua_pushlstring(state, spec.unit.data(), spec.unit.size());
-  lua_setfield(state, -2, "unit");
-  lua_createtable(state, static_cast<int>(spec.legal.size()), 0);
-  for (std::size_t i = 0; i < spec.legal.size(); ++i) {
-    lua_pushnumber(state, spec.legal[i]);
-    lua_rawseti(state, -2, static_cast<lua_Integer>(i) + 1);
-  }
-  lua_setfield(state, -2, "legal");
-  set_number(state, "min", spec.min);
-  set_number(state, "max", spec.max);
-  set_number(state, "default", spec.fallback);
-  set_number(state, "value", value);
-}
-
-void push_parameters(lua_State* state, const Parameters& given) {
-  lua_newtable(state);
-  for (const auto& entry : given.values()) {
-    if (const double* number = std::get_if<double>(&entry.second)) {
-      lua_pushnumber(state, *number);
-    } else {
-      const auto& text = std::get<std::string>(entry.second);
-      lua_pushlstring(state, text.data(), text.size());
-    }
-    lua_setfield(state, -2, entry.first.c_str());
-  }
-}
-
 void fill_seen(lua_State* state, const Observation& seen) {
   lua_getfield(state, LUA_REGISTRYINDEX, seen_key);
   for (const ObservationField& field : observation_fields()) {
@@ -234,10 +180,13 @@ class LuaPolicy final : public Policy {
     if (lua_isnil(state, -1)) {
       return;
     }
-    const double period_s = lua_type(state, -1) == LUA_TNUMBER ? lua_tonumber(state, -1) : 0.0;
-    constexpr double least_s = 1e-5;  // Less would be another policy for each clock cycle or so.
-    if (!(period_s >= least_s && period_s <= 3600.0)) {
-      luaL_error(state, "period_s must be a number of seconds, 1e-5 to 3600");
+    if (lua_type(state, -1) != LUA_TNUMBER) {
+      luaL_error(state, "period_s must be a number of seconds, this is a %s",
+                 luaL_typename(state, -1));
+    }
+    const double period_s = lua_tonumber(state, -1);
+    if (const auto fault = fault_of_period(period_s); fault[0] != '\0') {
+      luaL_error(state, "%s", fault.data());
     }
     period_ = from_seconds(period_s);
   }
@@ -269,9 +218,10 @@ class LuaPolicy final : public Policy {
     if (*name == '\0') {
       luaL_error(state, "parameters[%d] has no name", place);
     }
-    const double min = number_field(state, "min", -HUGE_VAL);
-    const double max = number_field(state, "max", HUGE_VAL);
-    const double otherwise = number_field(state, "default", std::isinf(min) ? 0.0 : min);
+    constexpr double unbounded = std::numeric_limits<double>::max();
+    const double min = number_field(state, "min", -unbounded);
+    const double max = number_field(state, "max", unbounded);
+    const double otherwise = number_field(state, "default", min == -unbounded ? 0.0 : min);
     lua_getfield(state, -1, "required");
     const bool required = lua_toboolean(state, -1) != 0;
     lua_pop(state, 1);

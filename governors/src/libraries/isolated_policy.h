@@ -12,6 +12,9 @@
 
 namespace flyball {
 
+struct AnswerPacket;
+struct QuestionPacket;
+
 struct IsolationLimits {
   /// For one answer, host time; far above what a policy may take, because a mission must not
   /// depend on how fast its host is: only who never answers, or nearly, comes so far.
@@ -22,6 +25,7 @@ struct IsolationLimits {
 
 /// What a policy declares, learned in a process that has ended since.
 struct PolicyDeclaration {
+  bool is_confined{};  ///< False where the kernel has no seccomp.
   std::vector<ParameterSpec> parameters{};
 };
 
@@ -33,7 +37,7 @@ using PolicyMaker = std::function<Result<std::unique_ptr<Policy>>()>;
                                                        const IsolationLimits& limits);
 
 /// The process is forked by `start` and lives as long as the policy. An answer costs two messages
-/// through a socket, some tens of microseconds; nothing allocates here while all goes well.
+/// through a socket, some tens of microseconds; nothing allocates here while it has nothing to say.
 class IsolatedPolicy final : public Policy {
  public:
   /// @param name  For messages: the file.
@@ -52,8 +56,7 @@ class IsolatedPolicy final : public Policy {
 
  private:
   class Process;
-  struct Answer;
-  [[nodiscard]] Decision decision_of(const Answer& answer) noexcept;
+  [[nodiscard]] Decision decision_of(const AnswerPacket& answer) noexcept;
 
   std::string name_;
   PolicyMaker make_;
@@ -62,9 +65,10 @@ class IsolatedPolicy final : public Policy {
   KnobSettings knobs_{};
   std::optional<Duration> period_{};
   std::unique_ptr<Process> process_;
-  std::unique_ptr<Answer> answer_;
+  std::unique_ptr<QuestionPacket> question_;
+  std::unique_ptr<AnswerPacket> answer_;
   std::string trouble_{};
-  std::string_view remark_{};
+  std::string remark_{};
 };
 
 }  // namespace flyball

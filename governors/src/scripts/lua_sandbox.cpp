@@ -2,6 +2,8 @@
 #ifdef FLYBALL_HAS_LUA
 #include "lua_sandbox.h"
 
+#include "flyball/runtime/printable.h"
+
 #include "lua_library.h"
 #include "lua_source.h"
 #include <cstdlib>
@@ -68,7 +70,8 @@ LuaSandbox::Refused LuaSandbox::refused(const void* old, std::size_t old_size, s
 void* LuaSandbox::allocate(void* self, void* old, std::size_t old_size, std::size_t size) {
   auto& sandbox = *static_cast<LuaSandbox*>(self);
   const std::size_t before = old == nullptr ? 0 : old_size;
-  // To let its stack grow, Lua asks for a larger block, or for another one and then frees the first.
+  // To let its stack grow, Lua asks for a larger block, or for another one and then frees the
+  // first.
   const bool is_stack = old != nullptr && old == sandbox.stack_.place;
   const bool is_new = old == nullptr;
   if (size == 0) {
@@ -161,7 +164,7 @@ std::string LuaSandbox::reason_of_failure(int code) const {
   if (lua_type(state_, -1) != LUA_TSTRING) {
     return path_ + ": raised a " + luaL_typename(state_, -1) + " instead of a text";
   }
-  const std::string text = lua_tostring(state_, -1);
+  const std::string text = printable(lua_tostring(state_, -1));
   const std::string file = std::filesystem::path{path_}.filename().string();
   return text.find(file) == std::string::npos ? path_ + ": " + text : text;
 }
@@ -215,7 +218,7 @@ Status LuaSandbox::compile_and_run(const std::string& text) {
     std::string& logged = static_cast<LuaSandbox*>(self)->logged_;
     constexpr std::size_t longest = 400;  // A line for the record, not a place to store things.
     if (logged.size() < longest) {
-      logged += (logged.empty() ? "" : "; ") + std::string{line};
+      logged += (logged.empty() ? "" : "; ") + printable(line);
     }
   };
   // As Lua shows it; whole, a long one would be a text that is not allowed.
