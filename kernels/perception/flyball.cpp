@@ -68,6 +68,9 @@ class FlyballMapper final : public flyball::Mapper {
     map_->declare_clear(centre_W, space);
   }
   [[nodiscard]] const flyball::OccupancyView& view() const override { return map_->view(); }
+  [[nodiscard]] std::shared_ptr<const flyball::OccupancyView> revision() override {
+    return map_->revision();
+  }
   [[nodiscard]] std::vector<flyball::OccupiedCell> occupied() const override {
     return map_->occupied();
   }

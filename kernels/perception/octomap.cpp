@@ -12,6 +12,7 @@
 
 #include "bricks/octree_copy.h"
 #include "bricks/octree_record.h"
+#include "maps/frozen_tree.h"
 #include "maps/layered_mapper.h"
 #include "maps/octree_file.h"
 
@@ -24,6 +25,7 @@ using flyball::Status;
 class TreeStore {
  public:
   using Cells = octomap::OcTree;
+  using Frozen = flyball::FrozenTree;
 
   explicit TreeStore(double cell_m) : tree_{std::make_unique<octomap::OcTree>(cell_m)} {
     tree_->setClampingThresMin(0.12);  // both as in MAVBench's code
@@ -33,13 +35,21 @@ class TreeStore {
   [[nodiscard]] double cell_m() const { return tree_->getResolution(); }
   [[nodiscard]] const octomap::OcTree& cells() const { return *tree_; }
 
-  void write(const std::vector<flyball::BrickMasks>& masks) { record_.write(masks, *tree_); }
+  [[nodiscard]] std::shared_ptr<const flyball::FrozenTree> revision() {
+    return freezer_.freeze(*tree_);
+  }
+
+  void write(const std::vector<flyball::BrickMasks>& masks) {
+    freezer_.forget(masks);
+    record_.write(masks, *tree_);
+  }
 
   [[nodiscard]] bool is_confirmed(const flyball::CellKey& cell) const {
     const octomap::OcTreeNode* node = tree_->search(key_of(cell));
     return node != nullptr && node->getLogOdds() >= flyball::confirmed_log_odds;
   }
   void confirm(const flyball::CellKey& cell) {
+    freezer_.forget(cell);
     tree_->setNodeValue(key_of(cell), flyball::confirmed_log_odds);
   }
 
@@ -60,7 +70,7 @@ class TreeStore {
     }
     return counts;
   }
-  [[nodiscard]] std::size_t bytes() const { return tree_->memoryUsage(); }
+  [[nodiscard]] std::size_t bytes() const { return tree_->memoryUsage() + freezer_.bytes(); }
 
   [[nodiscard]] Status write_file(const std::string& path) const {
     octomap::OcTree copy{*tree_};  // Writing .bt rounds a tree.
@@ -84,6 +94,7 @@ class TreeStore {
 
   std::unique_ptr<octomap::OcTree> tree_;  ///< It cannot be moved.
   flyball::OctreeRecord record_{};
+  flyball::TreeFreezer freezer_{};
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 //
 // The brick map against stock OctoMap, in one run: insertion at every level, in two scenes, with
 // two image sizes and every front-end and instruction set; questions; inflation; the switch of
-// level. CPU time, the least of the repetitions, so that other programs on the host count little.
+// level; revisions for readers. CPU time, the least of the repetitions, so that other programs on
+// the host count little.
 // One command makes the tables:
 //
 //     ninja map_bench && bin/map_bench --table=map_bench.md
@@ -13,6 +14,7 @@
 
 #include "map_pipeline.h"
 #include "map_questions.h"
+#include "map_revisions.h"
 #include "map_table.h"
 
 #include <benchmark/benchmark.h>
@@ -71,7 +73,9 @@ void register_all(const Plan& plan) {
       register_insertion(plan, scene, size);
     }
     register_questions(plan, scene);
+    register_revisions(plan, scene);
   }
+  register_indexes(plan);
   register_switch(plan);
 }
 

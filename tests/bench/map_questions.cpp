@@ -54,7 +54,7 @@ Questions questions(Scene scene, std::size_t count) {
 struct Maps {
   Pipeline bricks;
   Pipeline octree;
-  BrickView brick_view{bricks.map()};
+  BrickView brick_view{bricks.map().cells()};
   OctomapView tree_view{};
 
   Maps(Scene scene, int level, ImageSize size)
@@ -149,7 +149,7 @@ void switch_level(benchmark::State& state, const Plan& plan) {
   for (const Frame& frame : frames(Scene::indoor, plan.sizes.front())) {
     pipeline.insert(frame);
   }
-  BrickView view{pipeline.map()};
+  BrickView view{pipeline.map().cells()};
   for (auto _ : state) {
     view.activate(3);
     benchmark::DoNotOptimize(view);

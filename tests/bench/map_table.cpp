@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_table.h"
 
+#include "map_revisions.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -87,6 +88,7 @@ bool TableReporter::write(const std::string& file, const Plan& plan) const {
     write_insertions(out, plan, simd);
   }
   write_questions(out, plan);
+  write_revisions(out);
   for (const char* scene : {"indoor", "outdoor"}) {
     if (const Least* least = find(inflation_name(scene))) {
       out << "\nInflating 24 x 24 x 6 m (" << scene
@@ -172,6 +174,34 @@ void TableReporter::write_questions(std::ostream& out, const Plan& plan) const {
                                                   : std::to_string(std::lround(differing->second)))
             << " |\n";
       }
+    }
+  }
+}
+
+void TableReporter::write_revisions(std::ostream& out) const {
+  out << "\n# Revisions\n\nA reader on another thread holds a revision of the map, and after each "
+         "frame takes the next one. Milliseconds to insert a frame without and with it, "
+         "microseconds to hand on a revision (mean and most), MB of the map without and with "
+         "it.\n\n"
+         "| scene | m | mapper | alone | with a reader | times as long | hand on | most | MB | MB "
+         "with a reader |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const char* scene : {"indoor", "outdoor"}) {
+    for (const RevisedMapper& kind : revised_mappers) {
+      for (const char* cells : revised_cells) {
+        if (const Least* least = find(revision_name(scene, kind.name, cells))) {
+          const auto counter = [&](const char* name) { return rounded(least->counters.at(name)); };
+          out << "| " << scene << " | " << cells << " | " << kind.name << " | "
+              << counter("alone_ms") << " | " << rounded(least->time) << " | " << counter("times")
+              << " | " << counter("hand_on_us") << " | " << counter("most_us") << " | "
+              << counter("MB") << " | " << counter("read_MB") << " |\n";
+        }
+      }
+    }
+  }
+  out << "\n| chunks in the map | hand on, microseconds |\n|---|---|\n";
+  for (const int chunks : index_chunks) {
+    if (const Least* least = find(index_name(chunks))) {
+      out << "| " << chunks << " | " << rounded(least->time) << " |\n";
     }
   }
 }

@@ -61,6 +61,7 @@ class TableReporter final : public benchmark::ConsoleReporter {
   void write_insertions(std::ostream& out, const Plan& plan, const std::string& simd) const;
   void write_row(std::ostream& out, Insertion row) const;
   void write_questions(std::ostream& out, const Plan& plan) const;
+  void write_revisions(std::ostream& out) const;
 
   std::map<std::string, Least> least_{};
 };

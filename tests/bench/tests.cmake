@@ -16,6 +16,7 @@ find_package(benchmark QUIET)
 if(FLYBALL_BUILD_SIM AND benchmark_FOUND)
   set(here ${CMAKE_CURRENT_LIST_DIR})
   add_executable(map_bench ${here}/map_bench.cpp ${here}/map_pipeline.cpp ${here}/map_questions.cpp
+                           ${here}/map_revisions.cpp
                            ${here}/map_scenes.cpp ${here}/map_table.cpp)
   target_link_libraries(map_bench PRIVATE flyball::kernels octomap octomath benchmark::benchmark)
   target_include_directories(map_bench PRIVATE ${PROJECT_SOURCE_DIR}/kernels/src)

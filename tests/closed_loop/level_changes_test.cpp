@@ -130,6 +130,9 @@ class Accompanied final : public Mapper {
     flown_->declare_clear(centre_W, space);
   }
   [[nodiscard]] const OccupancyView& view() const override { return flown_->view(); }
+  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
+    return flown_->revision();
+  }
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return flown_->occupied(); }
 
  private:

@@ -25,6 +25,9 @@ class GridMapper final : public Mapper {
     declared_W.push_back(centre_W);
   }
   [[nodiscard]] const OccupancyView& view() const override { return map_; }
+  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
+    return std::make_shared<const GridMap>(map_);
+  }
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return {}; }
 
   std::vector<Vec3> declared_W{};

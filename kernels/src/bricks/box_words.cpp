@@ -98,7 +98,7 @@ std::uint64_t BoxBricks::cells_of(const CellKey& brick) const {
   return along(0, brick.x) & along(1, brick.y) & along(2, brick.z);
 }
 
-BoxWords::BoxWords(const BrickMap& map, int level, const BoxBricks& bricks)
+BoxWords::BoxWords(const BrickCells& map, int level, const BoxBricks& bricks)
     : level_{level}, bricks_{bricks} {
   const CellKey& first = bricks.first_block();
   const CellKey& last = bricks.last_block();
@@ -111,7 +111,7 @@ BoxWords::BoxWords(const BrickMap& map, int level, const BoxBricks& bricks)
   }
 }
 
-void BoxWords::read(const BrickMap& map, const CellKey& block) {
+void BoxWords::read(const BrickCells& map, const CellKey& block) {
   const Chunk& chunk = map.chunk_at(block.above(chunk_level - block_level));
   const auto word =
       static_cast<std::size_t>((block.x & 1) | (block.y & 1) << 1 | (block.z & 1) << 2);

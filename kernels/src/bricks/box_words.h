@@ -7,7 +7,7 @@
 /// looked at. For bodies, which are a few bricks wide, this is faster than walking down the levels.
 
 #include "bits.h"
-#include "brick_map.h"
+#include "brick_cells.h"
 #include <array>
 
 namespace flyball {
@@ -82,7 +82,7 @@ class BoxWords {
   };
 
   /// @pre `bricks.fits()`; both outlive this.
-  BoxWords(const BrickMap& map, int level, const BoxBricks& bricks);
+  BoxWords(const BrickCells& map, int level, const BoxBricks& bricks);
 
   [[nodiscard]] bool may_have_occupied() const { return has_occupied_; }
   [[nodiscard]] bool may_have_unknown() const { return has_unknown_; }
@@ -113,7 +113,7 @@ class BoxWords {
   }
 
  private:
-  void read(const BrickMap& map, const CellKey& block);
+  void read(const BrickCells& map, const CellKey& block);
 
   int level_;
   const BoxBricks& bricks_;

@@ -14,18 +14,20 @@ namespace flyball {
 
 class BrickStore {
  public:
-  using Cells = BrickMap;
+  using Cells = BrickCells;
+  using Frozen = BrickCells;
 
   explicit BrickStore(double cell_m) : map_{cell_m} {}
 
   [[nodiscard]] double cell_m() const { return map_.lattice().cell_m(0); }
-  [[nodiscard]] const BrickMap& cells() const { return map_; }
+  [[nodiscard]] const BrickCells& cells() const { return map_.cells(); }
+  [[nodiscard]] std::shared_ptr<const BrickCells> revision() { return map_.revision(); }
 
   void write(const std::vector<BrickMasks>& masks) { map_.apply(masks); }
 
   [[nodiscard]] bool is_confirmed(const CellKey& cell) const {
     constexpr auto steps = static_cast<std::int8_t>(confirmed_log_odds * log_odds_steps);
-    const Chunk& chunk = map_.chunk_at(cell.above(chunk_level));
+    const Chunk& chunk = map_.cells().chunk_at(cell.above(chunk_level));
     return chunk.bricks[brick_number(cell.above(brick_level))].cells[bit_in_brick(cell)] >= steps;
   }
   void confirm(const CellKey& cell) {

@@ -83,10 +83,22 @@ class DiscColumns {
 }  // namespace
 
 void BrickView::activate(int level) {
-  static constexpr std::array<Answers, BrickMap::coarsest_level + 1> answers{
+  static constexpr std::array<Answers, BrickCells::coarsest_level + 1> answers{
       answers_at(0), answers_at(1), answers_at(2), answers_at(3), answers_at(4), answers_at(5)};
   level_ = level;
   answers_ = answers[static_cast<std::size_t>(level)].data();
+}
+
+std::shared_ptr<const OccupancyView> BrickView::of_revision(
+    std::shared_ptr<const BrickCells> cells) const {
+  struct Kept {
+    Kept(std::shared_ptr<const BrickCells> of_cells, const BrickView& like)
+        : cells{std::move(of_cells)}, view{*cells, like} {}
+    std::shared_ptr<const BrickCells> cells;  // Owners: see BrickMap::revision.
+    BrickView view;
+  };
+  const auto kept = std::make_shared<const Kept>(std::move(cells), *this);
+  return {kept, &kept->view};
 }
 
 /// Of a finest cell, at the active level.
@@ -221,7 +233,7 @@ void BrickView::inflate(const Aabb& box_W,
 
 void BrickView::for_each_occupied(const std::function<void(const Aabb& cube)>& show) const {
   const BrickWalk walk{map_, level_};
-  for (const auto& chunk : map_.chunks()) {
+  for (const Chunk* chunk : map_.chunks()) {
     const BoxShape space{map_.lattice().cube(chunk->key, chunk_level)};
     (void)walk.any_occupied(space, [&](const Aabb& cube) {
       show(cube);

@@ -13,9 +13,10 @@
 #include "flyball/kernels/inflated_window.h"
 #include "flyball/runtime/occupancy.h"
 
-#include "brick_map.h"
+#include "brick_cells.h"
 #include "scans/clear_spaces.h"
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace flyball {
@@ -26,11 +27,19 @@ class BoxWords;
 class BrickView final : public OccupancyView, public Inflatable {
  public:
   /// The map outlives the view.
-  explicit BrickView(const BrickMap& map) : map_{map} { activate(0); }
+  explicit BrickView(const BrickCells& map) : map_{map} { activate(0); }
+  /// The same view of another map.
+  BrickView(const BrickCells& map, const BrickView& like) : map_{map}, clear_{like.clear_} {
+    activate(like.level_);
+  }
 
   /// Which cells block from now on: 0..5. Costs nothing.
   void activate(int level);
   [[nodiscard]] int level() const { return level_; }
+  /// What this view shows now, of cells that stay as they are. Its owners are those who hold copies
+  /// of the pointer.
+  [[nodiscard]] std::shared_ptr<const OccupancyView> of_revision(
+      std::shared_ptr<const BrickCells> cells) const;
   /// Ignored when an earlier cylinder contains it.
   void declare_clear(const Vec3& centre_W, const Cylinder& space) {
     clear_.declare(centre_W, space);
@@ -66,7 +75,7 @@ class BrickView final : public OccupancyView, public Inflatable {
   [[nodiscard]] CellState seen_by_disc(const BodyShape& shape, const BoxWords& words) const;
   [[nodiscard]] CellState beyond_clear(const BodyShape& shape) const;
 
-  const BrickMap& map_;
+  const BrickCells& map_;
   ClearSpaces clear_{};
   int level_{};
   const std::uint8_t* answers_{};  ///< By codes of bricks, at this level.

@@ -6,7 +6,8 @@
 /// level an occupied cell is shown with its full cube; unknown space is always shown cell by finest
 /// cell, so that what was seen of a coarse cell stays seen.
 
-#include "brick_map.h"
+#include "brick_cells.h"
+#include "scans/scan_masks.h"
 #include "visual/overlap.h"
 #include <array>
 
@@ -15,7 +16,7 @@ namespace flyball {
 class BrickWalk {
  public:
   /// The map outlives the walk. @param level  Of the cells that block: 0..5.
-  BrickWalk(const BrickMap& map, int level) : map_{map}, lattice_{map.lattice()}, level_{level} {}
+  BrickWalk(const BrickCells& map, int level) : map_{map}, lattice_{map.lattice()}, level_{level} {}
 
   /// Shows each occupied cube, cut to the shape's bounds, that overlaps the shape. Ends when
   /// `show(part)` returns true, and says whether it did.
@@ -237,7 +238,7 @@ class BrickWalk {
     return false;
   }
 
-  const BrickMap& map_;
+  const BrickCells& map_;
   const Lattice& lattice_;
   int level_;
 };

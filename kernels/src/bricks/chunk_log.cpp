@@ -33,7 +33,7 @@ std::int8_t together(std::int8_t a, std::int8_t b) {
 }
 
 void add_brick(const CellKey& key, const Brick& brick, BrickMap& map) {
-  const Chunk& chunk = map.chunk_at(key.above(chunk_level - brick_level));
+  const Chunk& chunk = map.cells().chunk_at(key.above(chunk_level - brick_level));
   Brick sum = chunk.bricks[brick_number(key)];
   std::transform(sum.cells.begin(), sum.cells.end(), brick.cells.begin(), sum.cells.begin(),
                  together);
@@ -56,7 +56,7 @@ bool add_entry(std::ifstream& file, BrickMap& map) {
     return false;
   }
   Brick brick{};
-  for (std::size_t number = 0; number < 512; ++number) {
+  for (std::size_t number = 0; number < Chunk::brick_count; ++number) {
     if (!has(entry.known, number)) {
       continue;
     }
@@ -90,7 +90,7 @@ Status ChunkLog::status() const {
 
 void ChunkLog::append(const Chunk& chunk) {
   write_as_bytes(file_, Entry{chunk.key, chunk.has_known});
-  for (std::size_t brick = 0; brick < chunk.bricks.size(); ++brick) {
+  for (std::size_t brick = 0; brick < Chunk::brick_count; ++brick) {
     if (has(chunk.has_known, brick)) {
       write_as_bytes(file_, chunk.bricks[brick]);
     }
@@ -113,7 +113,7 @@ Status ChunkLog::add_to(BrickMap& map) {
 }
 
 void add_chunk(const Chunk& chunk, BrickMap& map) {
-  for (std::size_t brick = 0; brick < chunk.bricks.size(); ++brick) {
+  for (std::size_t brick = 0; brick < Chunk::brick_count; ++brick) {
     if (has(chunk.has_known, brick)) {
       add_brick(key_of(chunk.key, brick), chunk.bricks[brick], map);
     }

@@ -12,7 +12,7 @@
 
 #include "flyball/kernels/inflated_window.h"
 
-#include "brick_map.h"
+#include "brick_cells.h"
 #include "scans/clear_spaces.h"
 #include <vector>
 
@@ -31,7 +31,7 @@ struct CellReach {
 class Inflation {
  public:
   struct Source {
-    const BrickMap& map;
+    const BrickCells& map;
     const ClearSpaces& clear;
     int level;
     Obstruction by;

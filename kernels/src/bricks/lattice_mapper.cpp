@@ -104,6 +104,10 @@ class LatticeMapper final : public Mapper {
 
   [[nodiscard]] const OccupancyView& view() const override { return view_; }
 
+  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
+    return view_.of_revision(map_.revision());
+  }
+
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return shown_cells(view_); }
 
   [[nodiscard]] MapContents contents() const override { return contents_of(map_, coarsest_level); }
@@ -117,7 +121,7 @@ class LatticeMapper final : public Mapper {
     if (auto status = forgotten_->add_to(whole); !status) {
       return status;
     }
-    for (const auto& chunk : map_.chunks()) {
+    for (const Chunk* chunk : map_.cells().chunks()) {
       add_chunk(*chunk, whole);
     }
     return write_map_file(whole, resolution_m, path);
@@ -190,7 +194,7 @@ class LatticeMapper final : public Mapper {
           return level;
         }
       }
-      if (!map_.chunks().empty()) {
+      if (!map_.cells().chunks().empty()) {
         break;
       }
       begin(resolution_m);
@@ -202,7 +206,7 @@ class LatticeMapper final : public Mapper {
   [[nodiscard]] Status check(const PointCloud& cloud_C,
                              const Pose& X_WC,
                              const MapperSettings& settings) const {
-    const double finest_m = map_.chunks().empty()
+    const double finest_m = map_.cells().chunks().empty()
                                 ? std::min(settings.resolution_m, map_.lattice().cell_m(0))
                                 : map_.lattice().cell_m(0);
     // A pyramid looks at the whole box around its view, up to the next chunk.
@@ -267,7 +271,7 @@ class LatticeMapper final : public Mapper {
   double keep_radius_m_{};
 
   BrickMap map_{default_finest_m};
-  BrickView view_{map_};
+  BrickView view_{map_.cells()};
   std::unique_ptr<ChunkLog> forgotten_{};  ///< Null where nothing is, and where nobody asks.
   std::vector<std::unique_ptr<ExactScan>> exact_{};  ///< One for each level, which sets its counts.
   std::unique_ptr<RayScan> close_{};

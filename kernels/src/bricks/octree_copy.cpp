@@ -102,7 +102,7 @@ void add_chunk(const BrickMap& map,
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
         const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
-        if (map.state(cell, level) != CellState::unknown) {
+        if (map.cells().state(cell, level) != CellState::unknown) {
           tree.setNodeValue(coarse_key(cell, level), value_of({chunk, cell, wanted}, tree), true);
         }
       }
@@ -161,7 +161,7 @@ std::unique_ptr<octomap::OcTree> to_octree(const BrickMap& map, int level, TreeC
   auto tree = std::make_unique<octomap::OcTree>(map.lattice().cell_m(level));
   tree->setClampingThresMin(0.12);  // both as in MAVBench's code
   tree->setClampingThresMax(0.97);
-  for (const auto& chunk : map.chunks()) {
+  for (const Chunk* chunk : map.cells().chunks()) {
     add_chunk(map, *chunk, {level, cells}, *tree);
     prune_chunk(chunk->key, level, *tree);
   }

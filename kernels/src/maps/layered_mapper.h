@@ -8,6 +8,8 @@
 ///
 /// A store has
 ///   Store(cell_m), cells()             what LayeredView looks at; empty at first
+///   revision()                         the cells as they are now, which stay so: a shared pointer
+///                                      to `Frozen`, at which LayeredView can look as well
 ///   write(masks)                       of one scan
 ///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
 ///   add_to(clear)                      tells all that it knows, unless that is too much
@@ -80,6 +82,17 @@ class LayeredMapper final : public Mapper {
 
   [[nodiscard]] const OccupancyView& view() const override { return view_; }
 
+  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
+    const auto revision = std::make_shared<Revision>();
+    for (auto shown = view_.layers().rbegin(); shown != view_.layers().rend(); ++shown) {
+      for (const auto& layer : layers_) {
+        layer->add_to(*revision, *shown);
+      }
+    }
+    revision->view.declare_clear(view_.declared());
+    return {revision, &revision->view};
+  }
+
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return shown_cells(view_); }
 
   [[nodiscard]] MapContents contents() const override {
@@ -133,6 +146,16 @@ class LayeredMapper final : public Mapper {
   // that pass there without touching it would free the cell: stock OctoMap forgets the wall.
   static constexpr double wide_cell_m = 0.3;
 
+  using View = LayeredView<typename Store::Cells>;
+
+  /// Cells that stay as they are, and the view of them.
+  struct Revision {
+    // Owners: see Store::revision.
+    std::vector<std::shared_ptr<const typename Store::Frozen>> cells{};
+    std::vector<std::shared_ptr<const BrickCells>> trusted{};
+    LayeredView<typename Store::Frozen> view{};
+  };
+
   /// The cells of one resolution as stock insertion makes them, and for wide cells the walls in
   /// it: those cells that were once occupied beyond doubt. The view asks the walls first; obstacles
   /// are static. For coarse cells also which of them surely hold no wall at all.
@@ -146,11 +169,24 @@ class LayeredMapper final : public Mapper {
     [[nodiscard]] bool is_coarse() const { return cell_m >= coarse_cell_m; }
     [[nodiscard]] bool is_wide() const { return cell_m > wide_cell_m; }
 
-    void show_in(LayeredView<typename Store::Cells>& view) const {
+    void show_in(View& view) const {
       view.activate({&store.cells(), is_coarse() ? &clear.cells() : nullptr});
       if (is_wide()) {
         view.activate(walls.cells());
       }
+    }
+
+    /// If it is this layer, or its walls, that the view shows.
+    void add_to(Revision& revision, const typename View::Layer& shown) {
+      if (shown.cells != &store.cells() && shown.cells != &walls.cells()) {
+        return;
+      }
+      Store& from = shown.cells == &store.cells() ? store : walls;
+      const BrickCells* trusted = nullptr;
+      if (shown.trusted_by_finer != nullptr) {
+        trusted = revision.trusted.emplace_back(clear.revision()).get();
+      }
+      revision.view.activate({revision.cells.emplace_back(from.revision()).get(), trusted});
     }
 
     void confirm(const std::vector<BrickMasks>& changes) {
@@ -220,7 +256,7 @@ class LayeredMapper final : public Mapper {
   }
 
   std::vector<std::unique_ptr<Layer>> layers_{};
-  LayeredView<typename Store::Cells> view_{};
+  View view_{};
   const ScanMasks* masks_{};  ///< Of the pending layer.
   Layer* pending_{};
 };

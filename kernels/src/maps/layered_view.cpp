@@ -5,6 +5,7 @@
 #include "bricks/box_words.h"
 #include "bricks/brick_walk.h"
 #include "bricks/obstacle_columns.h"
+#include "maps/frozen_tree.h"
 #include "maps/octree_walk.h"
 #include <algorithm>
 #include <limits>
@@ -17,7 +18,10 @@ namespace {
 double cell_m(const octomap::OcTree& tree) {
   return tree.getResolution();
 }
-double cell_m(const BrickMap& map) {
+double cell_m(const FrozenTree& tree) {
+  return tree.cell_m();
+}
+double cell_m(const BrickCells& map) {
   return map.lattice().cell_m(0);
 }
 
@@ -29,14 +33,20 @@ CellState state_in(const octomap::OcTree& tree, const Vec3& p_W) {
          : tree.isNodeOccupied(node) ? CellState::occupied
                                      : CellState::free;
 }
-CellState state_in(const BrickMap& map, const Vec3& p_W) {
+CellState state_in(const FrozenTree& tree, const Vec3& p_W) {
+  return tree.state(p_W);
+}
+CellState state_in(const BrickCells& map, const Vec3& p_W) {
   return map.lattice().contains(p_W) ? map.state(map.lattice().cell(p_W), 0) : CellState::unknown;
 }
 
-OctreeWalk walk_in(const octomap::OcTree& tree) {
+OctreeWalk<octomap::OcTree> walk_in(const octomap::OcTree& tree) {
   return OctreeWalk{tree};
 }
-BrickWalk walk_in(const BrickMap& map) {
+OctreeWalk<FrozenTree> walk_in(const FrozenTree& tree) {
+  return OctreeWalk{tree};
+}
+BrickWalk walk_in(const BrickCells& map) {
   return BrickWalk{map, 0};
 }
 
@@ -46,10 +56,11 @@ struct Glance {
   bool may_have_unknown{true};
 };
 
-Glance glance_at(const octomap::OcTree& /*tree*/, const Aabb& /*box*/) {
+template <class Tree>
+Glance glance_at(const Tree& /*tree*/, const Aabb& /*box*/) {
   return {};
 }
-Glance glance_at(const BrickMap& map, const Aabb& box) {
+Glance glance_at(const BrickCells& map, const Aabb& box) {
   KeyBox keys;
   if (!keys_in(map.lattice(), box, touch_m, keys) || keys.is_empty()) {
     return {};
@@ -71,15 +82,15 @@ Glance glance_at(const BrickMap& map, const Aabb& box) {
   return seen;
 }
 
-template <class Visit>
-void for_each_cube(const octomap::OcTree& tree, Visit&& visit) {
+template <class Tree, class Visit>
+void for_each_cube(const Tree& tree, Visit&& visit) {
   const Vec3 far = Vec3::Constant(std::numeric_limits<double>::max());
   const BoxShape everywhere{{-far, far}};
   (void)walk_in(tree).any_occupied(everywhere.bounds(), everywhere, visit);
 }
 template <class Visit>
-void for_each_cube(const BrickMap& map, Visit&& visit) {
-  for (const auto& chunk : map.chunks()) {
+void for_each_cube(const BrickCells& map, Visit&& visit) {
+  for (const Chunk* chunk : map.chunks()) {
     (void)walk_in(map).any_occupied(BoxShape{map.lattice().cube(chunk->key, chunk_level)}, visit);
   }
 }
@@ -108,7 +119,7 @@ CellState LayeredView<Cells>::state(const Vec3& p_W) const {
     if (seen == CellState::occupied && !is_vague(layer, Use::move)) {
       return seen;
     }
-    const octomap::OcTree* free_cells = trusted(layer, Use::move);
+    const BrickCells* free_cells = trusted(layer, Use::move);
     if (seen == CellState::free &&
         (free_cells == nullptr || state_in(*free_cells, p_W) == CellState::free)) {
       return seen;
@@ -198,7 +209,7 @@ bool LayeredView<Cells>::is_vague(std::size_t layer, Use use) const {
 }
 
 template <class Cells>
-const octomap::OcTree* LayeredView<Cells>::trusted(std::size_t layer, Use use) const {
+const BrickCells* LayeredView<Cells>::trusted(std::size_t layer, Use use) const {
   return is_vague(layer, use) ? layers_[layer].trusted_by_finer : nullptr;
 }
 
@@ -221,9 +232,8 @@ bool LayeredView<Cells>::any_gap_from(
   const auto deeper = [&](const Aabb& part) {
     return any_gap_from(layer + 1, layers, part, shape, show);
   };
-  if (const octomap::OcTree* free_cells = trusted(layer, layers.use)) {
-    const OctreeWalk walk{*free_cells};
-    return walk.any_unknown(region, shape, deeper) || walk.any_occupied(region, shape, deeper);
+  if (const BrickCells* free_cells = trusted(layer, layers.use)) {
+    return walk_in(*free_cells).any_unknown(region, shape, deeper);
   }
   const auto walk = walk_in(*layers_[layer].cells);
   return walk.any_unknown(region, shape, deeper) ||
@@ -253,6 +263,7 @@ bool LayeredView<Cells>::hits(const Shape& shape, Use use) const {
 }
 
 template class LayeredView<octomap::OcTree>;
-template class LayeredView<BrickMap>;
+template class LayeredView<FrozenTree>;
+template class LayeredView<BrickCells>;
 
 }  // namespace flyball

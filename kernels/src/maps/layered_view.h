@@ -2,15 +2,15 @@
 #pragma once
 
 /// @file
-/// Several maps of different resolutions, seen as one: OctoMap's trees, or brick maps at their
-/// finest level.
+/// Several maps of different resolutions, seen as one: OctoMap's trees, copies of them that stay as
+/// they are, or brick maps at their finest level.
 ///
 /// The map used last answers. For a cube that it does not know, of whatever size, the map used
 /// before it answers, cut to that cube, and so on. A coarser map's occupied cube does not say
 /// which of the finer cells in it is occupied: where it answers for a finer map it stands for
 /// unknown, so that a planner may look there for a door, and the guard still does not go. (Density
 /// and nearest obstacle take it as it is.) A coarse map's free cube may hold a wall as well: a
-/// layer can name those that surely do not (bricks/clear_cells.h), and then the others stand for
+/// layer can name those that surely do not (scans/clear_cells.h), and then the others stand for
 /// unknown, too, where it answers for a finer map. What no map knows is unknown, except inside
 /// the cylinders that were declared clear. A place that is not finite is unknown, a way there is
 /// blocked.
@@ -22,15 +22,11 @@
 #include <functional>
 #include <vector>
 
-namespace octomap {
-class OcTree;
-}  // namespace octomap
-
 namespace flyball {
 
-class BrickMap;
+class BrickCells;
 
-/// @tparam Cells  `octomap::OcTree` or `BrickMap`.
+/// @tparam Cells  `octomap::OcTree`, `FrozenTree` or `BrickCells`.
 template <class Cells>
 class LayeredView final : public OccupancyView {
  public:
@@ -38,11 +34,13 @@ class LayeredView final : public OccupancyView {
   /// finer one. Null: in the map itself.
   struct Layer {
     const Cells* cells;
-    const octomap::OcTree* trusted_by_finer;
+    const BrickCells* trusted_by_finer;
   };
   /// Makes the layer the one that answers first. Its maps outlive the view.
   void activate(const Layer& layer);
   void activate(const Cells& cells) { activate({&cells, nullptr}); }
+  /// The active one first.
+  [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
   /// Back to knowing no map.
   void forget_layers() { layers_.clear(); }
   /// Ignored when an earlier cylinder contains it.
@@ -50,6 +48,7 @@ class LayeredView final : public OccupancyView {
     clear_.declare(centre_W, space);
   }
   [[nodiscard]] const ClearSpaces& declared() const { return clear_; }
+  void declare_clear(const ClearSpaces& spaces) { clear_ = spaces; }
 
   /// Of the active map; `initial_resolution_m` before there is one.
   [[nodiscard]] double resolution_m() const override;
@@ -86,7 +85,7 @@ class LayeredView final : public OccupancyView {
 
   [[nodiscard]] bool is_vague(std::size_t layer, Use use) const;
   /// Of a layer that answers for a finer one: where its free cells stand. Else null.
-  [[nodiscard]] const octomap::OcTree* trusted(std::size_t layer, Use use) const;
+  [[nodiscard]] const BrickCells* trusted(std::size_t layer, Use use) const;
   [[nodiscard]] bool is_plainly_free(const Aabb& box) const;
   /// Shows the parts of `region` in the shape that none of the first `layers.count` maps knows.
   template <class Shape, class Show>

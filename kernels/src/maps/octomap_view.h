@@ -6,6 +6,10 @@
 
 #include "maps/layered_view.h"
 
+namespace octomap {
+class OcTree;
+}  // namespace octomap
+
 namespace flyball {
 
 using OctomapView = LayeredView<octomap::OcTree>;

@@ -2,26 +2,59 @@
 #pragma once
 
 /// @file
-/// Walks down an OctoMap tree, only where a shape is, and shows what the tree says there. Own
-/// recursion, because OctoMap's iterators visit whole boxes and skip unknown space.
+/// Walks down an OctoMap tree, or a copy of one that stays as it is, only where a shape is, and
+/// shows what the tree says there. Own recursion, because OctoMap's iterators visit whole boxes and
+/// skip unknown space.
 
+#include "maps/frozen_tree.h"
 #include "maps/octomap_tree.h"
 #include "visual/overlap.h"
 #include <array>
+#include <type_traits>
 
 namespace flyball {
 
+/// OctoMap's tree, asked as FrozenTree is.
+class OctomapNodes {
+ public:
+  using Node = octomap::OcTreeNode;
+  explicit OctomapNodes(const octomap::OcTree& tree) : tree_{tree} {}
+
+  [[nodiscard]] double cell_m() const { return tree_.getResolution(); }
+  [[nodiscard]] const Node* root() const { return tree_.getRoot(); }
+  [[nodiscard]] bool has_children(const Node& node) const { return tree_.nodeHasChildren(&node); }
+  /// Null where there is none.
+  [[nodiscard]] const Node* child(const Node& node, unsigned octant) const {
+    return tree_.nodeChildExists(&node, octant) ? tree_.getNodeChild(&node, octant) : nullptr;
+  }
+  [[nodiscard]] bool is_occupied(const Node& node) const { return tree_.isNodeOccupied(&node); }
+
+ private:
+  const octomap::OcTree& tree_;
+};
+
+template <class Tree>
+struct NodesOf {
+  using type = const Tree&;
+};
+template <>
+struct NodesOf<octomap::OcTree> {
+  using type = OctomapNodes;
+};
+
+/// @tparam Tree  `octomap::OcTree` or `FrozenTree`.
+template <class Tree>
 class OctreeWalk {
  public:
   /// The tree outlives the walk.
-  explicit OctreeWalk(const octomap::OcTree& tree)
-      : tree_{tree}, resolution_m_{tree.getResolution()}, cells_per_m_{1.0 / resolution_m_} {}
+  explicit OctreeWalk(const Tree& tree)
+      : tree_{tree}, resolution_m_{tree_.cell_m()}, cells_per_m_{1.0 / resolution_m_} {}
 
   /// Shows each occupied leaf's cube, cut to `region`, that overlaps the shape, near ones first.
   /// Ends when `show(part)` returns true, and says whether it did.
   template <class Shape, class Show>
   [[nodiscard]] bool any_occupied(const Aabb& region, const Shape& shape, Show&& show) const {
-    const octomap::OcTreeNode* root = tree_.getRoot();
+    const Node* root = tree_.root();
     return root != nullptr &&
            occupied_below({root, {0, 0, 0}, all_keys}, scope(region, shape), show);
   }
@@ -29,7 +62,7 @@ class OctreeWalk {
   /// The same for the cubes of which the tree knows nothing.
   template <class Shape, class Show>
   [[nodiscard]] bool any_unknown(const Aabb& region, const Shape& shape, Show&& show) const {
-    const octomap::OcTreeNode* root = tree_.getRoot();
+    const Node* root = tree_.root();
     if (root == nullptr || !contains(region)) {
       return show(region);
     }
@@ -37,13 +70,15 @@ class OctreeWalk {
   }
 
  private:
+  using Nodes = typename NodesOf<Tree>::type;
+  using Node = typename std::decay_t<Nodes>::Node;
   using Keys = std::array<int, 3>;
   static constexpr int all_keys = 1 << 16;
   static constexpr int half_keys = all_keys / 2;
 
   /// A node with its cube: lowest key and edge, in cells. No node: a cube that is not known.
   struct Cube {
-    const octomap::OcTreeNode* node;
+    const Node* node;
     Keys base;
     int edge;
   };
@@ -87,8 +122,7 @@ class OctreeWalk {
 
   [[nodiscard]] Cube child_of(const Cube& cube, unsigned octant) const {
     const int half = cube.edge / 2;
-    const bool exists = tree_.nodeChildExists(cube.node, octant);
-    return {exists ? tree_.getNodeChild(cube.node, octant) : nullptr,
+    return {tree_.child(*cube.node, octant),
             {cube.base[0] + ((octant & 1U) != 0 ? half : 0),
              cube.base[1] + ((octant & 2U) != 0 ? half : 0),
              cube.base[2] + ((octant & 4U) != 0 ? half : 0)},
@@ -115,7 +149,7 @@ class OctreeWalk {
       differing |= first[i] ^ std::min(scope.last[i], cube.base[i] + cube.edge - 1);
     }
     while (cube.node != nullptr && cube.edge / 2 > differing && more(cube) &&
-           tree_.nodeHasChildren(cube.node)) {
+           tree_.has_children(*cube.node)) {
       cube = child_of(cube, octant_of(cube, first));
     }
     return cube;
@@ -149,12 +183,12 @@ class OctreeWalk {
   // An inner node holds the largest log-odds below it, so free space ends the recursion early.
   template <class Shape, class Show>
   [[nodiscard]] bool occupied_below(const Cube& top, const Scope<Shape>& scope, Show& show) const {
-    const auto is_occupied = [this](const Cube& cube) { return tree_.isNodeOccupied(cube.node); };
+    const auto is_occupied = [this](const Cube& cube) { return tree_.is_occupied(*cube.node); };
     const Cube cube = descended(top, scope, is_occupied);
     if (cube.node == nullptr || !is_occupied(cube)) {
       return false;
     }
-    if (!tree_.nodeHasChildren(cube.node)) {
+    if (!tree_.has_children(*cube.node)) {
       return show_part(cube, scope, show);
     }
     return any_child(cube, scope, [&](const Cube& child) {
@@ -168,12 +202,12 @@ class OctreeWalk {
     if (cube.node == nullptr) {
       return show_part(cube, scope, show);
     }
-    return tree_.nodeHasChildren(cube.node) && any_child(cube, scope, [&](const Cube& child) {
+    return tree_.has_children(*cube.node) && any_child(cube, scope, [&](const Cube& child) {
              return unknown_below(child, scope, show);
            });
   }
 
-  const octomap::OcTree& tree_;
+  Nodes tree_;
   double resolution_m_;
   double cells_per_m_;
 };

@@ -1,39 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clear_cells.h"
 
-#include "bricks/bits.h"
 #include <algorithm>
 #include <tuple>
 
 namespace flyball {
 namespace {
 
-constexpr float free_log_odds = -1.0F;  // only the sign is asked for
-constexpr float occupied_log_odds = 1.0F;
-
-std::uint64_t packed(const CellKey& brick) {
+std::uint64_t number_of(const CellKey& brick) {
   const auto bits = [](int key) { return static_cast<std::uint64_t>(key) & 0xffffU; };
   return bits(brick.x) << 32U | bits(brick.y) << 16U | bits(brick.z);
+}
+
+/// A brick with free and unknown cells.
+Brick free_cells(std::uint64_t cells) {
+  Brick brick;
+  for (std::size_t cell = 0; cell < brick.cells.size(); ++cell) {
+    brick.cells[cell] = (cells >> cell & 1U) != 0 ? log_odds::least : log_odds::unknown;
+  }
+  return brick;
 }
 
 /// One of the 27 around and at a brick.
 CellKey neighbour(const CellKey& at, int i) {
   return {at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1};
-}
-
-octomap::OcTreeKey key_of(const CellKey& brick, unsigned bit) {
-  const auto key = [](int base, unsigned offset) {
-    return static_cast<octomap::key_type>(4 * base + static_cast<int>(offset));
-  };
-  return {key(brick.x, bit & 3U), key(brick.y, bit >> 2U & 3U), key(brick.z, bit >> 4U)};
-}
-
-/// Calls `visit(key)` for the cells that are set.
-template <class Visit>
-void for_each_cell(const CellKey& brick, std::uint64_t cells, Visit&& visit) {
-  for (; cells != 0; cells &= cells - 1) {
-    visit(key_of(brick, static_cast<unsigned>(lowest_bit(cells))));
-  }
 }
 
 }  // namespace
@@ -47,7 +37,7 @@ void ClearCells::add(const std::vector<BrickMasks>& changes) {
 
 void ClearCells::declare(const Vec3& centre_W, const Cylinder& space) {
   const Vec3 half{space.radius_m, space.radius_m, space.half_height_m};
-  const Lattice lattice{cells_.getResolution()};
+  const Lattice& lattice = cells_.lattice();
   if (!lattice.contains(centre_W - half) || !lattice.contains(centre_W + half)) {
     return;  // no cell there can be known
   }
@@ -70,7 +60,7 @@ void ClearCells::declare(const Vec3& centre_W, const Cylinder& space) {
 void ClearCells::declare(const CellKey& cell) {
   const CellKey at = cell.above(brick_level);
   const std::uint64_t bit = std::uint64_t{1} << bit_in_brick(cell);
-  Brick& brick = bricks_[packed(at)];
+  Known& brick = bricks_[number_of(at)];
   if ((brick.declared & bit) == 0) {
     brick.declared |= bit;
     changes_around(at);
@@ -95,7 +85,7 @@ void ClearCells::update_changed() {
 }
 
 void ClearCells::take(const BrickMasks& change) {
-  Brick& brick = bricks_[packed(change.brick)];
+  Known& brick = bricks_[number_of(change.brick)];
   const std::uint64_t seen = change.free | change.hit;
   const bool knows_more = (seen & ~brick.known) != 0;
   const bool is_hit_anew = (change.hit & ~brick.ever_hit) != 0;
@@ -107,25 +97,23 @@ void ClearCells::take(const BrickMasks& change) {
 }
 
 void ClearCells::update(const CellKey& at) {
-  const auto found = bricks_.find(packed(at));
+  const auto found = bricks_.find(number_of(at));
   if (found == bricks_.end()) {
     return;
   }
-  Brick& brick = found->second;
+  Known& brick = found->second;
   const std::uint64_t clear = surrounded(known_around(at)) & brick.known & ~brick.ever_hit;
-  const auto set = [&](std::uint64_t cells, float log_odds) {
-    for_each_cell(at, cells, [&](const auto& key) { cells_.setNodeValue(key, log_odds); });
-  };
-  set(clear & ~brick.clear, free_log_odds);
-  set(brick.clear & ~clear, occupied_log_odds);
-  brick.clear = clear;
+  if (clear != brick.clear) {
+    brick.clear = clear;
+    cells_.fill(at, free_cells(clear));
+  }
 }
 
 ClearCells::Rows ClearCells::known_around(const CellKey& at) const {
   Rows rows{};
   for (int i = 0; i < 27; ++i) {
     const CellKey step = neighbour({0, 0, 0}, i);
-    const auto found = bricks_.find(packed(neighbour(at, i)));
+    const auto found = bricks_.find(number_of(neighbour(at, i)));
     if (found == bricks_.end()) {
       continue;
     }
@@ -179,7 +167,7 @@ void ClearCells::add(const octomap::OcTree& tree) {
 }
 
 std::size_t ClearCells::bytes() const {
-  return cells_.memoryUsage() + bricks_.size() * (sizeof(Brick) + 2 * sizeof(std::uint64_t));
+  return cells_.bytes() + bricks_.size() * (sizeof(Known) + 2 * sizeof(std::uint64_t));
 }
 
 }  // namespace flyball

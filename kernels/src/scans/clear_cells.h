@@ -13,6 +13,7 @@
 
 #include "flyball/runtime/geometry.h"
 
+#include "bricks/brick_map.h"
 #include "maps/octomap_tree.h"
 #include "scan_masks.h"
 #include <array>
@@ -32,12 +33,13 @@ class ClearCells {
   void add(const octomap::OcTree& tree);
   /// @param space  Upright, around `centre_W`.
   void declare(const Vec3& centre_W, const Cylinder& space);
-  /// The clear cells as free ones. Cells that are not clear any more are occupied.
-  [[nodiscard]] const octomap::OcTree& cells() const { return cells_; }
+  /// The clear cells as free ones; all others are unknown.
+  [[nodiscard]] const BrickCells& cells() const { return cells_.cells(); }
+  [[nodiscard]] std::shared_ptr<const BrickCells> revision() { return cells_.revision(); }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  struct Brick {
+  struct Known {
     std::uint64_t known{};
     std::uint64_t ever_hit{};
     std::uint64_t declared{};
@@ -54,8 +56,8 @@ class ClearCells {
   [[nodiscard]] Rows known_around(const CellKey& at) const;
   [[nodiscard]] static std::uint64_t surrounded(const Rows& known);
 
-  std::unordered_map<std::uint64_t, Brick> bricks_{};
-  octomap::OcTree cells_;
+  std::unordered_map<std::uint64_t, Known> bricks_{};
+  BrickMap cells_;
   std::vector<CellKey> changed_{};  ///< Bricks whose clear cells may be others now.
 };
 

@@ -37,6 +37,9 @@ class CellsMapper final : public Mapper {
   void commit() override {}
   void declare_clear(const Vec3&, const Cylinder&) override {}
   [[nodiscard]] const OccupancyView& view() const override { return map_; }
+  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
+    return std::make_shared<const kit::GridMap>(map_);
+  }
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return cells_; }
 
  private:

@@ -2,6 +2,7 @@
 //
 // From masks to map, as the mapper does it for every frame.
 
+#include "bricks/brick_map.h"
 #include "bricks/brick_view.h"
 #include "counting_new.h"
 #include "scans/pyramid_scan.h"
@@ -19,7 +20,7 @@ constexpr double finest_m = 0.15;
 TEST(BrickFrame, allocates_nothing_once_warm_whatever_the_level) {
   BrickMap map{finest_m};
   map.reserve(64);
-  BrickView view{map};
+  BrickView view{map.cells()};
   RayScan rays{finest_m, RayScan::Match::stock};
   PyramidScan pyramid{finest_m};
   const Scan scan = kit::world_scan(kit::Place::indoor, 0, range_m);
@@ -46,7 +47,7 @@ TEST(BrickFrame, allocates_no_chunk_while_there_are_spare_ones) {
   for (int frame = 0; frame < 5; ++frame) {
     map.apply(rays.compute(kit::world_scan(kit::Place::indoor, frame, range_m)).bricks);
   }
-  EXPECT_GT(map.chunks().size(), 4U);
+  EXPECT_GT(map.cells().chunks().size(), 4U);
   EXPECT_EQ(map.bytes(), bytes);
 }
 

@@ -80,13 +80,13 @@ TEST(BrickMap, says_of_every_cell_at_every_level_what_a_plain_grid_says) {
       map.apply(changes);
       reference.apply(changes);
       for (int i = 0; i < 600; ++i) {
-        const int level = i % (BrickMap::coarsest_level + 1);
+        const int level = i % (BrickCells::coarsest_level + 1);
         const auto key = [&] {
           return (middle - 40 + static_cast<int>(generator() % 80)) >> level;
         };
         const CellKey cell{key(), key(), key()};
         const CellState expected = reference.state(cell, level);
-        ASSERT_EQ(map.state(cell, level), expected) << "level " << level;
+        ASSERT_EQ(map.cells().state(cell, level), expected) << "level " << level;
         ++seen[static_cast<int>(expected)];
       }
     }
@@ -103,18 +103,19 @@ TEST(BrickMap, holds_the_same_bytes_with_all_vector_instructions) {
     portable.apply(changes);
     wide.apply(changes);
   }
-  ASSERT_EQ(portable.chunks().size(), wide.chunks().size());
-  for (std::size_t i = 0; i < wide.chunks().size(); ++i) {
+  ASSERT_EQ(portable.cells().chunks().size(), wide.cells().chunks().size());
+  for (std::size_t i = 0; i < wide.cells().chunks().size(); ++i) {
     for (std::size_t brick = 0; brick < 512; ++brick) {
-      ASSERT_EQ(portable.chunks()[i]->bricks[brick].cells, wide.chunks()[i]->bricks[brick].cells);
+      ASSERT_EQ(portable.cells().chunks()[i]->bricks[brick].cells,
+                wide.cells().chunks()[i]->bricks[brick].cells);
     }
   }
 }
 
 TEST(BrickMap, calls_everything_unknown_before_the_first_scan) {
   const BrickMap map{0.15};
-  EXPECT_EQ(map.state({middle, middle, middle}, 0), CellState::unknown);
-  EXPECT_EQ(map.state({0, 0, 0}, BrickMap::coarsest_level), CellState::unknown);
+  EXPECT_EQ(map.cells().state({middle, middle, middle}, 0), CellState::unknown);
+  EXPECT_EQ(map.cells().state({0, 0, 0}, BrickCells::coarsest_level), CellState::unknown);
 }
 
 TEST(BrickMap, finds_its_chunks_again_however_many_there_are) {
@@ -124,9 +125,9 @@ TEST(BrickMap, finds_its_chunks_again_however_many_there_are) {
     changes.push_back({{8 * (i % 30), 8 * (i / 30), 8 * (i % 7)}, ~std::uint64_t{0}, 0});
   }
   map.apply(changes);
-  EXPECT_EQ(map.chunks().size(), 600U);
+  EXPECT_EQ(map.cells().chunks().size(), 600U);
   for (const BrickMasks& change : changes) {
-    EXPECT_EQ(map.state(change.brick, brick_level), CellState::free);
+    EXPECT_EQ(map.cells().state(change.brick, brick_level), CellState::free);
   }
 }
 

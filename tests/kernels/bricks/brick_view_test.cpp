@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bricks/brick_view.h"
 
+#include "bricks/brick_map.h"
 #include "random_map.h"
 #include <cmath>
 #include <random>
@@ -47,7 +48,7 @@ struct Twins {
   std::unique_ptr<octomap::OcTree> coarse;
   OctomapView expected;
   BrickMap map{finest_m};
-  BrickView view{map};
+  BrickView view{map.cells()};
 
   Twins(int level, Fill fill) : fine{kit::random_tree(finest_m, fill, 7)} {
     expected.activate(*fine);
@@ -144,7 +145,7 @@ TEST(BrickView, sees_a_wall_at_the_far_end_of_300_metres) {
   BrickMap map{0.15};
   const CellKey cell = map.lattice().cell({280.0, 0.0, 5.0});
   map.apply({{cell.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(cell)}});
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   EXPECT_TRUE(view.segment_hits({-20.0, 0.0, 5.0}, {300.0, 0.0, 5.0}, body));
   EXPECT_TRUE(view.segment_hits({-20.0, -40.0, 5.0}, {300.0, 2.6, 5.0}, body));
   EXPECT_FALSE(view.segment_hits({-20.0, 0.0, 5.0}, {279.0, 0.0, 5.0}, body));
@@ -153,7 +154,7 @@ TEST(BrickView, sees_a_wall_at_the_far_end_of_300_metres) {
 
 TEST(BrickView, knows_nothing_before_the_first_scan_nor_outside_its_keys) {
   const BrickMap map{0.15};
-  BrickView view{map};
+  BrickView view{map.cells()};
   view.declare_clear({0, 0, 0}, {1.0, 1.0});
   for (const Vec3& p : {Vec3{5, 5, 5}, Vec3{1e6, 0, 0}, Vec3{-1e300, 0, 0}}) {
     EXPECT_EQ(view.state(p), CellState::unknown);
@@ -170,7 +171,7 @@ TEST(BrickView, knows_nothing_before_the_first_scan_nor_outside_its_keys) {
 
 TEST(BrickView, trusts_no_place_that_is_not_finite) {
   const BrickMap map{0.15};
-  BrickView view{map};
+  BrickView view{map.cells()};
   view.declare_clear({0, 0, 0}, {1.0, 1.0});
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     EXPECT_EQ(view.state({0, bad, 0}), CellState::unknown);

@@ -52,12 +52,12 @@ TEST(OctreeCopy, there_and_back_changes_no_cell) {
   fly_through(kit::Place::indoor, 5, maps);
   const auto again = to_bricks(*to_octree(maps.bricks, 0));
   ASSERT_TRUE(again.ok()) << again.error().message;
-  ASSERT_EQ(again->chunks().size(), maps.bricks.chunks().size());
+  ASSERT_EQ(again->cells().chunks().size(), maps.bricks.cells().chunks().size());
   std::size_t known = 0;
-  for (const auto& chunk : maps.bricks.chunks()) {
-    const Chunk* twin = again->find(chunk->key);
+  for (const Chunk* chunk : maps.bricks.cells().chunks()) {
+    const Chunk* twin = again->cells().find(chunk->key);
     ASSERT_NE(twin, nullptr);
-    for (std::size_t brick = 0; brick < chunk->bricks.size(); ++brick) {
+    for (std::size_t brick = 0; brick < Chunk::brick_count; ++brick) {
       ASSERT_EQ(twin->masks[brick].occupied, chunk->masks[brick].occupied);
       ASSERT_EQ(twin->masks[brick].unknown, chunk->masks[brick].unknown);
       for (std::size_t cell = 0; cell < 64; ++cell) {
@@ -81,7 +81,7 @@ TEST(OctreeCopy, a_coarser_one_has_the_cells_of_that_level) {
     for (double x_m = -3.0; x_m < 9.0; x_m += 0.31) {
       const Vec3 p_W{x_m, 0.7, 1.1};
       const CellState state =
-          maps.bricks.state(maps.bricks.lattice().cell(p_W).above(level), level);
+          maps.bricks.cells().state(maps.bricks.lattice().cell(p_W).above(level), level);
       const auto* node = coarse->search(p_W.x(), p_W.y(), p_W.z());
       EXPECT_EQ(node == nullptr, state == CellState::unknown) << p_W.transpose();
       if (node != nullptr) {
@@ -113,8 +113,10 @@ TEST(OctreeCopy, a_wide_leaf_becomes_all_of_its_cells) {
   tree.prune();
   const auto bricks = to_bricks(tree);
   ASSERT_TRUE(bricks.ok());
-  EXPECT_EQ(bricks->state(bricks->lattice().cell({0.0, 0.0, 0.0}).above(4), 4), CellState::free);
-  EXPECT_EQ(bricks->state(bricks->lattice().cell({0.0, 0.0, 0.0}).above(5), 5), CellState::unknown);
+  EXPECT_EQ(bricks->cells().state(bricks->lattice().cell({0.0, 0.0, 0.0}).above(4), 4),
+            CellState::free);
+  EXPECT_EQ(bricks->cells().state(bricks->lattice().cell({0.0, 0.0, 0.0}).above(5), 5),
+            CellState::unknown);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/kernels/inflated_window.h"
 
+#include "bricks/brick_map.h"
 #include "bricks/brick_view.h"
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ bool blocks_by_definition(const OccupancyView& view,
 
 TEST(InflatedWindow, has_a_bit_where_a_body_in_the_cell_can_reach_what_is_in_its_way) {
   const BrickMap map = random_map(1, 0.0002, 0.0005);
-  BrickView view{map};
+  BrickView view{map.cells()};
   view.declare_clear({1.0, 0.5, 0.0}, {2.0, 1.0});
   InflatedWindow window;
   std::mt19937 generator{3};
@@ -110,7 +111,7 @@ TEST(InflatedWindow, has_a_bit_where_a_body_in_the_cell_can_reach_what_is_in_its
 TEST(InflatedWindow, lets_a_body_through_only_where_the_map_says_that_it_is_free) {
   constexpr Cylinder body{0.3, 0.2};
   const BrickMap map = random_map(2, 0.0003, 0.0003);
-  BrickView view{map};
+  BrickView view{map.cells()};
   view.declare_clear({2.0, 0.0, 0.0}, {1.5, 1.0});
   InflatedWindow window;
   view.inflate(box_W, body, Obstruction::occupied_or_unknown, window);
@@ -129,7 +130,7 @@ TEST(InflatedWindow, lets_a_body_through_only_where_the_map_says_that_it_is_free
 TEST(InflatedWindow, lets_a_body_along_a_line_only_where_nothing_is_hit) {
   constexpr Cylinder body{0.3, 0.2};
   const BrickMap map = random_map(4, 0.0, 0.0002);
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   InflatedWindow window;
   view.inflate(box_W, body, Obstruction::occupied, window);
   std::mt19937 generator{6};
@@ -167,7 +168,7 @@ TEST(InflatedWindow, crosses_the_same_cells_forth_and_back) {
 
 TEST(InflatedWindow, blocks_outside_itself_and_where_a_place_is_not_finite) {
   const BrickMap map = random_map(7, 0.0, 0.0);
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   InflatedWindow window;
   EXPECT_TRUE(window.blocks(Vec3{0, 0, 0}));
   view.inflate(box_W, {0.3, 0.2}, Obstruction::occupied_or_unknown, window);
@@ -183,7 +184,7 @@ TEST(InflatedWindow, blocks_outside_itself_and_where_a_place_is_not_finite) {
 
 TEST(InflatedWindow, is_empty_where_the_map_has_no_keys_or_the_body_is_too_wide) {
   const BrickMap map = random_map(8, 0.0, 0.0);
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   InflatedWindow window;
   const auto blocks_in = [&](const Aabb& box, const Cylinder& body) {
     view.inflate(box, body, Obstruction::occupied, window);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/motion_checker.h"
 
+#include "bricks/brick_map.h"
 #include "bricks/brick_view.h"
 #include "plan_scenes.h"
 #include <random>
@@ -119,7 +120,7 @@ flyball::BrickMap scattered_map() {
 
 TEST(MotionChecker, answers_the_same_with_fewer_looks_where_motions_are_expected) {
   const flyball::BrickMap bricks = scattered_map();
-  const flyball::BrickView view{bricks};
+  const flyball::BrickView view{bricks.cells()};
   const CountedMap map{view};
   const Aabb box{{-12, -12, -3}, {12, 12, 3}};
   MotionChecker plain{view, flyball::kit::slow_body(), 1.5};

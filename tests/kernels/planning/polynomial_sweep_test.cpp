@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/kernels/polynomial_sweep.h"
 
+#include "bricks/brick_map.h"
 #include "bricks/brick_view.h"
 #include <cmath>
 #include <limits>
@@ -62,7 +63,7 @@ bool hits_in_samples(const OccupancyView& map, const PolynomialPiece& piece, con
 
 TEST(PolynomialSweep, misses_nothing_that_the_body_hits_on_its_way) {
   const BrickMap map = scattered_map();
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   std::mt19937 generator{5};
   int hit = 0;
   int free = 0;
@@ -81,7 +82,7 @@ TEST(PolynomialSweep, misses_nothing_that_the_body_hits_on_its_way) {
 
 TEST(PolynomialSweep, is_stopped_only_by_what_is_nearer_than_the_tolerance) {
   const BrickMap map = scattered_map();
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   std::mt19937 generator{7};
   constexpr double step_m = 0.02;  // half of the way between two samples, see hits_in_samples
   const Cylinder wider{body.radius_m + 2.0 * tolerance_m + step_m,
@@ -101,7 +102,7 @@ TEST(PolynomialSweep, passes_beside_a_cube_by_the_millimetres_that_there_are) {
   BrickMap map{0.2};
   const CellKey cell = map.lattice().cell({1.1, 0.1, 0.1});  // 1.0 to 1.2, 0 to .2, 0 to .2
   map.apply({{cell.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(cell)}});
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   // A parabola over x whose lowest place, above the cube's far side, is at `low_m`.
   const auto bend = [&](double low_m) {
     PolynomialPiece piece;
@@ -117,7 +118,7 @@ TEST(PolynomialSweep, passes_beside_a_cube_by_the_millimetres_that_there_are) {
 
 TEST(PolynomialSweep, calls_a_piece_blocked_that_is_not_finite) {
   const BrickMap map{0.2};
-  const BrickView view{map};
+  const BrickView view{map.cells()};
   PolynomialPiece piece;
   piece.duration_s = 1.0;
   EXPECT_FALSE(sweep_hits(view, piece, body));

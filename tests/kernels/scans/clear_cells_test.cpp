@@ -14,10 +14,7 @@ constexpr int base = 32768;
 constexpr int edge = 14;  // of the box that the random scans are in
 
 bool is_clear(const ClearCells& cells, int x, int y, int z) {
-  const auto key = [](int offset) { return static_cast<octomap::key_type>(base + offset); };
-  const octomap::OcTree& tree = cells.cells();
-  const octomap::OcTreeNode* node = tree.search(octomap::OcTreeKey{key(x), key(y), key(z)});
-  return node != nullptr && !tree.isNodeOccupied(node);
+  return cells.cells().state({base + x, base + y, base + z}, 0) == CellState::free;
 }
 
 /// What the definition says, cell by cell.

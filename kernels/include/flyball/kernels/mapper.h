@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,13 @@ class Mapper : public Kernel {
   virtual void declare_clear(const Vec3& centre_W, const Cylinder& space) = 0;
   /// Answers from committed changes only. Lives as long as the mapper.
   [[nodiscard]] virtual const OccupancyView& view() const = 0;
+  /// The map as `view` shows it now, for readers on other threads: whatever the mapper does
+  /// afterwards, it keeps its answers, and it may be asked by any number of threads at the same
+  /// time, without a lock. To be called by the mapper's thread. The owners are those who hold
+  /// copies of the pointer; the mapper is none, and the revision may outlive it. A reader should
+  /// let go of an old revision when it takes a new one, because what has changed since then is kept
+  /// for it.
+  [[nodiscard]] virtual std::shared_ptr<const OccupancyView> revision() = 0;
   [[nodiscard]] virtual std::vector<OccupiedCell> occupied() const = 0;
   [[nodiscard]] virtual MapContents contents() const { return {}; }
 
