@@ -9,8 +9,7 @@ set(may_policies    runtime governors policies)
 set(may_sim         runtime sim)
 # What flies knows neither the simulator nor scenario files.
 set(may_flight      runtime kernels governors flight)
-# Judging by the true world is to leave the workloads: the last three are to go.
-set(may_workloads   ${may_flight} workloads simulation records sim)
+set(may_workloads   ${may_flight} workloads)
 set(may_scenario    ${may_workloads} policies sim scenario)
 set(may_records     runtime kernels governors sim flight scenario records)
 set(may_simulation  ${may_scenario} records simulation)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/mission_context.h"
+#include "flyball/flight/mission_context.h"
 
 #include <algorithm>
 #include <utility>
@@ -50,14 +50,17 @@ void MissionContext::finish(MissionTime at, MissionStatus status, MissionFailure
                 (failure == MissionFailure::none ? "" : std::string{" by "} + to_string(failure)));
 }
 
-VehicleTopics add_vehicle_topics(Graph& graph, bool with_colour_camera) {
+VehicleTopics add_vehicle_topics(Graph& graph, const VehicleExtras& extras) {
   VehicleTopics topics;
   topics.depth = graph.topic<DepthFrame>("depth");
   topics.navigation = graph.topic<NavigationSample>("navigation");
   topics.status = graph.topic<FlightStatus>("flight_status");
   topics.setpoint = graph.topic<Setpoint>("setpoint");
   topics.command = graph.topic<FlightCommand>("flight_command", 8);
-  if (with_colour_camera) {
+  if (extras.true_pose) {
+    topics.true_pose = graph.topic<TruePose>("true_pose");
+  }
+  if (extras.colour_camera) {
     constexpr std::size_t longest_detection = 128;  // Frames: 6 s of a 20 Hz camera.
     topics.colour = graph.topic<ColourFrame>("colour");
     topics.colour_buffer = graph.topic<ColourFrame>("colour_buffer", longest_detection);

@@ -36,6 +36,8 @@ const char* to_string(MissionFailure failure) {
       return "not_found";
     case MissionFailure::incomplete:
       return "incomplete";
+    case MissionFailure::false_alarm:
+      return "false_alarm";
   }
   return "unknown";
 }

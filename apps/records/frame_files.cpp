@@ -27,6 +27,13 @@ std::string base64_of(std::string_view content) {
   return text;
 }
 
+MissionFrame boxed(ColourImage image, const ImageBox& box, bool is_right, std::string caption) {
+  constexpr Rgb right{40, 220, 40};
+  constexpr Rgb wrong{255, 40, 40};
+  draw_box(image, box, is_right ? right : wrong);
+  return {std::move(caption), std::move(image)};
+}
+
 Result<std::string> write_frames(const std::string& folder,
                                  const std::vector<MissionFrame>& frames) {
   std::string html;

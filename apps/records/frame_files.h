@@ -4,7 +4,7 @@
 /// @file
 /// Pictures that a mission took: as files of its own, and inside its page.
 
-#include "flyball/flight/mission_frame.h"
+#include "flyball/records/mission_frame.h"
 #include "flyball/runtime/result.h"
 
 #include <string>

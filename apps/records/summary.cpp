@@ -25,7 +25,8 @@ constexpr std::array failures{MissionFailure::none,
                               MissionFailure::target_lost,
                               MissionFailure::localization_lost,
                               MissionFailure::not_found,
-                              MissionFailure::incomplete};
+                              MissionFailure::incomplete,
+                              MissionFailure::false_alarm};
 
 /// Throws like the library's own getters when no value has this name.
 template <class Value, std::size_t n>

@@ -216,6 +216,7 @@ FlightSettings flight_settings(const Scenario& scenario) {
   settings.explore = scenario.explore;
   settings.detector = scenario.detector;
   settings.photography = scenario.photography;
+  settings.search = scenario.search;
   settings.watch = scenario.watch;
   settings.governor = scenario.governor;
   return settings;

@@ -211,12 +211,23 @@ Fields scan_fields() {
   };
 }
 
+Fields search_fields() {
+  constexpr auto in = &Scenario::search;
+  using S = SearchSettings;
+  return {
+      {"search.sightings", &at<in, &S::sightings>, 1, 100,
+       "that agree before somebody counts as found"},
+      {"search.within_m", &at<in, &S::within_m>, 0.1, 10, "of each other, along the ground"},
+      {"search.apart_m", &at<in, &S::apart_m>, 0, 20, "between the places they were made from"},
+  };
+}
+
 Fields explore_fields() {
   constexpr auto in = &Scenario::explore;
   using E = ExploreSettings;
   return {
       {"explore.coverage_percent", &at<in, &E::coverage_percent>, 1, 100,
-       "of the volume that can be seen: then the exploration is done"},
+       "of the volume that can be seen; a mapping flies home when it believes so"},
       {"explore.gain_range_m", &at<in, &E::gain_range_m>, 1, 25, "how far a view counts"},
       {"explore.extension_m", &at<in, &E::extension_m>, 0.5, 25, "longest edge of the tree"},
       {"explore.iterations", &at<in, &E::iterations>, 1, 10000, "nodes of the tree"},
@@ -281,6 +292,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, explore_fields());
   append(all, detector_fields());
   append(all, photography_fields());
+  append(all, search_fields());
   append(all, watch_fields());
   append(all, computer_fields());
   return all;

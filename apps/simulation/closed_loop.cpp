@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/closed_loop.h"
 
-#include "flight/perception/perception_nodes.h"
+#include "flyball/flight/perception/perception_nodes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto energy_period = 10ms;      // Power changes with rotor lag (tens of ms).
-constexpr auto check_period = 10ms;       // At 15 m/s, 15 cm between two looks at the true world.
 constexpr auto navigation_period = 10ms;  // 100 Hz: what an autopilot streams.
-constexpr double clearance_limit_m = 5.0;
 constexpr double hover_below_m_s = 0.1;
 
 Vec3 start_position(const World& world, const Airframe& airframe) {
@@ -62,12 +61,7 @@ ClosedLoop::ClosedLoop(MissionContext& context,
       gps_{scenario.gps, EarthOrigin{}, scenario.seed},
       barometer_{scenario.barometer, EarthOrigin{}.height_m, scenario.seed},
       imu_{ImuSpec{}, scenario.seed},
-      clearance_{things.world},
-      movers_{things.world.movers},
-      people_{things.world.people},
-      wind_{wind_spec(scenario.vehicle), scenario.seed} {
-  log_.min_clearance_m = clearance_limit_m;
-}
+      wind_{wind_spec(scenario.vehicle), scenario.seed} {}
 
 void ClosedLoop::start() {
   executor_.subscribe<FlightCommand>(topics_.command,
@@ -81,8 +75,6 @@ void ClosedLoop::start() {
   queue_.every(MissionTime{step}, step, EventOrder::physics, [this] { physics_step(); });
   queue_.every(MissionTime{energy_period}, energy_period, EventOrder::sensor,
                [this] { energy_step(); });
-  queue_.every(MissionTime{check_period}, check_period, EventOrder::sensor,
-               [this] { check_step(); });
   queue_.every(MissionTime{navigation_period}, navigation_period, EventOrder::sensor,
                [this] { publish_navigation(); });
   const Duration frame = from_seconds(1.0 / scenario_.camera.rate_hz);
@@ -142,30 +134,6 @@ void ClosedLoop::energy_step() {
   }
 }
 
-void ClosedLoop::check_step() {
-  const MissionTime now = queue_.now();
-  const bool near_ground = controller_.mode() == FlightMode::take_off ||
-                           controller_.mode() == FlightMode::land ||
-                           controller_.mode() == FlightMode::idle;
-  const Vec3& p_WB = vehicle_.state().X_WB.translation();
-  const Cylinder body = airframe_.body();
-  const double still_m = clearance_.distance_m(p_WB, body, clearance_limit_m, near_ground);
-  const double moving_m = clearance_m(movers_, now, p_WB, body, still_m);
-  const double distance_m = distance_to_people_m(people_, now, p_WB, body, moving_m);
-  if (is_airborne()) {
-    log_.min_clearance_m = std::min(log_.min_clearance_m, distance_m);
-  }
-  if (distance_m <= 0.0) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::collision);
-  }
-  if (battery_.is_empty()) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::battery_empty);
-  }
-  if (to_seconds(now) > scenario_.mission.time_limit_s) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::time_limit);
-  }
-}
-
 void ClosedLoop::publish_navigation() {
   const auto per_fix = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(
@@ -173,6 +141,13 @@ void ClosedLoop::publish_navigation() {
   const bool with_fix = navigation_count_++ % per_fix == 0;
   NavigationSample sample = gps_.sample(vehicle_.state(), queue_.now(), with_fix);
   sample.pressure_pa = barometer_.sample(vehicle_.state().X_WB.translation().z(), queue_.now());
+  const TruePose truth{queue_.now(), vehicle_.state().X_WB, vehicle_.state().v_WB};
+  if (on_navigation_) {
+    on_navigation_(truth);
+  }
+  if (topics_.true_pose) {
+    executor_.publish(*topics_.true_pose, truth);
+  }
   executor_.publish(topics_.navigation, sample);
   executor_.publish(topics_.status,
                     FlightStatus{is_airborne(), controller_.is_done(vehicle_.state())});
@@ -196,6 +171,9 @@ void ClosedLoop::publish_colour() {
   const Pose X_WC = vehicle_.camera_pose();
   const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
   const ColourFrame frame = cameras_.gimbal->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  if (on_picture_) {
+    on_picture_(frame.sequence, X_WC);
+  }
   executor_.publish(topics_.colour, frame);
   executor_.publish(topics_.colour_buffer, frame);
 }
@@ -215,6 +193,11 @@ void ClosedLoop::obey(const FlightCommand& command) {
       vehicle_.set_payload(0.0);
       break;
   }
+}
+
+bool ClosedLoop::may_touch_ground() const {
+  return controller_.mode() == FlightMode::take_off || controller_.mode() == FlightMode::land ||
+         controller_.mode() == FlightMode::idle;
 }
 
 bool ClosedLoop::is_airborne() const {

@@ -4,6 +4,7 @@
 /// @file
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/runtime/virtual_executor.h"
 #include "flyball/scenario/scenario.h"
 #include "flyball/sim/barometer.h"
@@ -16,8 +17,8 @@
 #include "flyball/sim/vehicle.h"
 #include "flyball/sim/wind.h"
 
-#include "flight/mission_context.h"
 #include "simulation/simulated_things.h"
+#include <functional>
 #include <memory>
 
 namespace flyball {
@@ -30,7 +31,6 @@ struct FlightLog {
   double max_speed_m_s{};
   double hover_time_s{};
   double airborne_s{};
-  double min_clearance_m{};
   double rotor_w{};     ///< Now.
   double computer_w{};  ///< Now.
 };
@@ -45,24 +45,35 @@ class ClosedLoop {
              EventQueue& queue,
              const VehicleTopics& topics);
 
-  /// Puts physics, sensors and checks on the queue and listens to the commands.
+  /// Calls `listener` with the truth at each navigation sample, before it is published.
+  void on_navigation(std::function<void(const TruePose&)> listener) {
+    on_navigation_ = std::move(listener);
+  }
+  /// Calls `listener` with a colour picture's number and the camera's true pose, before the picture
+  /// is published.
+  void on_picture(std::function<void(std::uint64_t, const Pose&)> listener) {
+    on_picture_ = std::move(listener);
+  }
+
+  /// Puts physics and sensors on the queue and listens to the commands.
   void start();
   [[nodiscard]] const FlightLog& log() const { return log_; }
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] const Vehicle& vehicle() const { return vehicle_; }
+  [[nodiscard]] bool is_airborne() const;
+  /// While it takes off, lands or stands.
+  [[nodiscard]] bool may_touch_ground() const;
   /// Brakes to a hover without the companion computer; its next set-point takes over again.
   void emergency_hold() { controller_.hold(vehicle_.state()); }
 
  private:
   void physics_step();
   void energy_step();
-  void check_step();
   void publish_navigation();
   void publish_depth();
   void start_localizer();
   void publish_colour();
   void obey(const FlightCommand& command);
-  [[nodiscard]] bool is_airborne() const;
 
   MissionContext& context_;
   const Scenario& scenario_;
@@ -79,10 +90,9 @@ class ClosedLoop {
   Gps gps_;
   Barometer barometer_;
   Imu imu_;
-  Clearance clearance_;
-  std::vector<Mover> movers_;
-  std::vector<Person> people_;
   Wind wind_;
+  std::function<void(const TruePose&)> on_navigation_{};
+  std::function<void(std::uint64_t, const Pose&)> on_picture_{};
   FlightLog log_{};
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};

@@ -4,10 +4,10 @@
 /// @file
 /// The companion computer as it truly is in flight: the scenario's events, and its heat.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/runtime/drifting_platform.h"
 #include "flyball/runtime/thermal.h"
 
-#include "flight/mission_context.h"
 #include "simulation/closed_loop.h"
 #include <cstdint>
 #include <optional>

@@ -132,15 +132,16 @@ MapAgreement ExplorationJudge::agreement(const Mapper& mapper) const {
   return {share(surfaces, occupied.cells()), share(occupied, space_.surfaces)};
 }
 
-std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context) {
-  FLYBALL_ASSERT(context.truth != nullptr, "nothing to judge by in scenario %s",
-                 context.settings.name.c_str());
+ExplorationJudge make_exploration_judge(const FlightSettings& settings,
+                                        const MissionBrief& brief,
+                                        const Cylinder& body,
+                                        const World& world) {
   ObservableRequest request;
-  request.body = context.body;
-  request.start_W = context.brief.start_W + Vec3::UnitZ() * context.brief.cruise_height_m;
-  request.camera = context.settings.camera;
-  request.range_m = context.settings.map.range_m;
-  return std::make_unique<ExplorationJudge>(observable_space(*context.truth, request));
+  request.body = body;
+  request.start_W = brief.start_W + Vec3::UnitZ() * brief.cruise_height_m;
+  request.camera = settings.camera;
+  request.range_m = settings.map.range_m;
+  return ExplorationJudge{observable_space(world, request)};
 }
 
 }  // namespace flyball

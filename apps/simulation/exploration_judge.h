@@ -4,11 +4,11 @@
 /// @file
 /// Holds a map against the true world. It judges an exploration; it never steers one.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/sim/observable_space.h"
+#include "flyball/sim/world.h"
 
-#include "flight/mission_context.h"
-#include <memory>
 #include <vector>
 
 namespace flyball {
@@ -34,7 +34,11 @@ class ExplorationJudge {
   std::vector<GridCell> unknown_{};
 };
 
-/// The mission's own judge. @pre The context knows the true world.
-[[nodiscard]] std::unique_ptr<ExplorationJudge> make_judge(const MissionContext& context);
+/// How well a map of the brief's volume shows what can be seen of it from free space that the body
+/// can reach.
+[[nodiscard]] ExplorationJudge make_exploration_judge(const FlightSettings& settings,
+                                                      const MissionBrief& brief,
+                                                      const Cylinder& body,
+                                                      const World& world);
 
 }  // namespace flyball

@@ -4,9 +4,9 @@
 /// @file
 /// What goes into the trace while a mission flies, and the statistics of its jobs.
 
+#include "flyball/flight/navigation/navigator.h"
 #include "flyball/records/summary.h"
 
-#include "flight/navigation/navigator.h"
 #include "simulation/closed_loop.h"
 #include <map>
 #include <string>

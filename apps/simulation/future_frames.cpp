@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/future_frames.h"
 
+#include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/runtime/assert.h"
 
-#include "flight/navigation/gap_scan.h"
-#include "flight/perception/perception_nodes.h"
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
 #include <cmath>

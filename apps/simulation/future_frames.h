@@ -5,12 +5,12 @@
 /// What frames will cost that nobody has taken yet: the simulator's own knowledge, for policies
 /// that ask for it and never fly outside.
 
+#include "flyball/flight/governing/governor_loop.h"
+#include "flyball/flight/mission_context.h"
+#include "flyball/flight/navigation/path_follower.h"
 #include "flyball/governors/foresight.h"
 #include "flyball/sim/depth_camera.h"
 
-#include "flight/governing/governor_loop.h"
-#include "flight/mission_context.h"
-#include "flight/navigation/path_follower.h"
 #include <array>
 #include <map>
 #include <memory>

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/simulation/mission.h"
 
+#include "flyball/flight/governing/governor_loop.h"
 #include "flyball/flight/workload.h"
 #include "flyball/records/version.h"
 #include "flyball/runtime/quantile.h"
 #include "flyball/scenario/plugins.h"
 
-#include "flight/governing/governor_loop.h"
 #include "records/fingerprint.h"
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
 #include "simulation/future_frames.h"
 #include "simulation/mission_setup.h"
+#include "simulation/referee.h"
 #include "simulation/simulated_board.h"
 #include <cstdio>
 #include <filesystem>
@@ -24,6 +25,11 @@ using namespace std::chrono_literals;
 
 constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
+
+VehicleExtras extras_of(const MissionSetup& setup, const MissionContext& context) {
+  const auto& localizer = context.kernels.localizer;
+  return {setup.things.cameras.gimbal != nullptr, localizer && localizer->inputs().truth};
+}
 
 /// Everything that one flight needs, in the order in which it must be made.
 struct Flight {
@@ -37,13 +43,14 @@ struct Flight {
         graph{scenario.mission.workload},
         period{setup.governor->period()},
         computer{setup.platform->model()},
-        topics{add_vehicle_topics(graph, setup.things.cameras.gimbal != nullptr)} {
-    context.truth = &setup.things.world;
+        topics{add_vehicle_topics(graph, extras_of(setup, context))} {
     workload->build(graph, topics, context);
     executor = std::make_unique<VirtualExecutor>(
         graph, computer, queue,
         OperatingPoint{scenario.platform.cores, Hertz{scenario.platform.frequency_hz}});
     loop = std::make_unique<ClosedLoop>(context, scenario, setup.things, *executor, queue, topics);
+    referee =
+        std::make_unique<Referee>(context, scenario, setup.things, graph, *executor, queue, *loop);
     drift = std::make_unique<ComputerDrift>(context, scenario, computer, *executor, queue, *loop);
     board = std::make_unique<SimulatedBoard>(*executor, *loop, drift.get());
     future = foresight(*setup.governor, setup.things.world);
@@ -70,6 +77,7 @@ struct Flight {
   VehicleTopics topics;
   std::unique_ptr<VirtualExecutor> executor;
   std::unique_ptr<ClosedLoop> loop;
+  std::unique_ptr<Referee> referee;
   std::unique_ptr<ComputerDrift> drift;
   std::unique_ptr<SimulatedBoard> board;
   std::unique_ptr<FutureFrames> future;  ///< Null for a policy that does not ask.
@@ -105,6 +113,7 @@ void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks
         });
   }
   flight.loop->start();
+  flight.referee->start();
   flight.drift->start(flight.computer.nominal().thermal);
 }
 
@@ -113,8 +122,9 @@ void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenar
   summary.scenario = scenario.name;
   summary.policy = scenario.governor.policy;
   summary.seed = scenario.seed;
-  summary.status = flight.context.status();
-  summary.failure = flight.context.failure();
+  const Verdict verdict = flight.referee->verdict();
+  summary.status = verdict.status;
+  summary.failure = verdict.failure;
   summary.mission_time_s = to_seconds(flight.queue.now());
   summary.energy_rotor_j = log.energy_rotor_j;
   summary.energy_computer_j = log.energy_computer_j;
@@ -124,7 +134,7 @@ void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenar
   summary.mean_speed_m_s = log.airborne_s > 0.0 ? log.distance_m / log.airborne_s : 0.0;
   summary.max_speed_m_s = log.max_speed_m_s;
   summary.hover_time_s = log.hover_time_s;
-  summary.min_clearance_m = log.min_clearance_m;
+  summary.min_clearance_m = flight.referee->min_clearance_m();
 }
 
 void fill_computing(Summary& summary, const Flight& flight) {
@@ -148,6 +158,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.hottest_c = flight.drift->hottest_c();
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
+  summary.quality.merge(flight.referee->figures());
   summary.quality.merge(flight.context.localization.quality(flight.queue.now()));
 }
 
@@ -237,7 +248,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (record.world.volume_W.max.x() > record.world.volume_W.min.x()) {
     record.map = mapper.occupied();
   }
-  record.frames = flight.workload->frames();
+  record.frames = flight.referee->frames();
   record.summary.trace_hash = record.trace->hash().hex();
   record.summary.numeric_fingerprint = numeric_fingerprint();
   record.summary.version = version();

@@ -4,10 +4,10 @@
 /// @file
 /// Turns the names in a scenario into things: platform, airframe, world, kernels, governor.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/scenario/knobs.h"
 
-#include "flight/mission_context.h"
 #include "simulation/simulated_things.h"
 #include <memory>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/seeing_setup.h"
 
+#include "flyball/flight/perception/visual_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/scenario/plugins.h"
 
-#include "flight/perception/visual_nodes.h"
 #include "scenario/scenario_parameters.h"
 
 namespace flyball {

@@ -4,9 +4,9 @@
 /// @file
 /// What a mission needs that sees in colour: cameras, detector, trackers.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/scenario/scenario.h"
 
-#include "flight/mission_context.h"
 #include "simulation/simulated_things.h"
 
 namespace flyball {

@@ -4,7 +4,6 @@
 #include "flyball/records/pictures.h"
 #include "flyball/records/text_table.h"
 #include "flyball/sim/colour_camera.h"
-#include "flyball/sim/world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,7 @@ namespace flyball {
 namespace {
 
 constexpr double least_overlap = 0.2;
-constexpr double longest_gap_s = 1.0;
+constexpr std::size_t most_cameras = 512;  // 25 s of a 20 Hz camera: no tracker is so late.
 constexpr double keep_every_s = 15.0;
 
 /// From the middle of the frame, 1 in its corners.
@@ -27,13 +26,22 @@ double centre_error(const Target& target) {
 
 }  // namespace
 
+void TrackingScore::note(std::uint64_t sequence, const Pose& X_WC) {
+  cameras_.emplace_back(sequence, X_WC);
+  if (cameras_.size() > most_cameras) {
+    cameras_.pop_front();
+  }
+}
+
 void TrackingScore::count(MissionTime now, const Target& target) {
   double best_overlap = 0.0;
-  if (target.box) {
+  const auto camera = std::find_if(cameras_.begin(), cameras_.end(), [&](const auto& noted) {
+    return noted.first == target.frame.sequence;
+  });
+  if (target.box && camera != cameras_.end()) {
     ++frames_with_box_;
-    for (const Person& person : context_.truth->people) {
-      const auto truth =
-          box_of(person, target.frame.captured, target.frame.X_WC_truth, target.frame.camera);
+    for (const Person& person : people_) {
+      const auto truth = box_of(person, target.frame.captured, camera->second, target.frame.camera);
       best_overlap = std::max(best_overlap, truth ? overlap(*truth, *target.box) : 0.0);
     }
   }
@@ -41,10 +49,7 @@ void TrackingScore::count(MissionTime now, const Target& target) {
   if (on_target) {
     ++frames_on_target_;
     centre_error_sum_ += centre_error(target);
-    if (last_on_target_ && to_seconds(target.frame.captured - *last_on_target_) <= longest_gap_s) {
-      tracked_s_ += to_seconds(target.frame.captured - *last_on_target_);
-    }
-    last_on_target_ = target.frame.captured;
+    tracked_.on_target(target.frame.captured);
   }
   if (target.box) {
     keep({target, on_target});
@@ -57,6 +62,11 @@ void TrackingScore::count(MissionTime now, const Target& target) {
                             {"width_px", box.width_px},
                             {"height_px", box.height_px},
                             {"overlap", best_overlap}});
+}
+
+MissionFailure TrackingScore::objection() const {
+  return tracked_s() < context_.settings.photography.success_s ? MissionFailure::target_lost
+                                                               : MissionFailure::none;
 }
 
 void TrackingScore::keep(const Kept& seen) {
@@ -85,7 +95,7 @@ std::map<std::string, double> TrackingScore::figures() const {
     return whole == 0 ? 0.0 : 100.0 * part / static_cast<double>(whole);
   };
   const std::uint64_t wrong = frames_with_box_ - frames_on_target_;
-  return {{"tracked_s", tracked_s_},
+  return {{"tracked_s", tracked_s()},
           {"mean_centre_error_percent", share(centre_error_sum_, frames_on_target_)},
           {"wrong_box_percent", share(static_cast<double>(wrong), frames_with_box_)}};
 }

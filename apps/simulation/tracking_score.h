@@ -4,36 +4,46 @@
 /// @file
 /// How well a person was followed, measured against where the person truly was.
 
-#include "flyball/flight/mission_frame.h"
+#include "flyball/flight/people/target_nodes.h"
+#include "flyball/flight/people/tracked_time.h"
+#include "flyball/sim/person.h"
 
-#include "flight/people/target_nodes.h"
+#include "simulation/judge.h"
+#include <deque>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flyball {
 
-class TrackingScore {
+class TrackingScore final : public Judge {
  public:
-  /// Records each frame on the context's recorder.
-  explicit TrackingScore(MissionContext& context) : context_{context} {}
+  /// Records each frame on the context's recorder. All arguments outlive the score.
+  TrackingScore(MissionContext& context, const std::vector<Person>& people)
+      : context_{context}, people_{people} {}
+
+  /// Where the camera truly was when it took a picture; before `count` of that picture.
+  void note(std::uint64_t sequence, const Pose& X_WC);
 
   /// One tracked frame. It counts as tracked when the box lies on the person's true box: overlap
   /// over union of at least .2, which a box of half the height, or of arms' width, still has.
   void count(MissionTime now, const Target& target);
-  /// Time in which the box was on the person, from frame to frame; gaps of up to 1 s count when the
-  /// person was tracked on both sides.
-  [[nodiscard]] double tracked_s() const { return tracked_s_; }
+  /// Time in which the box was on the person.
+  [[nodiscard]] double tracked_s() const { return tracked_.seconds(); }
+  /// `target_lost` when the person was tracked for less than the mission asks for.
+  [[nodiscard]] MissionFailure objection() const override;
   /// `tracked_s`, `mean_centre_error_percent` (distance of the tracked box's centre from the
   /// frame's, over half the frame's diagonal), `wrong_box_percent` (of frames with a box).
-  [[nodiscard]] std::map<std::string, double> figures() const;
+  [[nodiscard]] std::map<std::string, double> figures() const override;
   /// The first tracked frame, one of each 15 s, and the last, with their boxes.
-  [[nodiscard]] std::vector<MissionFrame> frames() const;
+  [[nodiscard]] std::vector<MissionFrame> frames() const override;
 
  private:
   MissionContext& context_;
-  std::optional<MissionTime> last_on_target_{};
-  double tracked_s_{};
+  const std::vector<Person>& people_;
+  std::deque<std::pair<std::uint64_t, Pose>> cameras_{};  ///< Newest last.
+  TrackedTime tracked_{};
   double centre_error_sum_{};
   std::uint64_t frames_with_box_{};
   std::uint64_t frames_on_target_{};

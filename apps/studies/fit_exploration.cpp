@@ -2,8 +2,9 @@
 // tested-in: platform_fit
 #include "studies/fit_exploration.h"
 
-#include "flight/exploration/exploration_flight.h"
-#include "flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/exploration/exploration_flight.h"
+#include "flyball/flight/navigation/plan_with_tubes.h"
+
 #include "simulation/exploration_judge.h"
 #include "simulation/mission_setup.h"
 #include "studies/fit_perception.h"
@@ -21,7 +22,7 @@ class Exploration {
         context_{context},
         world_{world},
         perception_{context, world},
-        judge_{make_judge(context)},
+        judge_{make_exploration_judge(context.settings, context.brief, context.body, world)},
         here_{world.start_W + Vec3::UnitZ() * world.cruise_height_m,
               yaw_of(world.goal_W - world.start_W)} {
     context.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
@@ -53,7 +54,7 @@ class Exploration {
   }
 
   bool is_done() {
-    loads_.coverage_percent = judge_->coverage_percent(context_.map());
+    loads_.coverage_percent = judge_.coverage_percent(context_.map());
     return loads_.coverage_percent >= scene_.scenario.explore.coverage_percent;
   }
 
@@ -100,7 +101,7 @@ class Exploration {
   MissionContext& context_;
   const World& world_;
   Perception perception_;
-  std::unique_ptr<ExplorationJudge> judge_;
+  ExplorationJudge judge_;
   Viewpoint here_{};
   std::vector<Viewpoint> taken_{};
   std::vector<Vec3> unreachable_W_{};
@@ -143,7 +144,6 @@ Result<ExplorationLoads> record(const ExplorationScene& scene) {
   MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
                          brief_of(setup->things.world, scene.scenario.world.generator),
                          std::move(setup->equipment)};
-  context.truth = &setup->things.world;
   return Exploration{scene, context, setup->things.world}.go();
 }
 

@@ -2,7 +2,8 @@
 // tested-in: platform_fit
 #include "studies/fit_perception.h"
 
-#include "flight/perception/perception_nodes.h"
+#include "flyball/flight/perception/perception_nodes.h"
+
 #include "scenario/scenario_parameters.h"
 
 namespace flyball {

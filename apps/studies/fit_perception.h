@@ -4,9 +4,9 @@
 /// @file
 /// What the recorded scenes have in common: a vehicle that is put somewhere and looks.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/sim/depth_camera.h"
 
-#include "flight/mission_context.h"
 #include "studies/fit_scenes.h"
 
 namespace flyball {

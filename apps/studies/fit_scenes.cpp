@@ -2,7 +2,8 @@
 // tested-in: platform_fit
 #include "studies/fit_scenes.h"
 
-#include "flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/navigation/plan_with_tubes.h"
+
 #include "simulation/mission_setup.h"
 #include "studies/fit_perception.h"
 #include "studies/fit_sight.h"

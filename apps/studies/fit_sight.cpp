@@ -2,13 +2,13 @@
 // tested-in: platform_fit
 #include "studies/fit_sight.h"
 
+#include "flyball/flight/perception/perception_nodes.h"
+#include "flyball/flight/perception/view.h"
+#include "flyball/flight/perception/visual_nodes.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/world.h"
 
-#include "flight/perception/perception_nodes.h"
-#include "flight/perception/view.h"
-#include "flight/perception/visual_nodes.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/seeing_setup.h"
 #include <algorithm>

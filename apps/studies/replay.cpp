@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/studies/replay.h"
 
+#include "flyball/flight/governing/choice_text.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/simulation/mission.h"
 
-#include "flight/governing/choice_text.h"
 #include "simulation/mission_setup.h"
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: replay
 
+#include "flyball/flight/governing/choice_text.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/studies/replay.h"
 
-#include "flight/governing/choice_text.h"
 #include "records/json_counts.h"
 #include "records/summary_reader.h"
 #include <algorithm>

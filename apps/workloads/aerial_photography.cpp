@@ -4,14 +4,16 @@
 // MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and real-time tracker,
 // PID. It flies without a map: the scenario declares the space above the park clear.
 
+#include "flyball/flight/legs.h"
+#include "flyball/flight/people/target_follower.h"
+#include "flyball/flight/people/target_nodes.h"
+#include "flyball/flight/people/tracked_time.h"
+#include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "flight/people/target_follower.h"
-#include "flight/people/target_nodes.h"
-#include "flight/perception/perception_nodes.h"
-#include "simulation/tracking_score.h"
 #include <memory>
+#include <optional>
 
 namespace {
 
@@ -28,6 +30,7 @@ class AerialPhotography final : public Workload {
     context_ = &context;
     context.maps_obstacles = false;
     vehicle_ = vehicle;
+    legs_.emplace(context, vehicle);
     const PhotographySettings& wanted = context.settings.photography;
     FollowSettings follow;
     follow.distance_m = wanted.distance_m;
@@ -39,27 +42,22 @@ class AerialPhotography final : public Workload {
     follow.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
     follow.max_acceleration_m_s2 = 0.5 * context.settings.mission.max_acceleration_m_s2;
     follower_ = std::make_unique<TargetFollower>(follow);
-    score_ = std::make_unique<TrackingScore>(context);
     pose_ = add_localization(graph, vehicle, context);
     target_ = add_target(graph, vehicle, pose_, context, log_);
     add_history(graph);
     add_control(graph);
-    add_score(graph);
     add_mission(graph);
   }
 
   [[nodiscard]] const Navigator* navigator() const override { return nullptr; }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
-    auto figures = score_->figures();
-    figures["detections"] = log_.detections;
-    figures["looks"] = static_cast<double>(log_.looks);
-    figures["buffered_frames"] = static_cast<double>(log_.buffered_frames);
-    figures["is_censored"] = is_censored_ ? 1.0 : 0.0;
-    return figures;
+    return {{"detections", log_.detections},
+            {"looks", static_cast<double>(log_.looks)},
+            {"buffered_frames", static_cast<double>(log_.buffered_frames)},
+            {"tracked_believed_s", tracked_.seconds()},
+            {"is_censored", is_censored_ ? 1.0 : 0.0}};
   }
-
-  [[nodiscard]] std::vector<MissionFrame> frames() const override { return score_->frames(); }
 
  private:
   enum class Stage : std::uint8_t { ready, climbing, following };
@@ -104,6 +102,9 @@ class AerialPhotography final : public Workload {
       if (const auto pose = history_.at(target->frame.captured)) {
         follower_->see(*target, *pose);
       }
+      if (target->box && stage_ == Stage::following) {
+        tracked_.on_target(target->frame.captured);
+      }
     }
     if (stage_ == Stage::following) {
       job.publish(vehicle_.setpoint, follower_->tick(job.now(), control_period));
@@ -112,49 +113,30 @@ class AerialPhotography final : public Workload {
     return work;
   }
 
-  /// Free of charge: it is the referee's, not the vehicle's.
-  void add_score(Graph& graph) {
-    NodeSpec spec;
-    spec.name = "referee";
-    spec.trigger = OnMessage{target_.target.index};
-    spec.priority = 45;
-    graph.node(std::move(spec), [this](JobContext& job) {
-      const auto target = job.latest(target_.target);
-      if (target && stage_ == Stage::following) {
-        score_->count(job.now(), *target);
-      }
-      return Work{};
-    });
-  }
-
   void add_mission(Graph& graph) {
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {pose_.index, vehicle_.status.index};
-    spec.writes = {vehicle_.command.index};
+    spec.reads = {pose_.index};
+    legs_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       const auto pose = job.latest(pose_);
-      const auto status = job.latest(vehicle_.status);
-      if (pose && status && !context_->is_over()) {
-        advance(job, *pose, *status);
+      if (pose && !context_->is_over()) {
+        advance(job, *pose);
       }
       return Work{};
     });
   }
 
-  void advance(JobContext& job, const PoseEstimate& pose, const FlightStatus& status) {
+  void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
       case Stage::ready:
-        context_->phase = MissionPhase::take_off;
-        job.publish(vehicle_.command,
-                    FlightCommand{FlightCommand::Kind::take_off, context_->brief.cruise_height_m});
-        settle_ = job.now() + 500ms;  // The status on its way now is from before the command.
+        legs_->take_off(job, context_->brief.cruise_height_m);
         stage_ = Stage::climbing;
         break;
       case Stage::climbing:
-        if (status.manoeuvre_done && job.now() >= settle_) {
+        if (legs_->are_done(job)) {
           follower_->start(pose);
           context_->phase = MissionPhase::cruise;
           stage_ = Stage::following;
@@ -169,25 +151,25 @@ class AerialPhotography final : public Workload {
 
   void end_if_due(MissionTime now) {
     const PhotographySettings& wanted = context_->settings.photography;
-    is_censored_ = score_->tracked_s() >= wanted.limit_s;
+    is_censored_ = tracked_.seconds() >= wanted.limit_s;
     if (!is_censored_ && log_.missed_in_row < wanted.lost_after_detections) {
       return;
     }
-    const bool enough = score_->tracked_s() >= wanted.success_s;
+    const bool enough = tracked_.seconds() >= wanted.success_s;
     context_->finish(now, enough ? MissionStatus::succeeded : MissionStatus::failed,
                      enough ? MissionFailure::none : MissionFailure::target_lost);
   }
 
   MissionContext* context_{};
   VehicleTopics vehicle_{};
+  std::optional<Legs> legs_{};
   Topic<PoseEstimate> pose_{};
   TargetTopics target_{};
   TargetLog log_{};
   PoseHistory history_{};
   std::unique_ptr<TargetFollower> follower_;
-  std::unique_ptr<TrackingScore> score_;
+  TrackedTime tracked_{};
   Stage stage_{Stage::ready};
-  MissionTime settle_{};
   bool is_censored_{};
 };
 

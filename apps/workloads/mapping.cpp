@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // 3-D mapping of an unknown volume: take off, fly from next-best view to next-best view until
-// enough of what can be seen is known, fly home, land. Dataflow as in MAVBench (MICRO 2018), figure
-// of 3-D mapping.
+// enough of what can be known is known, or nothing is left to see; then fly home and land. Dataflow
+// as in MAVBench (MICRO 2018), figure of 3-D mapping.
 
+#include "flyball/flight/exploration/exploration_flight.h"
+#include "flyball/flight/exploration/known_share.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "flight/exploration/exploration_flight.h"
-#include "simulation/exploration_judge.h"
 #include <memory>
 
 namespace {
@@ -16,7 +16,8 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr auto judging_period = 1s;
+constexpr auto estimating_period = 1s;
+constexpr double cell_m = 0.15;  // Of the estimate: as thin as walls are.
 
 class Mapping final : public Workload {
  public:
@@ -24,6 +25,7 @@ class Mapping final : public Workload {
     context_ = &context;
     navigator_ = std::make_unique<Navigator>(context);
     flight_ = std::make_unique<ExplorationFlight>(context, *navigator_);
+    known_ = std::make_unique<KnownShare>(context.brief.volume_W, cell_m);
     const PerceptionTopics perception = add_perception(graph, vehicle, context);
     add_navigation(graph, vehicle, perception, context, *navigator_);
     flight_->add_nodes(graph, vehicle, perception);
@@ -45,14 +47,7 @@ class Mapping final : public Workload {
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
-    if (!judge_) {
-      return {};
-    }
-    const MapAgreement agreement = judge_->agreement(*context_->kernels.mapper);
-    return {{"coverage_percent", coverage_percent_},
-            {"map_precision", agreement.precision},
-            {"map_recall", agreement.recall},
-            {"views", static_cast<double>(flight_->views())}};
+    return {{"known_percent", known_percent_}, {"views", static_cast<double>(flight_->views())}};
   }
 
  private:
@@ -60,29 +55,23 @@ class Mapping final : public Workload {
     if (context_->is_over()) {
       return;
     }
-    judge(job.now());
+    estimate(job.now());
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
-      context_->finish(job.now(), MissionStatus::failed, MissionFailure::incomplete);
+      flight_->go_home(job.now());
     } else if (flight_->state() == ExplorationFlight::State::landed) {
       context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
     }
   }
 
-  // The judge sees the true world and ends the exploration; the explorer does not know how much
-  // there is to see.
-  void judge(MissionTime now) {
-    if (now < next_judging_) {
+  void estimate(MissionTime now) {
+    if (now < next_estimate_ || flight_->state() != ExplorationFlight::State::exploring) {
       return;
     }
-    next_judging_ = now + judging_period;
-    if (!judge_) {
-      judge_ = make_judge(*context_);
-    }
-    coverage_percent_ = judge_->coverage_percent(context_->map());
-    context_->recorder.record(now, "coverage", {{"coverage_percent", coverage_percent_}});
-    if (flight_->state() == ExplorationFlight::State::exploring &&
-        coverage_percent_ >= context_->settings.explore.coverage_percent) {
+    next_estimate_ = now + estimating_period;
+    known_percent_ = known_->percent(context_->map());
+    context_->recorder.record(now, "known", {{"known_percent", known_percent_}});
+    if (known_percent_ >= context_->settings.explore.coverage_percent) {
       flight_->go_home(now);
     }
   }
@@ -90,9 +79,9 @@ class Mapping final : public Workload {
   MissionContext* context_{};
   std::unique_ptr<Navigator> navigator_;
   std::unique_ptr<ExplorationFlight> flight_;
-  std::unique_ptr<ExplorationJudge> judge_;
-  MissionTime next_judging_{};
-  double coverage_percent_{};
+  std::unique_ptr<KnownShare> known_;
+  MissionTime next_estimate_{};
+  double known_percent_{};
 };
 
 }  // namespace

@@ -3,34 +3,33 @@
 // Package delivery, there and back: take off, fly to the goal, land, leave the payload, take off,
 // fly home, land. Dataflow as in MAVBench (MICRO 2018), figure of package delivery.
 
+#include "flyball/flight/legs.h"
+#include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "flight/navigation/navigation_nodes.h"
 #include <memory>
+#include <optional>
 
 namespace {
 
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr double clear_radius_m = 1.0;  // Of the cylinders at start and goal that the scenario
-constexpr double clear_height_m = 2.5;  // declares free.
-
 class PackageDelivery final : public Workload {
  public:
   void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
     context_ = &context;
     navigator_ = std::make_unique<Navigator>(context);
-    vehicle_ = vehicle;
     perception_ = add_perception(graph, vehicle, context);
     add_navigation(graph, vehicle, perception_, context, *navigator_);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {perception_.pose.index, vehicle.status.index};
-    spec.writes = {vehicle.command.index};
+    spec.reads = {perception_.pose.index};
+    legs_.emplace(context, vehicle);
+    legs_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) { return step(job); });
   }
 
@@ -43,20 +42,19 @@ class PackageDelivery final : public Workload {
 
   Work step(JobContext& job) {
     const auto pose = job.latest(perception_.pose);
-    const auto status = job.latest(vehicle_.status);
-    if (pose && status && !context_->is_over()) {
-      advance(job, *pose, *status);
+    if (pose && !context_->is_over()) {
+      advance(job, *pose);
     }
     return {};
   }
 
-  void advance(JobContext& job, const PoseEstimate& pose, const FlightStatus& status) {
+  void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
       case Stage::ready:
         take_off(job, pose);
         break;
       case Stage::climbing:
-        if (status.manoeuvre_done) {
+        if (legs_->are_done(job)) {
           depart(job);
         }
         break;
@@ -66,7 +64,7 @@ class PackageDelivery final : public Workload {
         }
         break;
       case Stage::landing:
-        if (status.manoeuvre_done) {
+        if (legs_->are_done(job)) {
           touched_down(job);
         }
         break;
@@ -82,27 +80,16 @@ class PackageDelivery final : public Workload {
     return leg == Leg::out ? context_->brief.start_W : context_->brief.goal_W;
   }
 
-  void declare_clear() {
-    for (const Vec3& site_W : {context_->brief.start_W, context_->brief.goal_W}) {
-      const Vec3 centre_W = site_W + Vec3::UnitZ() * (0.5 * clear_height_m);
-      context_->kernels.mapper->declare_clear(centre_W, {clear_radius_m, 0.5 * clear_height_m});
-    }
-  }
-
   void take_off(JobContext& job, const PoseEstimate& pose) {
-    declare_clear();
+    for (const Vec3& site_W : {context_->brief.start_W, context_->brief.goal_W}) {
+      declare_clear_over(*context_->kernels.mapper, site_W);
+    }
     navigator_->hover_at(above(site(leg_)), yaw_of(pose.X_WB.linear().col(0)));
-    context_->phase = MissionPhase::take_off;
-    job.publish(vehicle_.command,
-                FlightCommand{FlightCommand::Kind::take_off, context_->brief.cruise_height_m});
+    legs_->take_off(job, context_->brief.cruise_height_m);
     stage_ = Stage::climbing;
-    settle_ = job.now() + 500ms;  // The status on its way now is from before the command.
   }
 
   void depart(JobContext& job) {
-    if (job.now() < settle_) {
-      return;
-    }
     navigator_->set_goal(job.now(), above(site(leg_ == Leg::out ? Leg::back : Leg::out)));
     context_->phase = MissionPhase::cruise;
     stage_ = Stage::flying;
@@ -111,21 +98,16 @@ class PackageDelivery final : public Workload {
 
   void land(JobContext& job) {
     navigator_->clear_goal();
-    context_->phase = MissionPhase::land;
-    job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::land, 0.0});
+    legs_->land(job);
     stage_ = Stage::landing;
-    settle_ = job.now() + 500ms;
   }
 
   void touched_down(JobContext& job) {
-    if (job.now() < settle_) {
-      return;
-    }
     if (leg_ == Leg::back) {
       context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
       return;
     }
-    job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::release_payload, 0.0});
+    legs_->release_payload(job);
     context_->event(job.now(), "delivered");
     leg_ = Leg::back;
     stage_ = Stage::ready;
@@ -133,11 +115,10 @@ class PackageDelivery final : public Workload {
 
   MissionContext* context_{};
   std::unique_ptr<Navigator> navigator_;
-  VehicleTopics vehicle_{};
+  std::optional<Legs> legs_{};
   PerceptionTopics perception_{};
   Leg leg_{Leg::out};
   Stage stage_{Stage::ready};
-  MissionTime settle_{};
 };
 
 }  // namespace

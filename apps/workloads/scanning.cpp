@@ -8,11 +8,13 @@
 // declaration is true is the world's promise; a collision still ends the mission. Take-off and
 // landing are upright over the start, where the world keeps every height free.
 
+#include "flyball/flight/exploration/ground_coverage.h"
+#include "flyball/flight/exploration/ground_pictures.h"
+#include "flyball/flight/legs.h"
+#include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "flight/navigation/navigation_nodes.h"
-#include "simulation/ground_coverage.h"
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -22,13 +24,6 @@ namespace {
 
 using namespace flyball;
 using namespace std::chrono_literals;
-
-constexpr double cell_m = 0.5;  // Of the grid that coverage is counted on.
-
-Vec3 area_corner(const MissionBrief& brief, const ScanSettings& scan) {
-  const Vec3 centre_W = 0.5 * (brief.bounds_W.min + brief.bounds_W.max);
-  return {centre_W.x() - 0.5 * scan.length_m, centre_W.y() - 0.5 * scan.width_m, brief.ground_z_m};
-}
 
 std::string metres(double value) {
   char text[32];
@@ -67,14 +62,13 @@ class Scanning final : public Workload {
 
   void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
     context_ = &context;
-    vehicle_ = vehicle;
-    const ScanSettings& scan = context.settings.scan;
-    area_W_.min = area_corner(context.brief, scan);
-    area_W_.max = area_W_.min + Vec3{scan.length_m, scan.width_m, 0.0};
-    seen_ = GroundCoverage{area_W_, cell_m};
+    legs_.emplace(context, vehicle);
+    area_W_ = scanned_area_W(context.brief, context.settings.scan);
+    seen_ = GroundCoverage{area_W_, scan_cell_m};
     prepare_flight();
     navigator_ = std::make_unique<Navigator>(context);
     pose_ = add_localization(graph, vehicle, context);
+    picture_ = graph.topic<GroundPicture>("picture");
     const auto topics = add_path_following(graph, vehicle, pose_, context, *navigator_);
     add_coverage(graph, topics.plan);
     add_pictures(graph);
@@ -84,9 +78,7 @@ class Scanning final : public Workload {
   [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
-    return {{"area_covered_percent", seen_.covered_percent()},
-            {"overlap_percent", seen_.overlap_percent()},
-            {"pictures", static_cast<double>(seen_.pictures())}};
+    return {{"area_believed_percent", seen_.covered_percent()}};
   }
 
  private:
@@ -146,19 +138,19 @@ class Scanning final : public Workload {
     return work;
   }
 
-  /// The camera and its record are instruments of the simulator: they take no time on board, and
-  /// the footprints are of where the vehicle truly was.
+  /// The camera stores its pictures by itself, which takes no time on board.
   void add_pictures(Graph& graph) {
     NodeSpec spec;
     spec.name = "pictures";
     const Duration period = from_seconds(1.0 / context_->settings.scan.picture_rate_hz);
     spec.trigger = OnPeriod{period, period};
     spec.priority = 5;
-    spec.reads = {vehicle_.navigation.index};
+    spec.reads = {pose_.index};
+    spec.writes = {picture_.index};
     graph.node(std::move(spec), [this](JobContext& job) {
-      const auto sample = job.latest(vehicle_.navigation);
-      if (sample && is_over_area()) {
-        take_picture(job.now(), sample->X_WB_truth);
+      const auto pose = job.latest(pose_);
+      if (pose && is_over_area()) {
+        take_picture(job, pose->X_WB);
       }
       return Work{};
     });
@@ -177,14 +169,13 @@ class Scanning final : public Workload {
     return follower.s_m() + half_picture_m >= out_m_ && left_m + half_picture_m >= back_m_;
   }
 
-  void take_picture(MissionTime now, const Pose& X_WB) {
+  void take_picture(JobContext& job, const Pose& X_WB) {
     const auto footprint = footprint_of(downward_camera_pose(X_WB),
                                         context_->settings.camera.intrinsics(), area_W_.min.z());
-    if (!footprint) {
-      return;
+    if (footprint) {
+      seen_.add(*footprint);
     }
-    seen_.add(*footprint);
-    record(*footprint, now, context_->recorder);
+    job.publish(picture_, GroundPicture{job.now()});
   }
 
   void add_mission(Graph& graph) {
@@ -192,25 +183,24 @@ class Scanning final : public Workload {
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {pose_.index, vehicle_.status.index};
-    spec.writes = {vehicle_.command.index};
+    spec.reads = {pose_.index};
+    legs_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       const auto pose = job.latest(pose_);
-      const auto status = job.latest(vehicle_.status);
-      if (pose && status && !context_->is_over()) {
-        advance(job, *pose, *status);
+      if (pose && !context_->is_over()) {
+        advance(job, *pose);
       }
       return Work{};
     });
   }
 
-  void advance(JobContext& job, const PoseEstimate& pose, const FlightStatus& status) {
+  void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
       case Stage::ready:
         take_off(job, pose);
         break;
       case Stage::climbing:
-        if (status.manoeuvre_done && job.now() >= settle_) {
+        if (legs_->are_done(job)) {
           depart(job);
         }
         break;
@@ -220,7 +210,7 @@ class Scanning final : public Workload {
         }
         break;
       case Stage::landing:
-        if (status.manoeuvre_done && job.now() >= settle_) {
+        if (legs_->are_done(job)) {
           end(job);
         }
         break;
@@ -238,11 +228,8 @@ class Scanning final : public Workload {
                                {"x1_m", area_W_.max.x()},
                                {"y1_m", area_W_.max.y()}});
     navigator_->hover_at(above_start(), yaw_of(pose.X_WB.linear().col(0)));
-    context_->phase = MissionPhase::take_off;
-    job.publish(vehicle_.command,
-                FlightCommand{FlightCommand::Kind::take_off, context_->settings.scan.height_m});
+    legs_->take_off(job, context_->settings.scan.height_m);
     stage_ = Stage::climbing;
-    settle_ = job.now() + 500ms;  // The status on its way now is from before the command.
   }
 
   void depart(JobContext& job) {
@@ -254,10 +241,8 @@ class Scanning final : public Workload {
 
   void land(JobContext& job) {
     navigator_->clear_goal();
-    context_->phase = MissionPhase::land;
-    job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::land, 0.0});
+    legs_->land(job);
     stage_ = Stage::landing;
-    settle_ = job.now() + 500ms;
   }
 
   void end(JobContext& job) {
@@ -270,14 +255,14 @@ class Scanning final : public Workload {
 
   MissionContext* context_{};
   std::unique_ptr<Navigator> navigator_;
-  VehicleTopics vehicle_{};
+  std::optional<Legs> legs_{};
   Topic<PoseEstimate> pose_{};
+  Topic<GroundPicture> picture_{};
   Aabb area_W_{};
-  GroundCoverage seen_{};
-  double out_m_{};   ///< Along the path, before and
-  double back_m_{};  ///< behind the lanes.
+  GroundCoverage seen_{};  ///< By the poses that the vehicle believes.
+  double out_m_{};         ///< Along the path, before and
+  double back_m_{};        ///< behind the lanes.
   Stage stage_{Stage::ready};
-  MissionTime settle_{};
 };
 
 }  // namespace

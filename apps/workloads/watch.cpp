@@ -5,10 +5,11 @@
 // that is asked of the computer is that the news is not too old. Graph of nodes as in package
 // delivery, so that it could depart at once.
 
+#include "flyball/flight/legs.h"
+#include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
-#include "flight/navigation/navigation_nodes.h"
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -40,7 +41,6 @@ class Watch final : public Workload {
 
   void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
     context_ = &context;
-    vehicle_ = vehicle;
     navigator_ = std::make_unique<Navigator>(context);
     perception_ = add_perception(graph, vehicle, context);
     add_navigation(graph, vehicle, perception_, context, *navigator_);
@@ -48,13 +48,13 @@ class Watch final : public Workload {
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {perception_.pose.index, perception_.map.index, vehicle.status.index};
-    spec.writes = {vehicle.command.index};
+    spec.reads = {perception_.pose.index, perception_.map.index};
+    legs_.emplace(context, vehicle);
+    legs_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       const auto pose = job.latest(perception_.pose);
-      const auto status = job.latest(vehicle_.status);
-      if (pose && status && !context_->is_over()) {
-        advance(job, *pose, *status);
+      if (pose && !context_->is_over()) {
+        advance(job, *pose);
       }
       return Work{};
     });
@@ -69,13 +69,13 @@ class Watch final : public Workload {
  private:
   enum class Stage : std::uint8_t { ready, climbing, watching, landing };
 
-  void advance(JobContext& job, const PoseEstimate& pose, const FlightStatus& status) {
+  void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
       case Stage::ready:
         begin(job, pose);
         break;
       case Stage::climbing:
-        if (job.now() >= settle_ && status.manoeuvre_done) {
+        if (legs_->are_done(job)) {
           watch_from(job.now());
         }
         break;
@@ -83,7 +83,7 @@ class Watch final : public Workload {
         watch(job);
         break;
       case Stage::landing:
-        if (job.now() >= settle_ && status.manoeuvre_done) {
+        if (legs_->are_done(job)) {
           end(job.now());
         }
         break;
@@ -99,10 +99,8 @@ class Watch final : public Workload {
       watch_from(job.now());
       return;
     }
-    context_->phase = MissionPhase::take_off;
-    job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::take_off, height_m()});
+    legs_->take_off(job, height_m());
     stage_ = Stage::climbing;
-    settle_ = job.now() + 500ms;  // The status on its way now is from before the command.
   }
 
   void watch_from(MissionTime now) {
@@ -127,10 +125,8 @@ class Watch final : public Workload {
       end(job.now());
       return;
     }
-    context_->phase = MissionPhase::land;
-    job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::land, 0.0});
+    legs_->land(job);
     stage_ = Stage::landing;
-    settle_ = job.now() + 500ms;
   }
 
   void end(MissionTime now) {
@@ -143,10 +139,9 @@ class Watch final : public Workload {
 
   MissionContext* context_{};
   std::unique_ptr<Navigator> navigator_;
-  VehicleTopics vehicle_{};
+  std::optional<Legs> legs_{};
   PerceptionTopics perception_{};
   Stage stage_{Stage::ready};
-  MissionTime settle_{};
   MissionTime since_{};
   MissionTime news_{};
   std::uint64_t newest_{};

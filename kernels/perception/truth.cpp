@@ -14,8 +14,18 @@ class Truth final : public flyball::Localizer {
   flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
                                  flyball::Work& work) override {
     work.add("samples", 1.0);
-    return {sample.stamp, sample.X_WB_truth, sample.v_WB_truth};
+    return {sample.stamp, truth_.X_WB, truth_.v_WB};
   }
+
+  [[nodiscard]] flyball::LocalizerInputs inputs() const override {
+    flyball::LocalizerInputs inputs;
+    inputs.truth = true;
+    return inputs;
+  }
+  void reveal(const flyball::TruePose& pose) override { truth_ = pose; }
+
+ private:
+  flyball::TruePose truth_{};
 };
 
 }  // namespace

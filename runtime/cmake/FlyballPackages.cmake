@@ -1,7 +1,8 @@
 # The packages behind the kernels and the simulator, as imported targets. An installed Flyball looks
 # for the same ones, each for the components that it stands before.
 foreach(line "kernels: OpenCV COMPONENTS core imgproc features2d calib3d video" "kernels: mrpt-graphslam"
-        "kernels sim: octomap" "sim: embree 3" "sim: Simbody" "sim: assimp" "sim apps: PNG" "apps: SQLite3")
+        "kernels sim: octomap" "sim: embree 3" "sim: Simbody" "sim: assimp" "sim records recordings: PNG"
+        "studies: SQLite3")
   string(REGEX MATCH "^(.*): (.*)$" line "${line}")
   set(components ${CMAKE_MATCH_1})
   set(package ${CMAKE_MATCH_2})

@@ -59,7 +59,7 @@ function(flyball_module name)
   flyball_compile_options(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   install(TARGETS ${target} EXPORT Flyball_${name} FILE_SET HEADERS)
-  set(uses ${arg_PUBLIC})
+  set(uses ${arg_PUBLIC} ${arg_PRIVATE})  # A static library needs its private ones to be linked.
   list(FILTER uses INCLUDE REGEX "^flyball::")
   list(TRANSFORM uses REPLACE "^flyball::" "")
   set_property(GLOBAL APPEND PROPERTY FLYBALL_COMPONENTS ${name})

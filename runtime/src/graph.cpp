@@ -169,6 +169,15 @@ int Graph::add_topic(TopicSpec spec) {
   return static_cast<int>(topics_.size()) - 1;
 }
 
+int Graph::find_topic(const std::string& name, std::type_index type) const {
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    if (topics_[i].name == name && topics_[i].type == type) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
 std::string Graph::to_text() const {
   std::string text = "graph " + name_ + "\n";
   for (const Node& node : nodes_) {

@@ -5,6 +5,7 @@
 //
 //     ninja kernel_costs && bin/kernel_costs
 
+#include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/path_planner.h"
@@ -15,7 +16,6 @@
 #include "flyball/sim/platform_file.h"
 
 #include "cost_fit.h"
-#include "flight/perception/perception_nodes.h"
 #include "maps/octomap_tree.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/mission_setup.h"

@@ -55,12 +55,16 @@ NavigationSample without_fix(double t_s) {
 TEST(Truth, repeats_what_the_simulator_knows) {
   NavigationSample sample;
   sample.stamp = at(4.0);
-  sample.X_WB_truth.translation() = Vec3{1, 2, 3};
-  sample.v_WB_truth = Vec3{4, 5, 6};
+  TruePose truth;
+  truth.X_WB.translation() = Vec3{1, 2, 3};
+  truth.v_WB = Vec3{4, 5, 6};
   Work work;
-  const PoseEstimate estimate = make("truth")->estimate(sample, work);
+  const auto localizer = make("truth");
+  ASSERT_TRUE(localizer->inputs().truth);
+  localizer->reveal(truth);
+  const PoseEstimate estimate = localizer->estimate(sample, work);
   EXPECT_EQ(estimate.stamp, at(4.0));
-  EXPECT_TRUE(estimate.X_WB.isApprox(sample.X_WB_truth));
+  EXPECT_TRUE(estimate.X_WB.isApprox(truth.X_WB));
   EXPECT_EQ(estimate.v_WB, (Vec3{4, 5, 6}));
   EXPECT_EQ(work.count("samples"), 1);
 }

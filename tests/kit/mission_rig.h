@@ -4,10 +4,10 @@
 /// @file
 /// A mission context around a dense map that tests fill by hand.
 
+#include "flyball/flight/mission_context.h"
 #include "flyball/scenario/knobs.h"
 #include "flyball/scenario/plugins.h"
 
-#include "flight/mission_context.h"
 #include "grid_map.h"
 #include <memory>
 

@@ -4,7 +4,8 @@
 /// @file
 /// A navigator on its way along a corridor, and paths for it.
 
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
+
 #include "mission_rig.h"
 #include <chrono>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/exploration/exploration_flight.h"
+#include "flyball/flight/exploration/exploration_flight.h"
 
 #include "flyball/runtime/random.h"
 
@@ -10,12 +10,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double clear_radius_m = 1.0;  // Of the cylinder at the start that the scenario
-constexpr double clear_height_m = 2.5;  // declares free.
 constexpr double facing_rad = 0.05;
 constexpr int most_failures = 3;     // Plans in a row: the view cannot be got to.
 constexpr double patience_s = 40.0;  // Standing on the way to a view, for whatever reason.
-constexpr auto settling = 500ms;     // The status on its way now is from before the command.
 
 }  // namespace
 
@@ -48,7 +45,7 @@ ExplorationFlight::ExplorationFlight(MissionContext& context, Navigator& navigat
 void ExplorationFlight::add_nodes(Graph& graph,
                                   const VehicleTopics& vehicle,
                                   const PerceptionTopics& perception) {
-  vehicle_ = vehicle;
+  legs_.emplace(context_, vehicle);
   perception_ = perception;
   explore_ = graph.service<ExploreQuery, ExploreAnswer>("explore");
   NodeSpec spec;
@@ -71,32 +68,27 @@ void ExplorationFlight::add_nodes(Graph& graph,
 }
 
 void ExplorationFlight::declare(NodeSpec& spec) const {
-  for (const int topic : {perception_.pose.index, perception_.map.index, vehicle_.status.index,
-                          explore_.response.index}) {
+  for (const int topic : {perception_.pose.index, perception_.map.index, explore_.response.index}) {
     spec.reads.push_back(topic);
   }
-  spec.writes.push_back(vehicle_.command.index);
+  legs_->declare(spec);
   spec.writes.push_back(explore_.request.index);
 }
 
 void ExplorationFlight::step(JobContext& job) {
   const auto pose = job.latest(perception_.pose);
-  const auto status = job.latest(vehicle_.status);
-  if (pose && status && !context_.is_over()) {
-    advance(job, *pose, *status);
+  if (pose && !context_.is_over()) {
+    advance(job, *pose);
   }
 }
 
-void ExplorationFlight::advance(JobContext& job,
-                                const PoseEstimate& pose,
-                                const FlightStatus& status) {
-  const bool has_settled = job.now() >= since_ + settling;
+void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
   switch (stage_) {
     case Stage::ready:
       take_off(job, pose);
       break;
     case Stage::climbing:
-      if (status.manoeuvre_done && has_settled) {
+      if (legs_->are_done(job)) {
         context_.phase = MissionPhase::cruise;
         await_map(job.now());
       }
@@ -114,19 +106,17 @@ void ExplorationFlight::advance(JobContext& job,
       watch_turn(job.now());
       break;
     case Stage::landing:
-      state_ = status.manoeuvre_done && has_settled ? State::landed : state_;
+      state_ = legs_->are_done(job) ? State::landed : state_;
       break;
   }
 }
 
 void ExplorationFlight::take_off(JobContext& job, const PoseEstimate& pose) {
-  const Vec3 middle_W = context_.brief.start_W + Vec3::UnitZ() * (0.5 * clear_height_m);
-  context_.kernels.mapper->declare_clear(middle_W, {clear_radius_m, 0.5 * clear_height_m});
+  declare_clear_over(*context_.kernels.mapper, context_.brief.start_W);
   const double height_m = context_.brief.cruise_height_m;
   navigator_.hover_at(context_.brief.start_W + Vec3::UnitZ() * height_m,
                       yaw_of(pose.X_WB.linear().col(0)));
-  context_.phase = MissionPhase::take_off;
-  job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::take_off, height_m});
+  legs_->take_off(job, height_m);
   stage_ = Stage::climbing;
   since_ = job.now();
 }
@@ -227,8 +217,7 @@ void ExplorationFlight::go_home(MissionTime now) {
 }
 
 void ExplorationFlight::land(JobContext& job) {
-  context_.phase = MissionPhase::land;
-  job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::land, 0.0});
+  legs_->land(job);
   stage_ = Stage::landing;
   since_ = job.now();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: replay
 
-#include "flight/governing/choice_text.h"
+#include "flyball/flight/governing/choice_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/governing/governor_loop.h"
+#include "flyball/flight/governing/governor_loop.h"
 
+#include "flyball/flight/navigation/gap_scan.h"
 #include "flyball/runtime/observation_fields.h"
 
-#include "flight/navigation/gap_scan.h"
 #include <algorithm>
 #include <cstdio>
 

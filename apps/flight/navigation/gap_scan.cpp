@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/gap_scan.h"
+#include "flyball/flight/navigation/gap_scan.h"
 
 #include <algorithm>
 #include <cmath>

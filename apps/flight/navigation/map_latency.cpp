@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/map_latency.h"
+#include "flyball/flight/navigation/map_latency.h"
 
-#include "flight/navigation/path_follower.h"
+#include "flyball/flight/navigation/path_follower.h"
+
 #include <algorithm>
 #include <cmath>
 

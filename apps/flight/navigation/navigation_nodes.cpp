@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: mission
-#include "flight/navigation/navigation_nodes.h"
+#include "flyball/flight/navigation/navigation_nodes.h"
 
-#include "flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/navigation/plan_with_tubes.h"
 
 namespace flyball {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
 
-#include "flight/navigation/step_aside.h"
-#include "flight/navigation/sub_goal.h"
+#include "flyball/flight/navigation/step_aside.h"
+#include "flyball/flight/navigation/sub_goal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

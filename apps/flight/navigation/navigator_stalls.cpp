@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: navigator
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
 
 namespace flyball {
 namespace {

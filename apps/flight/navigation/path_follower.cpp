@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/path_follower.h"
+#include "flyball/flight/navigation/path_follower.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/navigation/plan_with_tubes.h"
 
+#include "flyball/flight/navigation/gap_scan.h"
 #include "flyball/runtime/random.h"
 
-#include "flight/navigation/gap_scan.h"
 #include <algorithm>
 
 namespace flyball {

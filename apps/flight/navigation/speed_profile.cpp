@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/speed_profile.h"
+#include "flyball/flight/navigation/speed_profile.h"
 
 #include "flyball/runtime/guard.h"
 

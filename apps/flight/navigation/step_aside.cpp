@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: navigator
-#include "flight/navigation/step_aside.h"
+#include "flyball/flight/navigation/step_aside.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/step_back.h"
+#include "flyball/flight/navigation/step_back.h"
 
 #include "flyball/runtime/assert.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/people/person_range.h"
+#include "flyball/flight/people/person_range.h"
 
 #include <algorithm>
 

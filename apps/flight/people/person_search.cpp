@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/people/person_search.h"
+#include "flyball/flight/people/person_search.h"
 
 #include "flyball/runtime/gimbal.h"
 
@@ -74,7 +74,7 @@ Sightings look(JobContext& job,
     context.event(job.now(), "not looked at: " + people.error().message);
     return {};
   }
-  Sightings seen{*frame, {}};
+  Sightings seen{*frame, pose->X_WB.translation(), {}};
   for (const Detection& person : *people) {
     if (const auto p_W = place_of(person.box, *frame, depth->image.value(), pose->X_WB)) {
       seen.people.push_back({person.box, person.score, *p_W});

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/people/target_follower.h"
+#include "flyball/flight/people/target_follower.h"
 
-#include "flight/people/person_range.h"
+#include "flyball/flight/people/person_range.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/perception/localization_watch.h"
+#include "flyball/flight/perception/localization_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +43,6 @@ bool LocalizationWatch::has_given_up(MissionTime now) const {
   return lost_since_ && to_seconds(now - *lost_since_) > patience_s;
 }
 
-void LocalizationWatch::compare(const PoseEstimate& estimate, const Vec3& p_WB_truth) {
-  const double error_m = (estimate.X_WB.translation() - p_WB_truth).norm();
-  error_sum_m_ += error_m;
-  error_max_m_ = std::max(error_max_m_, error_m);
-  ++compared_;
-}
-
 void LocalizationWatch::passed(const PoseEstimate& estimate) {
   if (trail_.empty() ||
       (estimate.X_WB.translation() - trail_.back().X_WB.translation()).norm() > trail_step_m) {
@@ -88,10 +81,6 @@ std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height
 
 std::map<std::string, double> LocalizationWatch::quality(MissionTime now) const {
   std::map<std::string, double> values;
-  if (compared_ > 0) {
-    values["localization_error_m_mean"] = error_sum_m_ / static_cast<double>(compared_);
-    values["localization_error_m_max"] = error_max_m_;
-  }
   if (has_fixes_) {
     values["localization_lost"] = times_lost_;
     values["localization_lost_s"] = lost_s_ + (lost_since_ ? to_seconds(now - *lost_since_) : 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: perception_nodes
-#include "flight/perception/visual_nodes.h"
+#include "flyball/flight/perception/visual_nodes.h"
 
 namespace flyball {
 namespace {

@@ -151,7 +151,6 @@ ColourFrame ColourCamera::frame(const CameraPose& pose,
           sequence,
           scene_->camera,
           pose.X_LC,
-          pose.X_WC,
           {{now, sequence, scene_->camera, {}},
            [this, X_WC = pose.X_WC](const std::vector<PixelRegion>& regions, ColourImage& into) {
              render(X_WC, regions, into);

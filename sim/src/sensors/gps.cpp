@@ -78,9 +78,6 @@ Gps::Gps(const GpsSpec& spec, const EarthOrigin& origin, std::uint64_t seed)
 NavigationSample Gps::sample(const VehicleState& state, MissionTime now, bool with_fix) {
   NavigationSample sample;
   sample.stamp = now;
-  sample.X_WB_truth = state.X_WB;
-  sample.v_WB_truth = state.v_WB;
-  sample.w_WB_B_truth = state.w_WB_B;
   sample.q_WB_ahrs = Eigen::Quaterniond{state.X_WB.linear()};
   if (!with_fix) {
     return sample;

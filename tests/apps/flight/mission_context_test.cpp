@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/mission_context.h"
+#include "flyball/flight/mission_context.h"
 
 #include "mission_rig.h"
 

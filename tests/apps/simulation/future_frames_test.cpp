@@ -2,9 +2,9 @@
 // test-label: closed_loop
 #include "simulation/future_frames.h"
 
+#include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/simulation/mission.h"
 
-#include "flight/perception/perception_nodes.h"
 #include "scenario/scenario_parameters.h"
 #include "short_delivery.h"
 #include "simulation/closed_loop.h"

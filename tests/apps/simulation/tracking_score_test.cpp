@@ -16,16 +16,16 @@ class Score : public testing::Test {
     Person person;
     person.walk = {{0.0, {7.0, 0.0, 0.0}}};
     world.people = {person};
-    rig.context->truth = &world;
   }
   Target target_at(double t_s, bool on_person) {
     Target target;
     target.frame.captured = MissionTime{from_seconds(t_s)};
     target.frame.camera = ColourCameraSpec{}.intrinsics();
-    target.frame.X_WC_truth = camera_in_level_frame({});
-    target.frame.X_WC_truth.translation().z() = 0.875;
-    target.box = box_of(world.people.front(), target.frame.captured, target.frame.X_WC_truth,
-                        target.frame.camera);
+    target.frame.sequence = sequence++;
+    Pose X_WC = camera_in_level_frame({});
+    X_WC.translation().z() = 0.875;
+    score.note(target.frame.sequence, X_WC);
+    target.box = box_of(world.people.front(), target.frame.captured, X_WC, target.frame.camera);
     if (!on_person) {
       target.box->x_px += 100.0;
     }
@@ -37,7 +37,8 @@ class Score : public testing::Test {
   kit::GridMap map = kit::corridor(10.0);
   kit::MissionRig rig{map};
   World world;
-  TrackingScore score{*rig.context};
+  std::uint64_t sequence{};
+  TrackingScore score{*rig.context, world.people};
 };
 
 TEST_F(Score, counts_the_time_in_which_the_box_is_on_the_person) {

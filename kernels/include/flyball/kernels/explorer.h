@@ -33,7 +33,7 @@ struct ExploreSettings {
   int iterations{15};             ///< Nodes of a tree (MAVBench), ...
   int most_iterations{80};        ///< ... as many as this while none of them has a gain.
   double discount_1_m{0.5};       ///< lambda of Bircher et al. 2016, its code's default.
-  double coverage_percent{85.0};  ///< Of the reachable volume: the mission is done (MAVBench).
+  double coverage_percent{85.0};  ///< Of the reachable volume, to be mapped (MAVBench).
 };
 
 struct ExploreRequest {

@@ -26,6 +26,7 @@ struct LocalizerInputs {
   bool images{};
   bool depth{};  ///< With each image.
   bool imu{};
+  bool truth{};  ///< Only a simulator can fly it.
 };
 
 /// One that sees is told where it stands (`place`), gets frames (`see`) and, when the computer is
@@ -44,6 +45,8 @@ class Localizer : public Kernel {
   [[nodiscard]] virtual LocalizerInputs inputs() const { return {}; }
   /// Where the vehicle stands; to be said before the first frame, and it stands still until then.
   virtual void place(const Pose& /*X_WB*/) {}
+  /// Where the vehicle truly is, before the sample of the same time; for `inputs().truth`.
+  virtual void reveal(const TruePose& /*pose*/) {}
   /// In order of their stamps; those up to a frame's time before the frame.
   virtual void feel(const ImuSample& /*sample*/) {}
   /// Frames in order of their times. Adds what it did to `work`.

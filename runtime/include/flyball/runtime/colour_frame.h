@@ -48,7 +48,6 @@ struct ColourFrame {
   /// Where the gimbal held the camera, by its own encoders: pose in the level frame L, which has
   /// the body's origin and heading and stands upright.
   Pose X_LC{Pose::Identity()};
-  Pose X_WC_truth{Pose::Identity()};  ///< For error statistics only.
   DeferredImage image{};
 };
 

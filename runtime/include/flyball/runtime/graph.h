@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <typeindex>
 #include <variant>
@@ -128,6 +129,12 @@ class Graph {
     return {topic<Request>(name + ".request", capacity),
             topic<Response>(name + ".response", capacity)};
   }
+  /// The topic of this name that carries T; empty when there is none.
+  template <class T>
+  [[nodiscard]] std::optional<Topic<T>> find(const std::string& name) const {
+    const int index = find_topic(name, typeid(T));
+    return index >= 0 ? std::optional{Topic<T>{index}} : std::nullopt;
+  }
   /// @pre `spec.name` is new; its topics exist; `threads >= 1`.
   void node(NodeSpec spec, Body body);
 
@@ -139,6 +146,8 @@ class Graph {
 
  private:
   int add_topic(TopicSpec spec);
+  /// -1: there is none.
+  [[nodiscard]] int find_topic(const std::string& name, std::type_index type) const;
   std::string name_;
   std::vector<TopicSpec> topics_;
   std::vector<Node> nodes_;

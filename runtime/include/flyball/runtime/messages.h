@@ -73,14 +73,18 @@ struct PointCloudFrame {
   std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
 };
 
-/// What the navigation sensors measured. `truth` fields are for the `truth` localizer and for
-/// error statistics only.
+/// Where the vehicle truly is: only a simulator can say, and only a localizer that stands in for a
+/// perfect one (`LocalizerInputs::truth`) is told.
+struct TruePose {
+  MissionTime stamp{};
+  Pose X_WB{Pose::Identity()};
+  Vec3 v_WB{Vec3::Zero()};
+};
+
+/// What the navigation sensors measured.
 struct NavigationSample {
   MissionTime stamp{};
-  Pose X_WB_truth{Pose::Identity()};
-  Vec3 v_WB_truth{Vec3::Zero()};
-  Vec3 w_WB_B_truth{Vec3::Zero()};  ///< Angular velocity [rad/s].
-  bool has_fix{};                   ///< Whether this sample carries a new GPS fix.
+  bool has_fix{};  ///< Whether this sample carries a new GPS fix.
   double latitude_rad{};
   double longitude_rad{};
   double height_m{};           ///< Above the WGS-84 ellipsoid.

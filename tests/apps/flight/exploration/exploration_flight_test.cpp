@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/exploration/exploration_flight.h"
+#include "flyball/flight/exploration/exploration_flight.h"
 
 #include "mission_rig.h"
 #include <cmath>

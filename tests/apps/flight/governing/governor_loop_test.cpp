@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
-#include "flight/governing/governor_loop.h"
+#include "flyball/flight/governing/governor_loop.h"
 
 #include "short_delivery.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/known_way.h"
+#include "flyball/flight/navigation/known_way.h"
 
 #include "grid_map.h"
 #include <cmath>

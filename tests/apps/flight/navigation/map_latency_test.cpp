@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/map_latency.h"
+#include "flyball/flight/navigation/map_latency.h"
 
+#include "flyball/flight/navigation/path_follower.h"
 #include "flyball/runtime/random.h"
 
-#include "flight/navigation/path_follower.h"
 #include "mission_rig.h"
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a plan that failed is made again.
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
+
 #include "navigator_trip.h"
 
 #include <gtest/gtest.h>

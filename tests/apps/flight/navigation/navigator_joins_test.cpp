@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What becomes of a way that was found and cannot be flown into.
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
+
 #include "navigator_trip.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/navigator.h"
+#include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
 

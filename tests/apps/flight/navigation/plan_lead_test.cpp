@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/plan_lead.h"
+#include "flyball/flight/navigation/plan_lead.h"
 
 #include <gtest/gtest.h>
 

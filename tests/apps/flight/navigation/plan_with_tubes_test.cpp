@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/navigation/plan_with_tubes.h"
 
 #include "mission_rig.h"
 #include <array>

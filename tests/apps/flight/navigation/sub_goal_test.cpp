@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/navigation/sub_goal.h"
+#include "flyball/flight/navigation/sub_goal.h"
 
 #include "mission_rig.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/people/target_follower.h"
+#include "flyball/flight/people/target_follower.h"
 
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/person.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/people/target_nodes.h"
+#include "flyball/flight/people/target_nodes.h"
 
 #include "flyball/runtime/virtual_executor.h"
 
@@ -93,7 +93,6 @@ ColourFrame frame_at(MissionTime now, std::uint64_t sequence, int& rendered) {
           sequence,
           camera,
           {},
-          {},
           {{now, sequence, camera, {}},
            [&rendered](const std::vector<PixelRegion>& regions, ColourImage& into) {
              std::fill(into.rgb.begin(), into.rgb.end(), static_cast<std::uint8_t>(into.sequence));
@@ -112,7 +111,7 @@ class TargetGraph : public testing::Test {
     kernels.buffered_tracker = std::make_unique<ByteTracker>(buffered);
     kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time);
     rig.context->phase = MissionPhase::cruise;
-    vehicle = add_vehicle_topics(graph, true);
+    vehicle = add_vehicle_topics(graph, {true, false});
     pose = graph.topic<PoseEstimate>("pose");
     topics = add_target(graph, vehicle, pose, *rig.context, log);
   }

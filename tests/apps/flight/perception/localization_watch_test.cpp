@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/perception/localization_watch.h"
+#include "flyball/flight/perception/localization_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -86,15 +86,10 @@ TEST(LocalizationWatch, gives_up_when_all_was_in_vain) {
   EXPECT_FALSE(LocalizationWatch{}.has_given_up(at(1000.0)));
 }
 
-TEST(LocalizationWatch, measures_the_error_of_every_localizer) {
+TEST(LocalizationWatch, says_nothing_of_a_localizer_that_looks_at_no_images) {
   LocalizationWatch watch;
-  EXPECT_TRUE(watch.quality(at(0.0)).empty());
-  watch.compare(pose_at(1.0), Vec3{1.0, 0.0, 2.0});
-  watch.compare(pose_at(1.0), Vec3{1.0, 0.4, 2.0});
-  const auto quality = watch.quality(at(1.0));
-  EXPECT_NEAR(quality.at("localization_error_m_mean"), 0.2, 1e-12);
-  EXPECT_NEAR(quality.at("localization_error_m_max"), 0.4, 1e-12);
-  EXPECT_EQ(quality.count("localization_lost"), 0U) << "it looks at no images";
+  watch.passed(pose_at(1.0));
+  EXPECT_TRUE(watch.quality(at(1.0)).empty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/perception/perception_nodes.h"
+#include "flyball/flight/perception/perception_nodes.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flight/perception/view.h"
+#include "flyball/flight/perception/view.h"
 
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/depth_camera.h"

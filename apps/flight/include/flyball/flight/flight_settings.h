@@ -87,6 +87,13 @@ struct PhotographySettings {
   double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
 };
 
+/// When the workload `search_and_rescue` believes that it has found somebody.
+struct SearchSettings {
+  int sightings{2};      ///< That agree.
+  double within_m{1.0};  ///< Of each other, along the ground.
+  double apart_m{0.25};  ///< At least, between the places from which they were made.
+};
+
 /// What the workload `watch` does.
 struct WatchSettings {
   double time_s{60.0};    ///< That it watches for.
@@ -113,6 +120,7 @@ struct FlightSettings {
   ExploreSettings explore{};
   DetectorSettings detector{};
   PhotographySettings photography{};
+  SearchSettings search{};
   WatchSettings watch{};
   GovernorSettings governor{};
 };

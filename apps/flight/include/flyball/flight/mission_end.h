@@ -18,7 +18,8 @@ enum class MissionFailure : std::uint8_t {
   target_lost,        ///< The person that was followed is out of sight.
   localization_lost,  ///< The localizer lost track and did not find it again.
   not_found,          ///< Everything was searched; the person was not seen.
-  incomplete          ///< Less was covered or mapped than the mission asks for.
+  incomplete,         ///< Less was covered or mapped than the mission asks for.
+  false_alarm         ///< Somebody was reported found where nobody is.
 };
 
 [[nodiscard]] const char* to_string(MissionStatus status);

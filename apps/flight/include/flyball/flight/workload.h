@@ -4,14 +4,12 @@
 /// @file
 /// A workload: builds its graph of kernels, and knows when its mission is done.
 
-#include "flyball/flight/mission_frame.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/result.h"
 
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace flyball {
 
@@ -45,11 +43,9 @@ class Workload {
   [[nodiscard]] virtual bool flies_to_goal() const { return false; }
   /// For the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
-  /// The workload's own figures when the mission is over (coverage, time tracked, ...); the unit is
-  /// the name's ending.
+  /// What the vehicle itself believes that it has done when the mission is over; the unit is the
+  /// name's ending. What is true, a referee says.
   [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
-  /// Pictures for the report: few, for each is kept whole.
-  [[nodiscard]] virtual std::vector<MissionFrame> frames() const { return {}; }
 };
 
 class Registry;

@@ -4,8 +4,8 @@
 /// @file
 /// Everything that a flown mission leaves.
 
-#include "flyball/flight/mission_frame.h"
 #include "flyball/kernels/mapper.h"
+#include "flyball/records/mission_frame.h"
 #include "flyball/records/summary.h"
 #include "flyball/runtime/recorder.h"
 #include "flyball/sim/world.h"

@@ -75,6 +75,7 @@ struct Scenario {
   ExploreSettings explore{};
   DetectorSettings detector{};
   PhotographySettings photography{};
+  SearchSettings search{};
   WatchSettings watch{};
   PlatformSettings platform{};
   GovernorSettings governor{};

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Takes off, flies from view to view as the explorer says, comes home and lands: what 3-D mapping
+/// and search and rescue have in common.
+
+#include "flyball/flight/legs.h"
+#include "flyball/flight/navigation/navigation_nodes.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace flyball {
+
+struct ExploreQuery {
+  std::uint64_t id{};
+  ExploreRequest request{};
+};
+
+struct ExploreAnswer {
+  std::uint64_t id{};
+  ExploreStep step{};
+};
+
+/// What an explorer is asked for from here: field of view, body and limits of the mission.
+[[nodiscard]] ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from);
+
+/// @error `invalid_input`: the world has no volume to explore.
+[[nodiscard]] Status check_volume(const MissionBrief& brief);
+
+class ExplorationFlight {
+ public:
+  enum class State : std::uint8_t {
+    exploring,  ///< From before take-off until `go_home`.
+    exhausted,  ///< No view is left that shows anything.
+    homing,
+    landed,
+  };
+
+  ExplorationFlight(MissionContext& context, Navigator& navigator);
+
+  /// Adds the node `explore`.
+  void add_nodes(Graph& graph, const VehicleTopics& vehicle, const PerceptionTopics& perception);
+  /// What the mission's node has to declare.
+  void declare(NodeSpec& spec) const;
+  /// One look at the state of things.
+  void step(JobContext& job);
+  /// Enough is known.
+  void go_home(MissionTime now);
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] int views() const { return static_cast<int>(taken_.size()); }
+
+ private:
+  enum class Stage : std::uint8_t { ready, climbing, mapping, thinking, flying, turning, landing };
+
+  void advance(JobContext& job, const PoseEstimate& pose);
+  void take_off(JobContext& job, const PoseEstimate& pose);
+  void await_map(MissionTime now);
+  void think(JobContext& job);
+  void take_answer(JobContext& job);
+  void watch_flight(JobContext& job);
+  void watch_turn(MissionTime now);
+  void give_up_view(MissionTime now);
+  void land(JobContext& job);
+
+  MissionContext& context_;
+  Navigator& navigator_;
+  std::optional<Legs> legs_{};
+  PerceptionTopics perception_{};
+  Service<ExploreQuery, ExploreAnswer> explore_{};
+  State state_{State::exploring};
+  Stage stage_{Stage::ready};
+  MissionTime since_{};  ///< When the stage began.
+  std::uint64_t asked_{};
+  Viewpoint view_{};
+  std::vector<Viewpoint> taken_{};
+  std::vector<Vec3> unreachable_W_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The reference that moves along the committed path, as fast as map, latency and guard allow.
+
+#include "flyball/flight/mission_context.h"
+#include "flyball/flight/navigation/speed_profile.h"
+#include "flyball/kernels/path_tracker.h"
+#include "flyball/runtime/guard.h"
+
+#include <array>
+#include <deque>
+
+namespace flyball {
+
+/// A bound that is longer is not told: at a minute the vehicle barely moves, and its guard stops it
+/// before what is unknown in any case.
+inline constexpr Duration longest_latency_bound = std::chrono::seconds{60};
+
+/// Where the vehicle is, seen from its reference.
+struct TrackingError {
+  double size_m{};
+  double across_m{};  ///< Level and square to the path.
+  double height_m{};  ///< Upwards.
+};
+
+/// Distance is used twice and never mixed (latency counts once): the cruise set-point measures it
+/// from the capture pose of the newest frame and reacts within delta; the guard measures it from
+/// here, now, and reacts within t_b.
+class PathFollower {
+ public:
+  explicit PathFollower(const MissionContext& context);
+
+  /// Hovers at a place; forgets the path.
+  void hover_at(const Vec3& p_W, double yaw_rad);
+  /// Flies the committed path up to `splice_m`, then `tail`, which begins there.
+  ///
+  /// @return  False, and nothing changed: the reference is past the splice, or too fast for the
+  ///          curves behind it.
+  [[nodiscard]] bool adopt(const Path& tail, double splice_m);
+  /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
+  void commit_stop(double s_m);
+
+  /// At the path's end, or hovering, the camera turns to this heading.
+  void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
+
+  /// Looks up anew how far the path is known to be free. Call after each change of map or path.
+  void refresh_known_free(const OccupancyView& map);
+  void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
+  /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b. Until it is
+  /// set, the vehicle does not move through space that has to be mapped.
+  void set_latency_bound(Duration bound) { latency_bound_ = bound; }
+
+  /// Moves the reference by `dt`; it was `error_W` away from the vehicle.
+  PathReference tick(MissionTime now, Duration dt, const Vec3& error_W);
+
+  [[nodiscard]] bool has_path() const { return !path_.empty(); }
+  [[nodiscard]] const Path& path() const { return path_; }
+  [[nodiscard]] double s_m() const { return s_m_; }
+  [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
+  /// Of all paths so far.
+  [[nodiscard]] double travelled_m() const { return travelled_m_; }
+  [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
+  [[nodiscard]] Vec3 position_W() const;
+  [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
+  /// Of a vehicle that is `error_W` away from its reference.
+  [[nodiscard]] TrackingError tracking_error(const Vec3& error_W) const;
+  /// From the reference to the first place that is not known free, for the body at a crawl.
+  [[nodiscard]] double known_free_m() const { return std::max(0.0, free_until_m_.front() - s_m_); }
+  /// Where a stop with this deceleration would end from here.
+  [[nodiscard]] double stop_point_m(double deceleration_m_s2) const;
+  /// Where a comfortable stop would end, inside what is known to be free: the committed stop while
+  /// a plan is sought.
+  [[nodiscard]] double planned_stop_m() const;
+  /// The end of what is known to be free with room for the wide tube: so far a stop can wait.
+  [[nodiscard]] double farthest_stop_m() const;
+  [[nodiscard]] bool is_at_end() const;
+  /// At the end of its path, or without one.
+  [[nodiscard]] bool stands_still() const { return !has_path() || is_at_end(); }
+  /// How long the reference has stood still on a path that goes on.
+  [[nodiscard]] Duration stalled(MissionTime now) const;
+  [[nodiscard]] const Guard& guard() const { return guard_; }
+  /// In force, widened while the governor asks for it.
+  [[nodiscard]] Duration latency_bound() const;
+
+ private:
+  void turn_towards(double yaw_rad, double dt_s);
+  [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
+  [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
+  [[nodiscard]] double room_m(std::size_t tier) const;
+  [[nodiscard]] double cruise_speed(std::size_t tier) const;
+  [[nodiscard]] double safe_cruise() const;
+  /// Deceleration of a planned stop, m/s^2.
+  [[nodiscard]] double stopping() const;
+  [[nodiscard]] double speed_limit() const;
+  [[nodiscard]] double next_speed(double dt_s, const Vec3& error_W);
+  [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
+  [[nodiscard]] double braked_speed(double dt_s) const;
+  void turn(double dt_s, MissionTime now);
+  [[nodiscard]] std::optional<double> wanted_yaw_rad(MissionTime now);
+  [[nodiscard]] double distance_since(MissionTime captured) const;
+
+  const MissionContext& context_;
+  Guard guard_;
+  Path path_{};
+  SpeedProfile profile_{};
+  Vec3 hover_W_{Vec3::Zero()};
+  double s_m_{};
+  double speed_m_s_{};
+  double target_m_s_{};
+  double yaw_rad_{};
+  double stop_at_m_{};
+  /// Known free up to here, for the body at each tier's speed (see the .cpp); slowest first.
+  std::array<double, 3> free_until_m_{};
+  double travelled_m_{};
+  Duration latency_bound_{};
+  MissionTime newest_capture_{};
+  std::optional<MissionTime> stalled_since_{};
+  std::optional<double> face_yaw_rad_{};
+  std::deque<std::pair<MissionTime, double>> odometer_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// From colour camera to the person that is followed, as in MAVBench's aerial photography (MICRO
+/// 2018, section IV): a detector looks at whole frames, and is slow; a buffered tracker takes its
+/// detection through the frames that came meanwhile; a real-time tracker goes on from there.
+
+#include "flyball/flight/mission_context.h"
+
+namespace flyball {
+
+/// What the detector saw in one frame.
+struct Detections {
+  ColourFrame frame{};
+  std::vector<Detection> people{};
+};
+
+/// Where the buffered tracker arrived with a detection: in the newest frame of its buffer.
+struct CaughtUp {
+  ColourFrame frame{};
+  std::optional<ImageBox> box{};   ///< Empty: nobody was detected, or lost on the way.
+  std::uint64_t frames_between{};  ///< From the detector's frame to this one.
+};
+
+/// Where the person is in the newest frame that was tracked.
+struct Target {
+  ColourFrame frame{};
+  std::optional<ImageBox> box{};
+};
+
+struct TargetTopics {
+  Topic<PoseEstimate> pose;
+  Topic<Detections> detections;
+  Topic<Target> sighting;  ///< The person as detected, in the detector's frame.
+  Topic<CaughtUp> caught_up;
+  Topic<Target> target;
+};
+
+/// Counts for the mission's end and its quality of flight.
+struct TargetLog {
+  int detections{};     ///< Frames in which the person was detected.
+  int missed_in_row{};  ///< Newest detections in a row without the person.
+  std::uint64_t looks{};
+  std::uint64_t buffered_frames{};
+};
+
+/// The person among those that were detected: the one nearest to where it was last, if that is
+/// within `reach_px`; without a last place the surest. Empty when there is none.
+[[nodiscard]] std::optional<Detection> pick(const std::vector<Detection>& people,
+                                            const std::optional<ImageBox>& last,
+                                            double reach_px);
+
+/// Those that have the size of a person where they stand on the ground. Everybody, when the height
+/// of the camera is not known yet.
+[[nodiscard]] std::vector<Detection> plausible(const Detections& seen,
+                                               const PoseEstimate* pose,
+                                               const MissionContext& context);
+
+/// Adds the nodes `detect`, `track_buffered` and `track_real_time`. `log` outlives the graph.
+TargetTopics add_target(Graph& graph,
+                        const VehicleTopics& vehicle,
+                        Topic<PoseEstimate> pose,
+                        MissionContext& context,
+                        TargetLog& log);
+
+}  // namespace flyball

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/flight/legs.h"
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto settling = 500ms;  // Until a status is surely from after the command.
+constexpr double clear_radius_m = 1.0;
+constexpr double clear_height_m = 2.5;
+
+}  // namespace
+
+void Legs::declare(NodeSpec& spec) const {
+  spec.reads.push_back(vehicle_.status.index);
+  spec.writes.push_back(vehicle_.command.index);
+}
+
+void Legs::command(JobContext& job, MissionPhase phase, const FlightCommand& command) {
+  context_->phase = phase;
+  job.publish(vehicle_.command, command);
+  settled_ = job.now() + settling;
+}
+
+void Legs::take_off(JobContext& job, double height_m) {
+  command(job, MissionPhase::take_off, {FlightCommand::Kind::take_off, height_m});
+}
+
+void Legs::land(JobContext& job) {
+  command(job, MissionPhase::land, {FlightCommand::Kind::land, 0.0});
+}
+
+void Legs::release_payload(JobContext& job) {
+  job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::release_payload, 0.0});
+}
+
+bool Legs::are_done(JobContext& job) const {
+  const auto status = job.latest(vehicle_.status);
+  return status && status->manoeuvre_done && job.now() >= settled_;
+}
+
+void declare_clear_over(Mapper& mapper, const Vec3& ground_W) {
+  const Vec3 centre_W = ground_W + Vec3::UnitZ() * (0.5 * clear_height_m);
+  mapper.declare_clear(centre_W, {clear_radius_m, 0.5 * clear_height_m});
+}
+
+}  // namespace flyball

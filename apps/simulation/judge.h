@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// One question about a mission that only somebody who sees the true world can answer.
+
+#include "flyball/flight/mission_end.h"
+#include "flyball/records/mission_frame.h"
+#include "flyball/runtime/time.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Judges listen to what the vehicle publishes and are never heard on board.
+class Judge {
+ public:
+  Judge() = default;
+  Judge(const Judge&) = delete;
+  Judge& operator=(const Judge&) = delete;
+  virtual ~Judge() = default;
+
+  /// Called once a second of mission time.
+  virtual void look(MissionTime /*now*/) {}
+  /// Why a success that the vehicle claims is none; `none`: it is one.
+  [[nodiscard]] virtual MissionFailure objection() const { return MissionFailure::none; }
+  /// The unit of a figure is its name's ending.
+  [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
+  /// Pictures for the report: few, for each is kept whole.
+  [[nodiscard]] virtual std::vector<MissionFrame> frames() const { return {}; }
+};
+
+}  // namespace flyball

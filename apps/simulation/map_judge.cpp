@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: referee
+#include "simulation/map_judge.h"
+
+namespace flyball {
+
+void MapJudge::look(MissionTime now) {
+  if (!judge_) {
+    judge_ = make_exploration_judge(context_.settings, context_.brief, context_.body, world_);
+  }
+  coverage_percent_ = judge_->coverage_percent(context_.map());
+  context_.recorder.record(now, "coverage", {{"coverage_percent", coverage_percent_}});
+}
+
+MissionFailure MapJudge::objection() const {
+  return coverage_percent_ < least_percent_ ? MissionFailure::incomplete : MissionFailure::none;
+}
+
+std::map<std::string, double> MapJudge::figures() const {
+  if (!judge_) {
+    return {};
+  }
+  const MapAgreement agreement = judge_->agreement(*context_.kernels.mapper);
+  return {{"coverage_percent", coverage_percent_},
+          {"map_precision", agreement.precision},
+          {"map_recall", agreement.recall}};
+}
+
+}  // namespace flyball

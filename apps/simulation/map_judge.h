@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Whether an exploration has mapped what can be seen.
+
+#include "flyball/flight/mission_context.h"
+#include "flyball/sim/world.h"
+
+#include "simulation/exploration_judge.h"
+#include "simulation/judge.h"
+#include <optional>
+
+namespace flyball {
+
+class MapJudge final : public Judge {
+ public:
+  /// All arguments outlive the judge. @param least_percent  Less coverage is `incomplete`; 0: any
+  /// will do.
+  MapJudge(MissionContext& context, const World& world, double least_percent)
+      : context_{context}, world_{world}, least_percent_{least_percent} {}
+
+  /// A row of channel `coverage`.
+  void look(MissionTime now) override;
+  [[nodiscard]] MissionFailure objection() const override;
+  /// `coverage_percent`, `map_precision`, `map_recall`.
+  [[nodiscard]] std::map<std::string, double> figures() const override;
+
+ private:
+  MissionContext& context_;
+  const World& world_;
+  double least_percent_;
+  std::optional<ExplorationJudge> judge_{};  ///< From the first look on: it takes long to make.
+  double coverage_percent_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/referee.h"
+
+#include "flyball/flight/exploration/exploration_flight.h"
+
+#include "simulation/map_judge.h"
+#include "simulation/picture_judge.h"
+#include "simulation/sighting_judge.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto check_period = 10ms;  // At 15 m/s, 15 cm between two looks at the true world.
+constexpr auto look_period = 1s;
+constexpr auto first_look = 100ms;  // A map that is being made is looked at a little later.
+constexpr double clearance_limit_m = 5.0;
+
+}  // namespace
+
+Referee::Referee(MissionContext& context,
+                 const Scenario& scenario,
+                 const SimulatedThings& things,
+                 const Graph& graph,
+                 Executor& executor,
+                 EventQueue& queue,
+                 ClosedLoop& loop)
+    : context_{context},
+      scenario_{scenario},
+      things_{things},
+      queue_{queue},
+      loop_{loop},
+      clearance_{things.world},
+      min_clearance_m_{clearance_limit_m} {
+  appoint(graph, executor);
+}
+
+void Referee::appoint(const Graph& graph, Executor& executor) {
+  if (const auto pose = graph.find<PoseEstimate>("pose")) {
+    auto judge = std::make_unique<LocalizationJudge>(executor, *pose);
+    loop_.on_navigation([judge = judge.get()](const TruePose& truth) { judge->note(truth); });
+    judges_.push_back(std::move(judge));
+  }
+  const auto sightings = graph.find<Sightings>("sightings");
+  const auto finding = graph.find<Finding>("finding");
+  if (sightings && finding) {
+    judges_.push_back(std::make_unique<SightingJudge>(context_, things_.world.people, executor,
+                                                      queue_, *sightings, *finding));
+  }
+  if (graph.find<ExploreQuery>("explore.request")) {
+    const double least_percent = sightings ? 0.0 : context_.settings.explore.coverage_percent;
+    judges_.push_back(std::make_unique<MapJudge>(context_, things_.world, least_percent));
+  }
+  if (const auto target = graph.find<Target>("target")) {
+    auto score = std::make_unique<TrackingScore>(context_, things_.world.people);
+    loop_.on_picture([score = score.get()](std::uint64_t sequence, const Pose& X_WC) {
+      score->note(sequence, X_WC);
+    });
+    executor.subscribe<Target>(*target, [this, score = score.get()](const Target& seen) {
+      if (context_.phase == MissionPhase::cruise) {
+        score->count(queue_.now(), seen);
+      }
+    });
+    judges_.push_back(std::move(score));
+  }
+  if (const auto pictures = graph.find<GroundPicture>("picture")) {
+    judges_.push_back(std::make_unique<PictureJudge>(
+        context_, executor, *pictures, [this] { return loop_.vehicle().state().X_WB; }));
+  }
+}
+
+void Referee::start() {
+  queue_.every(MissionTime{check_period}, check_period, EventOrder::sensor, [this] { check(); });
+  queue_.every(MissionTime{first_look}, look_period, EventOrder::observer, [this] {
+    for (const auto& judge : judges_) {
+      judge->look(queue_.now());
+    }
+  });
+}
+
+void Referee::check() {
+  const MissionTime now = queue_.now();
+  const Vec3& p_WB = loop_.vehicle().state().X_WB.translation();
+  const Cylinder body = things_.airframe.body();
+  const double still_m =
+      clearance_.distance_m(p_WB, body, clearance_limit_m, loop_.may_touch_ground());
+  const double moving_m = clearance_m(things_.world.movers, now, p_WB, body, still_m);
+  const double distance_m = distance_to_people_m(things_.world.people, now, p_WB, body, moving_m);
+  if (loop_.is_airborne()) {
+    min_clearance_m_ = std::min(min_clearance_m_, distance_m);
+  }
+  if (distance_m <= 0.0) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::collision);
+  }
+  if (loop_.battery().is_empty()) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::battery_empty);
+  }
+  if (to_seconds(now) > scenario_.mission.time_limit_s) {
+    context_.finish(now, MissionStatus::failed, MissionFailure::time_limit);
+  }
+}
+
+Verdict Referee::verdict() const {
+  if (context_.status() != MissionStatus::succeeded) {
+    return {context_.status(), context_.failure()};
+  }
+  for (const auto& judge : judges_) {
+    if (const MissionFailure why = judge->objection(); why != MissionFailure::none) {
+      return {MissionStatus::failed, why};
+    }
+  }
+  return {MissionStatus::succeeded, MissionFailure::none};
+}
+
+std::map<std::string, double> Referee::figures() const {
+  std::map<std::string, double> all;
+  for (const auto& judge : judges_) {
+    all.merge(judge->figures());
+  }
+  return all;
+}
+
+std::vector<MissionFrame> Referee::frames() const {
+  std::vector<MissionFrame> all;
+  for (const auto& judge : judges_) {
+    for (MissionFrame& frame : judge->frames()) {
+      all.push_back(std::move(frame));
+    }
+  }
+  return all;
+}
+
+}  // namespace flyball

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: referee
+#include "simulation/sighting_judge.h"
+
+#include "flyball/records/text_table.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+constexpr double found_within_m = 1.0;  // Of a person, along the ground.
+constexpr double same_place_m = 1.0;    // A second look at what was taken for a person is no news.
+constexpr std::size_t most_frames = 6;  // For the report; the finding is the last of them.
+
+}  // namespace
+
+SightingJudge::SightingJudge(MissionContext& context,
+                             const std::vector<Person>& people,
+                             Executor& executor,
+                             const EventQueue& queue,
+                             Topic<Sightings> sightings,
+                             Topic<Finding> finding)
+    : context_{context}, people_{people}, queue_{queue} {
+  executor.subscribe<Sightings>(sightings, [this](const Sightings& seen) { saw(seen); });
+  executor.subscribe<Finding>(finding, [this](const Finding& what) { found(what); });
+}
+
+void SightingJudge::saw(const Sightings& seen) {
+  for (const Sighting& sighting : seen.people) {
+    const double error_m = distance_to_person_m(seen.frame.captured, sighting.p_W);
+    const bool is_real = error_m <= found_within_m;
+    context_.recorder.record(queue_.now(), "sighting",
+                             {{"x_m", sighting.p_W.x()},
+                              {"y_m", sighting.p_W.y()},
+                              {"real", is_real ? 1.0 : 0.0},
+                              {"score", sighting.score},
+                              {"error_m", error_m},
+                              {"captured_s", to_seconds(seen.frame.captured)}});
+    if (!is_real && is_new(sighting.p_W)) {
+      mistaken_W_.push_back(sighting.p_W);
+      if (frames_.size() + 1 < most_frames) {
+        keep(seen.frame, sighting.box, false, "nobody");
+      }
+    }
+  }
+}
+
+void SightingJudge::found(const Finding& finding) {
+  error_m_ = distance_to_person_m(finding.frame.captured, finding.p_W);
+  found_s_ = to_seconds(finding.at);
+  const bool is_right = error_m_ <= found_within_m;
+  keep(finding.frame, finding.last.box, is_right,
+       (is_right ? "the person, " : "reported as found, ") + rounded(error_m_, 2) +
+           (is_right ? " m from the place given" : " m from the nearest person"));
+}
+
+MissionFailure SightingJudge::objection() const {
+  return !found_s_                   ? MissionFailure::not_found
+         : error_m_ > found_within_m ? MissionFailure::false_alarm
+                                     : MissionFailure::none;
+}
+
+std::map<std::string, double> SightingJudge::figures() const {
+  std::map<std::string, double> figures{
+      {"false_positives", static_cast<double>(mistaken_W_.size())}};
+  if (found_s_) {
+    figures["position_error_m"] = error_m_;
+    if (error_m_ <= found_within_m) {
+      figures["time_to_find_s"] = *found_s_;
+    }
+  }
+  return figures;
+}
+
+void SightingJudge::keep(const ColourFrame& frame,
+                         const ImageBox& box,
+                         bool is_right,
+                         const std::string& what) {
+  frames_.push_back(boxed(frame.image.value(), box, is_right,
+                          "at " + rounded(to_seconds(frame.captured), 1) + " s: " + what));
+}
+
+double SightingJudge::distance_to_person_m(MissionTime at, const Vec3& p_W) const {
+  double nearest_m = 1e3;
+  for (const Person& person : people_) {
+    nearest_m = std::min(nearest_m, (person.at(at).foot_W - p_W).head<2>().norm());
+  }
+  return nearest_m;
+}
+
+bool SightingJudge::is_new(const Vec3& p_W) const {
+  return std::none_of(mistaken_W_.begin(), mistaken_W_.end(),
+                      [&](const Vec3& old_W) { return (old_W - p_W).norm() < same_place_m; });
+}
+
+}  // namespace flyball

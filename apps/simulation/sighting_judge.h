@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Whether somebody who was reported found is there.
+
+#include "flyball/flight/people/person_finding.h"
+#include "flyball/runtime/event_queue.h"
+#include "flyball/runtime/executor.h"
+#include "flyball/sim/person.h"
+
+#include "simulation/judge.h"
+#include <optional>
+
+namespace flyball {
+
+class SightingJudge final : public Judge {
+ public:
+  /// All arguments outlive the judge, which listens to both topics from now on.
+  SightingJudge(MissionContext& context,
+                const std::vector<Person>& people,
+                Executor& executor,
+                const EventQueue& queue,
+                Topic<Sightings> sightings,
+                Topic<Finding> finding);
+
+  /// `false_alarm` when the finding is farther than a metre from everybody.
+  [[nodiscard]] MissionFailure objection() const override;
+  /// `false_positives` (places where nobody stands that were taken for a person),
+  /// `position_error_m` of the finding and, when it is right, `time_to_find_s`.
+  [[nodiscard]] std::map<std::string, double> figures() const override;
+  [[nodiscard]] std::vector<MissionFrame> frames() const override { return frames_; }
+
+ private:
+  void saw(const Sightings& seen);
+  void found(const Finding& finding);
+  [[nodiscard]] double distance_to_person_m(MissionTime at, const Vec3& p_W) const;
+  [[nodiscard]] bool is_new(const Vec3& p_W) const;
+  void keep(const ColourFrame& frame, const ImageBox& box, bool is_right, const std::string& what);
+
+  MissionContext& context_;
+  const std::vector<Person>& people_;
+  const EventQueue& queue_;
+  std::vector<Vec3> mistaken_W_{};
+  std::optional<double> found_s_{};
+  double error_m_{};  ///< Of the finding.
+  std::vector<MissionFrame> frames_{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,40 @@
+cmake_minimum_required(VERSION 3.25)
+# The layering test itself: a copy of the rooms in which one file includes what it must not has to
+# fail, and the copy without that file has to pass.
+set(copy ${work}/layering_copy)
+file(REMOVE_RECURSE ${copy})
+foreach(folder runtime kernels governors policies sim apps)
+  file(MAKE_DIRECTORY ${copy}/${folder})
+endforeach()
+foreach(room flight workloads scenario)
+  file(MAKE_DIRECTORY ${copy}/apps/${room})
+  file(WRITE ${copy}/apps/${room}/fine.cpp "#include \"flyball/runtime/graph.h\"\n")
+endforeach()
+
+function(expect verdict what)
+  execute_process(COMMAND ${CMAKE_COMMAND} -D root=${copy} -P ${root}/tests/layering.cmake
+                  RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE said)
+  if(verdict STREQUAL "passes" AND failed)
+    message(FATAL_ERROR "${what} was refused:\n${said}")
+  elseif(verdict STREQUAL "fails" AND NOT failed)
+    message(FATAL_ERROR "${what} was not noticed")
+  elseif(verdict STREQUAL "fails" AND NOT said MATCHES "bad.cpp")
+    message(FATAL_ERROR "${what} was refused without a word of the file:\n${said}")
+  endif()
+endfunction()
+
+expect(passes "a tree in order")
+foreach(case "flight;flyball/sim/world.h" "flight;flyball/scenario/scenario.h" "flight;scenario/scenario_reader.h"
+             "workloads;flyball/sim/world.h" "workloads;simulation/referee.h" "scenario;flyball/studies/tuning.h")
+  list(GET case 0 room)
+  list(GET case 1 header)
+  file(WRITE ${copy}/apps/${room}/bad.cpp "#include \"${header}\"\n")
+  expect(fails "${room} that includes ${header}")
+  file(REMOVE ${copy}/apps/${room}/bad.cpp)
+endforeach()
+file(MAKE_DIRECTORY ${copy}/apps/attic)
+execute_process(COMMAND ${CMAKE_COMMAND} -D root=${copy} -P ${root}/tests/layering.cmake
+                RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE said)
+if(NOT failed OR NOT said MATCHES "apps/attic")
+  message(FATAL_ERROR "a room without a line in the layering test was not noticed")
+endif()
