@@ -21,7 +21,7 @@ struct MissionRecord {
   bool has_goal{true};                 ///< Whether the world's goal was this mission's.
   std::vector<OccupiedCell> map{};     ///< Where a volume was explored: what its map came to.
   std::vector<MissionFrame> frames{};  ///< What the workload wants to be seen.
-  /// Channels and fields: see apps/README.md. `state` has 10 rows a second.
+  /// Channels and fields: see apps/records/README.md. `state` has 10 rows a second.
   std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.
 };
 
