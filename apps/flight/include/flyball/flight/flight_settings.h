@@ -53,10 +53,10 @@ struct MapSettings {
 };
 
 struct PlannerSettings {
-  /// Iterations per request. More would be spent on a map that is seconds old: a new request, with
-  /// the newest map, is worth more.
+  /// Iterations for one request. More would be spent on a map that is seconds old; a new request on
+  /// the newest map is worth more.
   int budget{4000};
-  /// A farther goal is approached through places on the way; 0: it is planned to at once.
+  /// A goal farther away is approached through intermediate places; 0: it is planned to at once.
   double horizon_m{};
 };
 
@@ -67,7 +67,7 @@ struct ScanSettings {
   int lanes{5};
   double height_m{15.0};          ///< Of flight, above the ground.
   double picture_rate_hz{2.0};    ///< Of the camera that looks down.
-  double coverage_percent{95.0};  ///< Less of the area seen at the end: `incomplete`.
+  double coverage_percent{95.0};  ///< Seeing less of the area than this is `incomplete`.
 };
 
 struct DetectorSettings {
@@ -80,25 +80,25 @@ struct DetectorSettings {
 struct PhotographySettings {
   double distance_m{7.0};  ///< Kept to the person, along the ground.
   double person_height_m{1.75};
-  double coast_s{3.0};  ///< So long the person is followed on where they should be, unseen.
-  double search_rate_rad_s{0.8};  ///< Then the vehicle turns round for them; 0: it stands.
-  int lost_after_detections{20};  ///< In a row without the person: the target is lost.
-  double success_s{60.0};         ///< Tracked for less is a failure.
-  double limit_s{120.0};          ///< Tracked for so long ends the mission: the record is censored.
+  double coast_s{3.0};            ///< How long an unseen person is followed by prediction.
+  double search_rate_rad_s{0.8};  ///< Turn rate of the search after that; 0: the vehicle hovers.
+  int lost_after_detections{20};  ///< Detections in a row without the person: they are lost.
+  double success_s{60.0};         ///< Tracking for less time is a failure.
+  double limit_s{120.0};          ///< Tracking for so long ends the mission (`is_censored`).
 };
 
 /// When the workload `search_and_rescue` believes that it has found somebody.
 struct SearchSettings {
-  int sightings{2};      ///< That agree.
-  double within_m{1.0};  ///< Of each other, along the ground.
-  double apart_m{0.25};  ///< At least, between the places from which they were made.
+  int sightings{2};      ///< How many sightings must agree.
+  double within_m{1.0};  ///< They must lie this close to each other, along the ground.
+  double apart_m{0.25};  ///< They must be made from places at least this far apart.
 };
 
-/// What the workload `watch` does.
+/// Settings of the workload `watch`.
 struct WatchSettings {
-  double time_s{60.0};    ///< That it watches for.
-  double height_m{};      ///< Where it hovers, above the ground; 0: it stands with its rotors off.
-  double longest_s{2.0};  ///< Between two maps; a longer time without news is a failure.
+  double time_s{60.0};    ///< How long it watches.
+  double height_m{};      ///< Height of the hover; 0: the vehicle stands with its rotors off.
+  double longest_s{2.0};  ///< A longer time between two maps is a failure.
 };
 
 struct GovernorSettings {

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// What the parts of one mission share: the brief, the knobs, the kernels, the record.
+/// What the nodes of one mission use: the vehicle's topics, the brief, knobs, kernels and the
+/// record.
 
 #include "flyball/flight/flight_settings.h"
 #include "flyball/flight/mission_end.h"
@@ -62,7 +63,7 @@ struct FlightStatus {
   bool manoeuvre_done{};  ///< Take-off or landing.
 };
 
-/// Between the companion computer and the vehicle.
+/// The topics between the companion computer and the vehicle.
 struct VehicleTopics {
   Topic<DepthFrame> depth;
   Topic<NavigationSample> navigation;
@@ -71,7 +72,7 @@ struct VehicleTopics {
   Topic<FlightCommand> command;
   Topic<ColourFrame> colour{};         ///< These three only where the workload looks for people.
   Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until somebody takes them.
-  Topic<GimbalAngles> gimbal{};        ///< What the gimbal is told.
+  Topic<GimbalAngles> gimbal{};        ///< Commanded angles.
   /// Of a simulator, before each navigation sample, where the localizer asks for it.
   std::optional<Topic<TruePose>> true_pose{};
 };
@@ -99,7 +100,7 @@ struct MissionEquipment {
   bool has_rgb_camera{};  ///< Through the lens of the depth camera, for a localizer that needs it.
 };
 
-/// A map as it was published.
+/// The announcement of a map that was published.
 struct MapRevision {
   std::uint64_t number{};
   MissionTime captured{};  ///< Of the newest frame in it.
@@ -107,16 +108,16 @@ struct MapRevision {
   double resolution_m{};
 };
 
-/// Counters that end up in the summary.
+/// Counters for the summary.
 struct MissionCounters {
   int replans{};
   int planner_failures_in_row{};
   std::uint64_t bound_overruns{};
-  std::vector<double> budget_use{};  ///< Latency over its bound, one per published map.
-  std::vector<double> latency_s{};   ///< Sensor to command, one per map revision that was used.
+  std::vector<double> budget_use{};  ///< Latency over its bound, for each published map.
+  std::vector<double> latency_s{};   ///< Sensor to command, for each map revision that was used.
 };
 
-/// What the governor's fallback asks of the path follower.
+/// What the governor's fallback demands of the path follower.
 struct FlightRestraint {
   double bound_factor{1.0};  ///< Of the bound on latency.
   bool must_hover{};
@@ -136,7 +137,8 @@ class MissionContext {
   [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const;
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;
-  /// In a narrow passage: with less room nothing is planned, checked or flown.
+  /// The body with its tube in a narrow passage. Nothing is planned, checked or flown with less
+  /// room.
   [[nodiscard]] Cylinder narrow_body() const { return body_at(slow_m_s); }
   void event(MissionTime at, const std::string& what);
   /// Ends the mission; the first end counts.
@@ -152,8 +154,8 @@ class MissionContext {
   const MissionBrief brief;
   const Cylinder body;
   TrackingTube tube{};  ///< A workload may widen it before the flight.
-  /// False: the graph has no map. Then space is free where the scenario declares it clear and
-  /// nowhere else, and that is believed to any distance.
+  /// False when the graph has no map. Then space is free where the brief declares it clear and
+  /// nowhere else, at any distance.
   bool maps_obstacles{true};
   KnobSettings knobs;
   OperatingPoint computer;  ///< Clock and cores in force, which a hot board grants less of.
@@ -172,7 +174,7 @@ class MissionContext {
   MissionFailure failure_{MissionFailure::none};
 };
 
-/// What a vehicle has beside depth camera, navigation and flight controller.
+/// What a vehicle serves beside depth camera, navigation and flight controller.
 struct VehicleExtras {
   bool colour_camera{};
   bool true_pose{};

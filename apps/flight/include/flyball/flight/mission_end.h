@@ -15,7 +15,7 @@ enum class MissionFailure : std::uint8_t {
   battery_empty,
   no_plan,
   time_limit,
-  target_lost,        ///< The person that was followed is out of sight.
+  target_lost,        ///< The followed person was lost, or tracked for too short a time.
   localization_lost,  ///< The localizer lost track and did not find it again.
   not_found,          ///< Everything was searched; the person was not seen.
   incomplete,         ///< Less was covered or mapped than the mission asks for.

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// A workload: builds its graph of kernels, and knows when its mission is done.
+/// A workload: builds its graph of kernels, and decides when its mission is done.
 
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/result.h"
@@ -26,7 +26,7 @@ class Workload {
   Workload& operator=(const Workload&) = delete;
   virtual ~Workload() = default;
 
-  /// Whether it can be flown at all.
+  /// Whether the mission can be flown with these settings in this place.
   ///
   /// @error `invalid_input`: one sentence with the key, its value and the way out.
   [[nodiscard]] virtual Status check([[maybe_unused]] const FlightSettings& settings,
@@ -36,15 +36,15 @@ class Workload {
   /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
   /// the workload outlives the graph's jobs.
   virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
-  /// Whether a colour camera, a detector and trackers are on board: without, nothing is rendered,
-  /// and no detector need be there.
+  /// Whether the workload needs a colour camera, a detector and trackers. If not, no colour image
+  /// is rendered and no detector is needed.
   [[nodiscard]] virtual bool looks_for_people() const { return false; }
   /// Whether the world's goal is a place of this mission.
   [[nodiscard]] virtual bool flies_to_goal() const { return false; }
-  /// For the observation and the record; null when the workload flies without one.
+  /// The navigator, for the observation and the record; null when the workload flies without one.
   [[nodiscard]] virtual const Navigator* navigator() const = 0;
-  /// What the vehicle itself believes that it has done when the mission is over; the unit is the
-  /// name's ending. What is true, a referee says.
+  /// Figures at the end of the mission that the vehicle itself believes; the unit is the name's
+  /// ending. What is true, a referee says.
   [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
 };
 

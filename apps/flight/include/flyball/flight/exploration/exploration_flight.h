@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Takes off, flies from view to view as the explorer says, comes home and lands: what 3-D mapping
-/// and search and rescue have in common.
+/// Takes off, flies from view to view as the explorer answers, flies home and lands: what 3-D
+/// mapping and search and rescue have in common.
 
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
@@ -23,7 +23,8 @@ struct ExploreAnswer {
   ExploreStep step{};
 };
 
-/// What an explorer is asked for from here: field of view, body and limits of the mission.
+/// The request to the explorer from a viewpoint, with field of view, body and limits of the
+/// mission.
 [[nodiscard]] ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from);
 
 /// @error `invalid_input`: the world has no volume to explore.
@@ -42,11 +43,11 @@ class ExplorationFlight {
 
   /// Adds the node `explore`.
   void add_nodes(Graph& graph, const VehicleTopics& vehicle, const PerceptionTopics& perception);
-  /// What the mission's node has to declare.
+  /// Adds to the spec of the mission's node which topics it reads and writes.
   void declare(NodeSpec& spec) const;
-  /// One look at the state of things.
+  /// Advances the flight by one step; called by the mission's node.
   void step(JobContext& job);
-  /// Enough is known.
+  /// The mission is done with exploring: flies home and lands.
   void go_home(MissionTime now);
 
   [[nodiscard]] State state() const { return state_; }

@@ -15,30 +15,30 @@
 
 namespace flyball {
 
-/// A camera in the body's centre that looks straight down, the image's top ahead; like the depth
-/// camera's, its mount takes out roll and pitch.
+/// Pose of a camera in the body's centre that looks straight down, with the top of its image ahead.
+/// Like the depth camera's, its mount compensates roll and pitch.
 [[nodiscard]] Pose downward_camera_pose(const Pose& X_WB);
 
-/// The image's corners on the level ground, in order round it.
+/// The corners of the image on the level ground, in order around it.
 using Footprint = std::array<Vec3, 4>;
 
-/// Null when a corner's ray does not meet the ground.
+/// Empty when the ray of a corner does not meet the ground.
 [[nodiscard]] std::optional<Footprint> footprint_of(const Pose& X_WC,
                                                     const Intrinsics& camera,
                                                     double ground_z_m);
 
-/// One row of channel `footprint`: x0_m, y0_m, x1_m, ... of its corners.
+/// Records one row of channel `footprint`: x0_m, y0_m, x1_m, ... of its corners.
 void record(const Footprint& footprint, MissionTime now, Recorder& recorder);
 
-/// Square cells over a rectangle of the ground. A cell is seen when its centre is in a footprint:
-/// level ground, so what stands on it (a tree, a crop) hides nothing.
+/// Square cells over a rectangle of the ground. A cell is seen when its centre is in a footprint.
+/// The ground counts as level, so what stands on it (a tree, a crop) hides nothing.
 class GroundCoverage {
  public:
   GroundCoverage() = default;
   /// @pre The area has an extent in x and y, `cell_m > 0`.
   GroundCoverage(const Aabb& area_W, double cell_m);
 
-  /// Pictures come in the order in which they were taken.
+  /// Pictures must come in the order in which they were taken.
   void add(const Footprint& footprint);
   [[nodiscard]] int pictures() const { return pictures_; }
   /// Share of the area that was seen.

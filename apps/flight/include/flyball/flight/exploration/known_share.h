@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How much of a volume is known, as the vehicle itself can tell without having seen all of it.
+/// How much of a volume is known, as far as the vehicle itself can tell.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
@@ -12,16 +12,16 @@
 
 namespace flyball {
 
-/// The known share of what can be known: unknown space counts as long as it may still be reached
-/// through unknown space from a place that is known to be free. What is enclosed by known surfaces
-/// (the inside of a wall) counts no more, for no view will ever show it.
+/// The known share of what can be known. An unknown cell counts only while it may be reached
+/// through unknown cells from a cell that is known to be free. Cells that are enclosed by known
+/// surfaces (the inside of a wall) no longer count, because no view will ever show them.
 class KnownShare {
  public:
   /// @pre `cell_m > 0`. @param volume_W  To be explored.
   KnownShare(const Aabb& volume_W, double cell_m);
 
-  /// 0..100; 0 while nothing is known.
-  /// @cost One question to the map for each cell of the volume.
+  /// 0 to 100; 0 while nothing is known.
+  /// @cost One look-up in the map for each cell of the volume.
   [[nodiscard]] double percent(const OccupancyView& map);
 
  private:

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// A governor's decision in words that say it bit for bit.
+/// A governor's decision as text that is exact to the bit.
 
 #include "flyball/governors/policy_governor.h"
 
@@ -12,7 +12,7 @@
 
 namespace flyball {
 
-/// Bit for bit: NaN is equal to itself, 0 and -0 are not equal.
+/// Compares bits: NaN equals itself, 0 and -0 differ.
 [[nodiscard]] bool have_same_bits(double a, double b);
 
 /// `map.resolution_m=0.15 cpu.cores=4`; numbers with 17 digits.
@@ -23,10 +23,10 @@ namespace flyball {
 /// The answer in the words of `choice_text`, as values by knob; nothing when it is no such text.
 [[nodiscard]] std::optional<std::map<std::string, double>> settings_of(const std::string& choice);
 
-/// Tells a decision that is as the last one was, without putting it into words.
+/// Tells whether a decision repeats the last one, without making its text.
 class ChoiceMemory {
  public:
-  /// False when wish, answer, reason and fallback are as at the last call.
+  /// False when wish, answer, reason and fallback are those of the last call.
   [[nodiscard]] bool is_new(const PolicyGovernor& governor, const Decision& answer);
 
  private:

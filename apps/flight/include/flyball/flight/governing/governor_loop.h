@@ -15,7 +15,8 @@
 
 namespace flyball {
 
-/// Tells policies that ask for it what is ahead of the vehicle. Only a simulator can.
+/// Tells policies that ask for it how long future jobs will take. Only a simulator can implement
+/// it.
 class ForesightSource {
  public:
   ForesightSource() = default;
@@ -23,7 +24,8 @@ class ForesightSource {
   ForesightSource& operator=(const ForesightSource&) = delete;
   virtual ~ForesightSource() = default;
 
-  /// Along the path and, beyond its end, straight to the goal. Stays until the next look.
+  /// Along the path and, beyond its end, straight to the goal. The result stays valid until the
+  /// next call.
   [[nodiscard]] virtual const Foresight& look(const PathFollower& follower) = 0;
 };
 
@@ -36,20 +38,20 @@ class GovernorLoop {
                const Navigator* navigator,
                ForesightSource* future);
 
-  /// One decision at `now`. The surroundings are looked at once per the scenario's period, the
-  /// computer each time.
+  /// Makes one decision at `now`. The surroundings are observed once in each `governor.period_s`,
+  /// the computer every time.
   void tick(MissionTime now);
-  /// A deadline was missed; told with the next observation.
+  /// A deadline was missed; the next observation carries the count.
   void count_miss() {
     ++misses_;
     ++all_misses_;
   }
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
-  /// What each decision took on the host; nothing in the mission depends on it.
+  /// Host time of each decision; nothing in the mission depends on it.
   [[nodiscard]] const std::vector<double>& decision_host_us() const { return decision_host_us_; }
   [[nodiscard]] std::uint64_t knob_changes() const { return knob_changes_; }
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
-  /// Why the policy failed first; empty: it did not.
+  /// Why the policy failed the first time; empty when it never did.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
   [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
   [[nodiscard]] std::vector<LevelPromises> promise_levels() const {
@@ -75,7 +77,7 @@ class GovernorLoop {
   ForesightSource* future_;
   OperatingPoint asked_;
   Observation seen_{};
-  std::vector<double> told_{};  ///< Its members as the record has them.
+  std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
   ChoiceMemory choices_{};
   MissionTime next_look_{};
   MissionTime last_{};
@@ -89,9 +91,9 @@ class GovernorLoop {
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
   std::string trouble_{};
-  std::uint64_t promises_{};  ///< Settled ones that the record has.
+  std::uint64_t promises_{};  ///< Latency bounds that were settled and recorded.
   Fallback fallback_{Fallback::none};
-  std::string why_{};              ///< Of the last fallback that the record has.
+  std::string why_{};              ///< Reason of the last fallback that was recorded.
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How wide the way towards the goal is, as the map has it.
+/// How wide the passages between the vehicle and its goal are, according to the map.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
@@ -10,39 +10,40 @@
 
 namespace flyball {
 
-/// Lines across the way, a metre apart; each has a widest opening.
+/// The scan lays lines across the direction of the goal, a metre apart, and finds the widest
+/// opening on each of them.
 struct GapsAhead {
-  double narrowest_m{};     ///< The least of the widest openings.
+  double narrowest_m{};     ///< The smallest of the widest openings.
   double narrowest_at_m{};  ///< How far ahead that is; the scan's reach when nothing stands there.
-  double mean_m{};          ///< Of the widest openings.
+  double mean_m{};          ///< Mean of the widest openings.
 };
 
-/// What limits the scan.
+/// The limits of the scan.
 struct GapScan {
-  double reach_m{24.0};  ///< Ahead: a camera of 90 degrees sees as much to both sides.
-  double aside_m{12.0};  ///< To each side.
-  double half_band_m{0.3};
-  Aabb bounds_W{};  ///< The vehicle may not leave it: there is no opening outside.
+  double reach_m{24.0};     ///< Ahead: there a camera of 90 degrees sees as far to both sides.
+  double aside_m{12.0};     ///< To each side.
+  double half_band_m{0.3};  ///< Half the height of the band in which obstacles count.
+  Aabb bounds_W{};  ///< The vehicle may not leave these bounds, so no opening lies outside them.
 };
 
-/// An opening reaches from obstacle to obstacle, `2 aside_m` at most; what is not known counts as
-/// open. Widths are exact to a quarter of a metre where they exceed one metre.
-/// @param towards_W  Another place than `from_W`; the height does not count.
+/// An opening reaches from obstacle to obstacle and is at most `2 aside_m` wide. Unknown space
+/// counts as open. Widths above one metre are exact to a quarter of a metre.
+/// @param towards_W  Must differ from `from_W`; its height does not count.
 [[nodiscard]] GapsAhead gaps_ahead(const OccupancyView& map,
                                    const Vec3& from_W,
                                    const Vec3& towards_W,
                                    const GapScan& scan);
 
-/// A place on a path and how wide the way is there.
+/// A place on a path, and how wide the passage is there.
 struct PathWidth {
   double width_m{};  ///< Twice the distance to the nearer side.
-  double at_m{};     ///< Along the path, from the beginning of the span.
+  double at_m{};     ///< Arc length from the beginning of the span.
 };
 
-/// The narrowest place of a path: level and square to it, as wide as an obstacle on the nearer side
-/// leaves it; at most 3 m to each side, and then no place of it is narrow. Unlike openings towards
-/// the goal it means the gap that the path goes through, whatever else seems open because nobody
-/// has looked there yet.
+/// The narrowest place of a path. The width is measured horizontally and perpendicular to the path,
+/// up to 3 m to each side; a path without obstacles within 3 m has no narrow place. Unlike
+/// `gaps_ahead` this measures the gap that the path really passes, and ignores other openings that
+/// may only seem open because they have not been observed yet.
 /// @pre The path is not empty.
 [[nodiscard]] PathWidth narrowest_on(const OccupancyView& map,
                                      const PathSpan& span,

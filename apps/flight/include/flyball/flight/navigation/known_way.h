@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// A way that was found, flown into from another place than it was found from.
+/// A path that was planned from one place and is then joined from another one.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
@@ -13,16 +13,17 @@ namespace flyball {
 
 struct KnownWay {
   std::vector<Vec3> waypoints_W{};
-  Cylinder body{};  ///< For which it was found.
+  Cylinder body{};  ///< The body, with its tube, that the path was planned for.
 };
 
-/// Over the straight line between its ends. @pre The way has a waypoint at least.
+/// How much longer the path is than the straight line between its ends. @pre The path has at least
+/// one waypoint.
 [[nodiscard]] double detour_m(const std::vector<Vec3>& way_W);
 
-/// The way's waypoints, with `start_W` for the first one. The second one is left out where the
-/// start is past it already and nothing stands before the third. Whether what then is the first
-/// edge is free, is not asked.
-/// @pre The way has two waypoints at least.
+/// The waypoints of `way`, with `start_W` in place of the first one. The second waypoint is left
+/// out when the start has already passed it and the line to the third is free. The caller must
+/// still check that the first edge of the result is free.
+/// @pre The path has at least two waypoints.
 [[nodiscard]] std::vector<Vec3> joined_to(const Vec3& start_W,
                                           const KnownWay& way,
                                           const OccupancyView& map);

@@ -18,7 +18,7 @@
 
 namespace flyball {
 
-/// What a map's latency depends on.
+/// The settings that a map's latency depends on.
 struct MapTerms {
   double resolution_m{};
   double range_m{};
@@ -95,7 +95,7 @@ class MapLatency {
   MeasuredShares intervals_{};
   MapTerms terms_{};
   bool known_terms_{};
-  MissionTime since_{};  ///< The first ones hold from the beginning.
+  MissionTime since_{};  ///< Since when the terms hold; the first ones hold from the beginning.
   std::optional<MissionTime> last_published_{};
   Bounds bounds_{};
   double budget_use_{};

@@ -14,8 +14,8 @@ struct NavigationTopics {
   Topic<PlannedPath> path;
 };
 
-/// Adds the nodes `smooth` and `follow`, and the service `plan` between them, which has no node
-/// yet.
+/// Adds the nodes `smooth` and `follow`, and the service `plan` between them. The caller adds the
+/// node that answers it.
 /// @param navigator  Outlives the graph's jobs.
 NavigationTopics add_path_following(Graph& graph,
                                     const VehicleTopics& vehicle,

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Gets the vehicle to a goal through what the map knows: asks for plans, splices them into the
-/// committed path, and keeps the latency that the speed limit follows from.
+/// Flies the vehicle to a goal through the known map: requests plans, splices them into the
+/// committed path, and keeps the bound on latency from which the speed limit follows.
 
 #include "flyball/flight/navigation/known_way.h"
 #include "flyball/flight/navigation/map_latency.h"
@@ -19,12 +19,14 @@ struct PlanQuery {
   std::uint64_t id{};
   Vec3 start_W{Vec3::Zero()};
   Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
-  /// The path comes straight from here, and bends at the start as fast as room allows.
+  /// The trajectory begins here instead, leads straight to `start_W`, and turns there as sharply as
+  /// the room allows.
   std::optional<Vec3> lead_in_W{};
   Vec3 goal_W{Vec3::Zero()};
-  bool may_be_tight{};              ///< Only the slow tube is asked for.
-  double iteration_s{};             ///< Of a search, as the last ones took; 0: not known.
-  std::optional<KnownWay> known{};  ///< Was found before: nothing is sought, it begins elsewhere.
+  bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
+  double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
+  /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
+  std::optional<KnownWay> known{};
 };
 
 struct PlanAnswer {
@@ -32,7 +34,7 @@ struct PlanAnswer {
   std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
   Vec3 start_direction_W{Vec3::Zero()};
   std::optional<Vec3> lead_in_W{};
-  Cylinder body{};  ///< For which it was found.
+  Cylinder body{};  ///< The body, with its tube, that the path was planned for.
   std::string failure{};
   double iterations{};
 };
@@ -42,8 +44,8 @@ struct PlannedPath {
   Trajectory trajectory{};
   std::string failure{};
   bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
-  KnownWay way{};       ///< That the trajectory follows.
-  double iterations{};  ///< That it took to find it.
+  KnownWay way{};       ///< The path that the trajectory follows.
+  double iterations{};  ///< Iterations that the search took.
 };
 
 class Navigator {
@@ -53,19 +55,20 @@ class Navigator {
   void hover_at(const Vec3& p_W, double yaw_rad);
   void set_goal(MissionTime now, const Vec3& goal_W);
   void clear_goal();
-  /// Where it comes to stand, the camera turns to this heading.
+  /// At the place where the vehicle stops, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { follower_.face(yaw_rad); }
   [[nodiscard]] bool has_arrived() const;
 
-  /// A map was published: known-free space, latency bound, and whether the path is still good.
+  /// A map was published: updates the known-free distance and the latency bound, and whether the
+  /// path is still free.
   void map_published(MissionTime now, const MapRevision& revision);
   void path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number);
   [[nodiscard]] std::uint64_t path_number() const { return path_number_; }
-  /// A plan to ask for now, if any.
+  /// The plan to request now, if any.
   [[nodiscard]] std::optional<PlanQuery> next_query(MissionTime now);
   void path_planned(MissionTime now, const PlannedPath& planned);
 
-  /// Set-point for the flight controller; `revision` is the newest that the vehicle has.
+  /// Set-point for the flight controller.
   [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
   [[nodiscard]] const PathFollower& follower() const { return follower_; }
   [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
@@ -95,17 +98,17 @@ class Navigator {
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
-  std::optional<double> blocked_at_m_{};  ///< On the path; none: it is not known to be.
-  int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be flown into.
-  std::optional<KnownWay> known_{};  ///< The way of the last one of these.
-  bool joins_{};                     ///< The pending plan is that way, from elsewhere.
-  int stalls_{};  ///< Plans in a row that have led nowhere: they count as failed ones.
+  std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
+  int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
+  std::optional<KnownWay> known_{};  ///< The path of the last of these plans.
+  bool joins_{};                     ///< The pending plan is that path, joined from elsewhere.
+  int stalls_{};  ///< Plans in a row that led nowhere: they count as failed ones.
   StepBack back_{};
   MissionTime asked_at_{};
   PlanLead lead_{};
-  double searched_s_{};  ///< The last search for a way took so long.
+  double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
-  bool is_searching_{};  ///< For the place where it is.
+  bool is_searching_{};  ///< The localizer is lost, and the vehicle looks for a known place.
   MissionTime not_before_{};
   MissionTime without_path_since_{};
   std::uint64_t path_number_{};

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The reference that moves along the committed path, as fast as map, latency and guard allow.
+/// Moves the reference along the committed path, as fast as map, latency and guard allow.
 
 #include "flyball/flight/mission_context.h"
 #include "flyball/flight/navigation/speed_profile.h"
@@ -18,70 +18,74 @@ namespace flyball {
 /// before what is unknown in any case.
 inline constexpr Duration longest_latency_bound = std::chrono::seconds{60};
 
-/// Where the vehicle is, seen from its reference.
+/// Where the vehicle is relative to its reference.
 struct TrackingError {
   double size_m{};
-  double across_m{};  ///< Level and square to the path.
+  double across_m{};  ///< Horizontal and perpendicular to the path.
   double height_m{};  ///< Upwards.
 };
 
-/// Distance is used twice and never mixed (latency counts once): the cruise set-point measures it
-/// from the capture pose of the newest frame and reacts within delta; the guard measures it from
-/// here, now, and reacts within t_b.
+/// Known-free distance is used in two ways that must not be mixed, so that latency counts only
+/// once. The cruise set-point measures it from the capture pose of the newest frame and reacts
+/// within delta (eq. 2). The guard measures it from the present place and reacts within t_b.
 class PathFollower {
  public:
   explicit PathFollower(const MissionContext& context);
 
   /// Hovers at a place; forgets the path.
   void hover_at(const Vec3& p_W, double yaw_rad);
-  /// Flies the committed path up to `splice_m`, then `tail`, which begins there.
+  /// Replaces the committed path beyond `splice_m` by `tail`, which begins there.
   ///
-  /// @return  False, and nothing changed: the reference is past the splice, or too fast for the
-  ///          curves behind it.
+  /// @return  False when nothing has changed, because the reference has passed the splice or is too
+  ///          fast for the curves behind it.
   [[nodiscard]] bool adopt(const Path& tail, double splice_m);
-  /// The reference stops at this arc length, whatever lies beyond; a later call may move it.
+  /// The reference stops at this arc length, even if the path goes on. A later call may move the
+  /// stop.
   void commit_stop(double s_m);
 
   /// At the path's end, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
-  /// Looks up anew how far the path is known to be free. Call after each change of map or path.
+  /// Measures the known-free distance again. Call it after each change of map or path.
   void refresh_known_free(const OccupancyView& map);
   void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
-  /// Bound on sensor-to-publish latency plus the publish interval: delta without t_b. Until it is
+  /// Bound on the latency from sensor to published map, plus the interval between maps: delta
+  /// without t_b. Until it is
   /// set, the vehicle does not move through space that has to be mapped.
   void set_latency_bound(Duration bound) { latency_bound_ = bound; }
 
-  /// Moves the reference by `dt`; it was `error_W` away from the vehicle.
+  /// Moves the reference by `dt`. @param error_W  From the reference to the vehicle.
   PathReference tick(MissionTime now, Duration dt, const Vec3& error_W);
 
   [[nodiscard]] bool has_path() const { return !path_.empty(); }
   [[nodiscard]] const Path& path() const { return path_; }
   [[nodiscard]] double s_m() const { return s_m_; }
   [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
-  /// Of all paths so far.
+  /// Arc length along all paths so far.
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
   [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
   [[nodiscard]] Vec3 position_W() const;
   [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
-  /// Of a vehicle that is `error_W` away from its reference.
+  /// The error of a vehicle that is `error_W` away from its reference.
   [[nodiscard]] TrackingError tracking_error(const Vec3& error_W) const;
-  /// From the reference to the first place that is not known free, for the body at a crawl.
+  /// From the reference to the first place that is not known to be free, for the body at slow
+  /// speed.
   [[nodiscard]] double known_free_m() const { return std::max(0.0, free_until_m_.front() - s_m_); }
   /// Where a stop with this deceleration would end from here.
   [[nodiscard]] double stop_point_m(double deceleration_m_s2) const;
-  /// Where a comfortable stop would end, inside what is known to be free: the committed stop while
-  /// a plan is sought.
+  /// Where a comfortable stop inside known-free space would end: the committed stop while a plan is
+  /// searched for.
   [[nodiscard]] double planned_stop_m() const;
-  /// The end of what is known to be free with room for the wide tube: so far a stop can wait.
+  /// The end of known-free space with room for the wide tube: the vehicle may fly on to here before
+  /// it has to stop.
   [[nodiscard]] double farthest_stop_m() const;
   [[nodiscard]] bool is_at_end() const;
-  /// At the end of its path, or without one.
+  /// The reference is at the end of its path, or has none.
   [[nodiscard]] bool stands_still() const { return !has_path() || is_at_end(); }
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
   [[nodiscard]] const Guard& guard() const { return guard_; }
-  /// In force, widened while the governor asks for it.
+  /// The bound in force; it is wider while the governor's fallback asks for that.
   [[nodiscard]] Duration latency_bound() const;
 
  private:
@@ -111,7 +115,8 @@ class PathFollower {
   double target_m_s_{};
   double yaw_rad_{};
   double stop_at_m_{};
-  /// Known free up to here, for the body at each tier's speed (see the .cpp); slowest first.
+  /// Arc length up to which the path is known to be free for the body's tube at each of three
+  /// speeds (see the .cpp), slowest first.
   std::array<double, 3> free_until_m_{};
   double travelled_m_{};
   Duration latency_bound_{};

@@ -2,22 +2,22 @@
 #pragma once
 
 /// @file
-/// How far ahead of the vehicle a plan is spliced in.
+/// How much time ahead of the vehicle a new plan is spliced into the path.
 
 #include <deque>
 
 namespace flyball {
 
-/// What a path needs that nobody has to look for: it is smoothed, and told to the vehicle.
+/// The least lead: a path that needs no search still has to be smoothed and handed to the follower.
 inline constexpr double least_plan_lead_s = 0.1;
 
-/// What four of five of the last few plans took, and half as much again.
+/// The lead is 1.5 times what four of five of the last few plans took.
 class PlanLead {
  public:
   void took(double plan_s, double iterations);
-  /// Within .1 and 3 s.
+  /// Between .1 and 3 s.
   [[nodiscard]] double lead_s() const;
-  /// Of these plans' searches together; 0: they searched too little to tell.
+  /// Time of one iteration, over all searches of these plans; 0: they searched too little to tell.
   [[nodiscard]] double iteration_s() const;
 
  private:

@@ -2,20 +2,20 @@
 #pragma once
 
 /// @file
-/// One plan is several questions to the planner: how wide may the vehicle's tube be, and does a
-/// narrower one save a detour?
+/// One plan takes several searches: how wide may the vehicle's tube be, and does a narrower tube
+/// save a detour?
 
 #include "flyball/flight/navigation/navigator.h"
 
 namespace flyball {
 
-/// One request, with the tube that cruise speed needs, and room beside it, where both fit, else
-/// with a narrower one; all within the knob `planner.budget`. If the way found is a detour, a much
-/// shorter one is looked for with the narrowest tube: the first path of a sampling planner goes
-/// around a house as likely as through its door.
+/// Answers one request. The first search asks for the tube of cruise speed with room beside it;
+/// later ones ask for narrower tubes. All searches together keep to the knob `planner.budget`. If
+/// the path is a detour, a much shorter one is searched for with the narrowest tube, because the
+/// first path of a sampling planner leads around a house as likely as through its door.
 ///
-/// @param body  Out: for which the plan was found.
-/// @return      Its work is that of all attempts.
+/// @param body  Out: the body, with its tube, that the plan was found for.
+/// @return      The plan; its work is that of all searches.
 [[nodiscard]] Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body);
 
 }  // namespace flyball

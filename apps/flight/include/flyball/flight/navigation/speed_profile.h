@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How fast each place of a path may be passed, whatever the computer can do.
+/// How fast each place of a path may be passed, however fast the computer is.
 
 #include "flyball/runtime/trajectory.h"
 
@@ -12,24 +12,27 @@
 namespace flyball {
 
 struct SpeedProfileLimits {
-  double lateral_m_s2{3.0};       ///< Half of the 6 m/s^2 that the guard may brake with,
-  double longitudinal_m_s2{3.0};  ///< so that both together stay below it.
-  /// A stop from v takes v^2 / 2a + v lag: at a crawl the vehicle lags behind a braking reference
-  /// by .07 s (tests/sim/flight_controller_test.cpp), and would swing beyond a corner.
+  /// Each is half of the 6 m/s^2 that the guard may brake with, so that both together stay below
+  /// it.
+  double lateral_m_s2{3.0};
+  double longitudinal_m_s2{3.0};
+  /// A stop from v takes v^2 / 2a + v lag. At slow speed the vehicle lags behind a braking
+  /// reference by .07 s (tests/sim/flight_controller_test.cpp) and would otherwise overshoot a
+  /// corner.
   double lag_s{0.1};
-  double turn_rad_s{1.2};  ///< Of the heading, which follows the velocity: below its 90 degrees/s.
+  double turn_rad_s{1.2};  ///< Of the heading, which follows the velocity; below its 90 degrees/s.
 };
 
-/// Largest speeds along a path such that curvature, places and the standstill at its end are
-/// respected with the given decelerations (backward pass over the samples).
+/// The largest speeds along a path that respect curvature, the limits of places and the standstill
+/// at the end, with the given accelerations (a backward pass over the samples).
 class SpeedProfile {
  public:
   SpeedProfile() = default;
-  /// @param place_limit  Speed limit at a place (zones); positive.
+  /// @param place_limit  Speed limit at a place (slow zones); positive.
   SpeedProfile(const Path& path,
                const SpeedProfileLimits& limits,
                const std::function<double(const Vec3&)>& place_limit);
-  /// Linear in v^2 between samples. @pre the path was not empty.
+  /// Interpolates linearly in v^2 between samples. @pre The path was not empty.
   [[nodiscard]] double at(double s_m) const;
 
  private:

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Out of what reaches into the tube by a millimetre.
+/// Frees a vehicle that has come to rest so close to an occupied cell that its tube overlaps it.
 
 #include "flyball/flight/mission_context.h"
 
@@ -10,9 +10,9 @@
 
 namespace flyball {
 
-/// The nearest place, some centimetres off at most, where the body in its narrowest tube touches
-/// nothing that is occupied; none where it touches nothing at `here_W` either, or wherever it is.
-/// What is occupied stays so: with a part of it in the tube, no plan would ever begin here.
+/// The nearest place, at most some centimetres away, where the body in its narrowest tube overlaps
+/// no occupied cell. Empty when it overlaps none at `here_W`, or when there is no such place. The
+/// vehicle must move, because the cell stays occupied and no plan could ever begin here.
 [[nodiscard]] std::optional<Vec3> place_aside_W(const MissionContext& context, const Vec3& here_W);
 
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Back along its own way, out of the camera's blind zone.
+/// Flies back along the own track, out of the zone that the camera cannot see.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/time.h"
@@ -12,18 +12,19 @@
 
 namespace flyball {
 
-/// A cell counts as free when it is seen through as a whole, and nearer than this the camera sees
-/// no cell of `cell_m` as a whole that the body reaches into: (cell + half height) over the tangent
-/// of half the vertical field of view, and a cell more, for that is how far the near side of one
-/// may be from what is unknown of it. Less the body's radius: from its centre to what blocks it.
+/// The distance within which the camera cannot free cells. A cell counts as free only when it is
+/// seen through as a whole, and nearer than this no cell of `cell_m` that the body reaches into is
+/// seen as a whole. The distance is (cell + half height) over the tangent of half the vertical
+/// field of view, plus one cell, because the unknown part may lie at a cell's far side, less the
+/// body's radius.
 ///
 /// @param half_field  Tangent of half the camera's vertical field of view, above zero.
 [[nodiscard]] double blind_m(double cell_m, const Cylinder& body, double half_field);
 
-/// A vehicle that has come to rest nearer than that before unknown space stays there: each frame
-/// shows what the last one did. It goes back along the way that it came, looks from there until a
-/// frame that was taken at rest is in the map, and begins anew. It sees nothing behind it: this
-/// counts on obstacles that stay where they are, as the guard does.
+/// A vehicle that has stopped nearer than that to unknown space would stay there for good, because
+/// each frame shows the same as the last one. So it flies back along its own track, waits there
+/// until a frame that was taken at rest is in the map, and plans anew. It cannot see behind itself;
+/// like the guard, it relies on obstacles that do not move.
 class StepBack {
  public:
   struct Hover {
@@ -31,21 +32,22 @@ class StepBack {
     double yaw_rad{};
   };
 
-  /// The reference of a vehicle that follows its path.
+  /// Remembers the place of the reference while the vehicle follows its path.
   void flew(const Vec3& p_W);
-  /// Put somewhere else: nothing is known of the way there.
+  /// The vehicle was put somewhere else: its track does not lead there.
   void forget();
-  /// @param distance_m  To go back; less where the way it remembers is shorter.
-  /// @param yaw_rad     What it looks at from there.
-  /// @return False, and nothing changed: it has not come from anywhere, or it has been back from
-  ///         about here as often as may help.
+  /// @param distance_m  To fly back; less where the remembered track is shorter.
+  /// @param yaw_rad     Heading to look in from there.
+  /// @return False when nothing has changed, because there is no track, or because the vehicle has
+  ///         already flown back from about here as often as may help.
   [[nodiscard]] bool begin(double distance_m, double yaw_rad);
   [[nodiscard]] bool is_active() const { return is_active_; }
-  /// Where the reference is next, from what it is now.
+  /// The next place and heading of the reference, given the present ones.
   ///
-  /// @param error_m  Between vehicle and reference.
+  /// @param error_m  Distance between vehicle and reference.
   [[nodiscard]] Hover tick(MissionTime now, Duration dt, const Hover& hover, double error_m);
-  /// The newest frame in the map was taken at `captured`: has it seen enough? Then this has ended.
+  /// Whether a frame that was taken at rest is in the map, whose newest one was taken at
+  /// `captured`. If so, the manoeuvre has ended.
   [[nodiscard]] bool has_looked(MissionTime captured);
 
  private:
@@ -54,8 +56,8 @@ class StepBack {
   double left_m_{};
   double yaw_rad_{};
   std::optional<MissionTime> settled_{};
-  Vec3 from_W_{Vec3::Zero()};  ///< Where the last ones began.
-  int times_{};                ///< So often there.
+  Vec3 from_W_{Vec3::Zero()};  ///< Where the last manoeuvres began.
+  int times_{};                ///< How many began there.
 };
 
 }  // namespace flyball

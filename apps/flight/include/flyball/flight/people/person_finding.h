@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// When a search believes that it has found somebody: a detector takes much for a person once, but
-/// seldom the same thing from several sides.
+/// When a search believes that it has found somebody. A detector often mistakes something for a
+/// person once, but seldom the same thing from several sides.
 
 #include "flyball/flight/flight_settings.h"
 #include "flyball/flight/people/person_search.h"
@@ -14,16 +14,17 @@
 
 namespace flyball {
 
-/// Somebody who is believed to be there.
+/// A person whom the vehicle believes it has found.
 struct Finding {
   MissionTime at{};
-  Vec3 p_W{Vec3::Zero()};  ///< Mean of the sightings that agree.
+  Vec3 p_W{Vec3::Zero()};  ///< Mean place of the sightings that agree.
   Sighting last{};
   ColourFrame frame{};  ///< Of the last sighting.
 };
 
-/// Counts sightings that agree: `SearchSettings::sightings` of them, within `within_m` of each
-/// other along the ground, each from a place at least `apart_m` from the places of those before.
+/// Counts sightings that agree. A finding takes `SearchSettings::sightings` of them within
+/// `within_m` of each other along the ground, each made at least `apart_m` away from where the
+/// earlier ones were made.
 class PersonFinding {
  public:
   explicit PersonFinding(const SearchSettings& settings) : settings_{settings} {}

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How far away a person is, as a box in a picture tells.
+/// How far away a person is, derived from a box in an image.
 
 #include "flyball/runtime/colour_frame.h"
 
@@ -10,18 +10,19 @@
 
 namespace flyball {
 
-/// What is known of somebody who stands upright on level ground.
+/// A person who stands upright on level ground.
 struct PersonGeometry {
   double height_m{1.75};
-  double camera_above_m{};  ///< Of the camera above the person's feet.
+  double camera_above_m{};  ///< Height of the camera above the person's feet.
 };
 
-/// Two answers to one question, along the ground.
+/// Two independent estimates of the distance along the ground.
 struct PersonRange {
-  /// The tangents of the lines of sight to head and feet differ by height over distance.
+  /// From the size of the box: the tangents of the lines of sight to head and feet differ by height
+  /// over distance.
   double by_size_m{};
-  /// Where the line of sight to the box's middle is at half the person's height; empty when it is
-  /// too flat to tell.
+  /// Where the line of sight to the middle of the box is at half the person's height. Empty when
+  /// the line is too flat to tell.
   std::optional<double> by_ground_m{};
 };
 
@@ -29,8 +30,8 @@ struct PersonRange {
                                        const ColourFrame& frame,
                                        const PersonGeometry& person);
 
-/// False when the two answers contradict each other: a trunk, a shadow, whatever has not the size
-/// of a person at its place on the ground.
+/// False when the two estimates contradict each other: then the box shows a trunk, a shadow, or
+/// something else that has not a person's size at its place on the ground.
 [[nodiscard]] bool is_plausible(const PersonRange& range);
 
 }  // namespace flyball

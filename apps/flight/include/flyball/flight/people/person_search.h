@@ -2,18 +2,18 @@
 #pragma once
 
 /// @file
-/// Looks for people on the way, and says where in the world they are.
+/// Looks for people during the flight, and tells where in the world they are.
 
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/kernels/detector.h"
 
 namespace flyball {
 
-/// Somebody whom the detector saw.
+/// A person whom the detector saw.
 struct Sighting {
   ImageBox box{};
   double score{};
-  Vec3 p_W{Vec3::Zero()};  ///< Of the surface in the box's middle.
+  Vec3 p_W{Vec3::Zero()};  ///< Place of the surface in the middle of the box.
 };
 
 struct Sightings {
@@ -22,11 +22,12 @@ struct Sightings {
   std::vector<Sighting> people{};
 };
 
-/// Where the middle of a box in a colour image is, by a depth image that was taken at the same time
-/// by the level camera in the body's centre: the median depth of the box's inner quarter.
+/// The place in the world of the middle of a box in a colour image. Its distance is the median
+/// depth of the box's inner quarter in a depth image that the level camera in the body's centre
+/// took at the same time.
 ///
-/// @param X_WB  Pose of the body at that time; only its heading counts.
-/// @return      Empty where the depth image does not reach, or saw nothing.
+/// @param X_WB  Pose of the body at that time; of its attitude only the heading counts.
+/// @return      Empty where the depth image does not reach, or has no return.
 [[nodiscard]] std::optional<Vec3> place_of(const ImageBox& box,
                                            const ColourFrame& frame,
                                            const DepthImage& depth,

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Keeps a person in the middle of the image and at a distance: image error and box size in,
-/// set-points for vehicle and gimbal out.
+/// Keeps a person in the middle of the image and at a constant distance: boxes of detector and
+/// tracker in, set-points for vehicle and gimbal out.
 
 #include "flyball/flight/people/target_nodes.h"
 #include "flyball/runtime/gimbal.h"
@@ -15,14 +15,14 @@ struct FollowSettings {
   double distance_m{7.0};  ///< Along the ground.
   double person_height_m{1.75};
   double height_m{4.5};           ///< Of the vehicle above the person's feet.
-  double ground_z_m{};            ///< Where people stand, in the world.
-  double coast_s{3.0};            ///< So long after somebody was last seen they are followed on.
-  double search_rate_rad_s{0.8};  ///< Of turning round after that; 0: the vehicle stands.
+  double ground_z_m{};            ///< Height in the world on which people stand.
+  double coast_s{3.0};            ///< How long an unseen person is followed by prediction.
+  double search_rate_rad_s{0.8};  ///< Turn rate of the search after that; 0: the vehicle hovers.
   double max_speed_m_s{6.0};
   double max_acceleration_m_s2{3.0};
 };
 
-/// Output of a PID controller, clamped; the integral stands still while it is.
+/// A PID controller. Its output is clamped, and the integral does not grow while it is.
 class Pid {
  public:
   struct Gains {
@@ -41,21 +41,23 @@ class Pid {
   std::optional<double> last_{};
 };
 
-/// Believes where the person is and goes (alpha-beta filter over what the boxes say), and stays at
-/// its distance from there. While nothing is seen the belief goes on straight ahead: people come
-/// out again behind a tree. When they do not, the vehicle goes near to where they should be, which
-/// opens the view behind a tree, and turns round there, first to the side on which they went.
+/// Estimates place and velocity of the person (alpha-beta filter over the boxes) and keeps its
+/// distance from there. While the person is out of view the prediction goes straight on, because
+/// people come out again behind a tree. When they do not, the vehicle flies near the predicted
+/// place, which opens the view behind the tree, and turns round there, first to the side to which
+/// the person went.
 class TargetFollower {
  public:
   explicit TargetFollower(const FollowSettings& settings);
 
-  /// Where the flight goes on from.
+  /// The pose from which following begins.
   void start(const PoseEstimate& pose);
-  /// A tracker's measurement. It says nothing without a box, when it is older than the last, or
-  /// when it is not where the person can be: trackers hold on to trees, too. `pose` is that of its
-  /// capture.
+  /// A tracker's measurement. It is ignored without a box, when it is older than the last one, or
+  /// when the person cannot be there, because trackers hold on to trees, too. `pose` is the pose at
+  /// the capture.
   void see(const Target& target, const PoseEstimate& pose);
-  /// A detector's. Somebody where the person cannot be is a rumour; seen there twice, they count.
+  /// A detector's measurement. A detection where the person cannot be counts only when it is
+  /// repeated.
   void sight(const Target& target, const PoseEstimate& pose);
   [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
@@ -65,7 +67,7 @@ class TargetFollower {
     Vec3 place_W{Vec3::Zero()};
     MissionTime at{};
   };
-  /// Empty for what says nothing.
+  /// Empty for a measurement that is ignored.
   [[nodiscard]] std::optional<Rumour> measured(const Target& target,
                                                const PoseEstimate& pose) const;
   [[nodiscard]] bool can_be_at(const Rumour& measured) const;
@@ -75,7 +77,7 @@ class TargetFollower {
   [[nodiscard]] Vec3 follow(double age_s, double dt_s, Setpoint& setpoint);
   [[nodiscard]] Vec3 search(MissionTime now, double dt_s, Setpoint& setpoint);
   void face(const Vec3& place_W, double dt_s, Setpoint& setpoint);
-  /// Where the person is so long after they were last seen.
+  /// The predicted place of the person so long after they were last seen.
   [[nodiscard]] Vec3 foreseen(double after_s) const;
   void point_at(const Vec3& person_W);
   void steer(const Vec3& wish_W, double dt_s, Setpoint& setpoint);
@@ -84,14 +86,14 @@ class TargetFollower {
   Pid distance_pid_;
   Pid yaw_pid_;
   GimbalAngles gimbal_{};
-  std::optional<MissionTime> seen_{};  ///< Time of the belief.
-  Vec3 person_W_{Vec3::Zero()};        ///< Belief: the middle of the person.
+  std::optional<MissionTime> seen_{};  ///< Time of the estimate.
+  Vec3 person_W_{Vec3::Zero()};        ///< Estimated middle of the person.
   Vec3 v_person_W_{Vec3::Zero()};
   Vec3 p_W_{Vec3::Zero()};  ///< Of the vehicle, as commanded.
   Vec3 v_W_{Vec3::Zero()};
   double yaw_rad_{};
   std::optional<Rumour> rumour_{};
-  double side_{1.0};  ///< To which the person goes, seen from the vehicle: 1 left, -1 right.
+  double side_{1.0};  ///< Side to which the person goes, seen from the vehicle: 1 left, -1 right.
 };
 
 }  // namespace flyball

@@ -2,9 +2,9 @@
 #pragma once
 
 /// @file
-/// From colour camera to the person that is followed, as in MAVBench's aerial photography (MICRO
-/// 2018, section IV): a detector looks at whole frames, and is slow; a buffered tracker takes its
-/// detection through the frames that came meanwhile; a real-time tracker goes on from there.
+/// From colour camera to the followed person, as in MAVBench's aerial photography (MICRO 2018,
+/// section IV). A detector searches whole frames and is slow. A buffered tracker follows its
+/// detection through the frames that came meanwhile, and a real-time tracker goes on from there.
 
 #include "flyball/flight/mission_context.h"
 
@@ -16,10 +16,10 @@ struct Detections {
   std::vector<Detection> people{};
 };
 
-/// Where the buffered tracker arrived with a detection: in the newest frame of its buffer.
+/// A detection that the buffered tracker has followed to the newest frame of its buffer.
 struct CaughtUp {
   ColourFrame frame{};
-  std::optional<ImageBox> box{};   ///< Empty: nobody was detected, or lost on the way.
+  std::optional<ImageBox> box{};   ///< Empty: nobody was detected, or the tracker lost them.
   std::uint64_t frames_between{};  ///< From the detector's frame to this one.
 };
 
@@ -37,7 +37,7 @@ struct TargetTopics {
   Topic<Target> target;
 };
 
-/// Counts for the mission's end and its quality of flight.
+/// Counts that decide the end of the mission, and figures of quality.
 struct TargetLog {
   int detections{};     ///< Frames in which the person was detected.
   int missed_in_row{};  ///< Newest detections in a row without the person.
@@ -45,14 +45,14 @@ struct TargetLog {
   std::uint64_t buffered_frames{};
 };
 
-/// The person among those that were detected: the one nearest to where it was last, if that is
-/// within `reach_px`; without a last place the surest. Empty when there is none.
+/// Chooses the followed person among the detections: the one nearest to the last box, if it is
+/// within `reach_px`; without a last box the one with the highest score. Empty when there is none.
 [[nodiscard]] std::optional<Detection> pick(const std::vector<Detection>& people,
                                             const std::optional<ImageBox>& last,
                                             double reach_px);
 
-/// Those that have the size of a person where they stand on the ground. Everybody, when the height
-/// of the camera is not known yet.
+/// The detections that have a person's size at their place on the ground. All of them, when the
+/// height of the camera is not known yet.
 [[nodiscard]] std::vector<Detection> plausible(const Detections& seen,
                                                const PoseEstimate* pose,
                                                const MissionContext& context);

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// How well the vehicle knows where it is, and what it does when it no longer does.
+/// Whether the localizer still knows where the vehicle is, and what the vehicle does when it is
+/// lost.
 
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/messages.h"
@@ -16,26 +17,26 @@ namespace flyball {
 
 class LocalizationWatch {
  public:
-  /// A visual fix came, or failed to.
+  /// The camera localizer has answered for a frame, with a pose or without one.
   void fixed(MissionTime now, const VisualFix& fix);
   [[nodiscard]] bool is_lost() const { return lost_since_.has_value(); }
-  /// Lost for longer than turning and flying back take: it will not be found any more.
+  /// Lost for longer than turning and flying back take: the mission gives up.
   [[nodiscard]] bool has_given_up(MissionTime now) const;
 
-  /// Where the vehicle came along; call with every estimate while it is not lost.
+  /// Remembers the track of the vehicle; call it with every estimate while it is not lost.
   void passed(const PoseEstimate& estimate);
 
-  /// While lost: it stops where it last knew that it was, looks to both sides, flies back three
-  /// metres of its own path, and looks again. Positions are the flight controller's, which holds
-  /// them without the companion computer. It stays as high as it was when the search began: by then
-  /// it may have climbed.
+  /// The set-point while lost: the vehicle stops at its last known place, looks to both sides,
+  /// flies back three metres along its own track, and looks again. Positions are the flight
+  /// controller's, which holds them without the companion computer. The height is that at which the
+  /// search began, because the vehicle may have climbed by then.
   [[nodiscard]] std::optional<Setpoint> search(MissionTime now, double height_W_m);
 
   /// `localization_lost` (times), `localization_lost_s`; without images none.
   [[nodiscard]] std::map<std::string, double> quality(MissionTime now) const;
 
  private:
-  /// Where it was so much of its path ago, as far as is remembered.
+  /// The estimate from so many metres of track ago, or the oldest one that is remembered.
   [[nodiscard]] const PoseEstimate& passed_before(double path_m) const;
 
   std::deque<PoseEstimate> trail_{};  ///< A decimetre apart, newest last.

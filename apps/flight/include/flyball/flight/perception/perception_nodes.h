@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// From camera to map, as in the paper's dataflows: localization, point cloud, OctoMap.
+/// From camera to map, as in MAVBench's dataflows: localization, point cloud, occupancy map.
 
 #include "flyball/flight/mission_context.h"
 
@@ -10,18 +10,18 @@
 
 namespace flyball {
 
-/// Poses of the last seconds, to look up where the camera was when it saw a frame.
+/// The poses of the last seconds, to look up where the camera was when it captured a frame.
 class PoseHistory {
  public:
   void add(const PoseEstimate& pose);
-  /// Interpolated; the nearest end outside of what is kept. Null when empty.
+  /// Interpolated pose at a time; outside the kept range the nearest end. Null when there is none.
   [[nodiscard]] std::optional<PoseEstimate> at(MissionTime t) const;
 
  private:
   std::deque<PoseEstimate> poses_;
 };
 
-/// The first camera of the scenario; its mount takes out the body's roll and pitch.
+/// Pose of the first depth camera; its mount compensates the body's roll and pitch.
 [[nodiscard]] Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera);
 
 struct PerceptionTopics {
@@ -35,7 +35,7 @@ Topic<PoseEstimate> add_localization(Graph& graph,
                                      const VehicleTopics& vehicle,
                                      MissionContext& context);
 
-/// Adds the nodes `localize`, `slam_load` (if the scenario wants it), `points` and `map`.
+/// Adds the nodes `localize`, `slam_load` (if the settings ask for it), `points` and `map`.
 PerceptionTopics add_perception(Graph& graph,
                                 const VehicleTopics& vehicle,
                                 MissionContext& context);

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the vehicle's forward camera sees: depth, and colour through the same lens.
+/// What the vehicle's forward RGB-D camera sees: depth, and colour through the same lens.
 
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/colour_frame.h"
@@ -13,11 +13,12 @@ namespace flyball {
 struct View {
   DepthFrame depth{};
   ColourFrame colour{};
-  /// The mount takes out roll and pitch; its encoders say how it stood.
+  /// Pose of the camera in the body. The mount compensates roll and pitch; its encoders measure by
+  /// how much.
   Pose X_BC{Pose::Identity()};
 };
 
-/// Renders both, and turns colour into grey as ITU-R BT.601 does, with the exposure opened up in
+/// Renders both images and converts colour to grey as ITU-R BT.601 does, with a longer exposure in
 /// the shade.
 [[nodiscard]] VisualFrame visual_frame(const View& view);
 
