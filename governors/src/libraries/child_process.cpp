@@ -59,24 +59,31 @@ void limit_memory(std::size_t bytes) {
   }
 }
 
+constexpr int first_own = 3;  // Behind standard input, output and error.
+
+/// Kernels before 5.9 close no ranges: there each file is closed by itself.
+void close_own_but(int kept) {
+  if (syscall(__NR_close_range, first_own, kept - 1, 0) == 0 &&
+      syscall(__NR_close_range, kept + 1, ~0U, 0) == 0) {
+    return;
+  }
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  for (int other = first_own; other < static_cast<int>(files.rlim_cur); ++other) {
+    if (other != kept) {
+      close(other);
+    }
+  }
+}
+
 /// Standard input, output and error lead nowhere; of the rest only the socket stays open.
 int keep_only(int socket) {
-  constexpr int first_own = 3;
   const int kept = fcntl(socket, F_DUPFD_CLOEXEC, first_own);  // The others are overwritten now.
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (int standard = 0; standard < first_own; ++standard) {
     dup2(nowhere, standard);
   }
-  rlimit files{};
-  getrlimit(RLIMIT_NOFILE, &files);
-  if (syscall(__NR_close_range, first_own, kept - 1, 0) != 0 ||
-      syscall(__NR_close_range, kept + 1, ~0U, 0) != 0) {
-    for (int other = first_own; other < static_cast<int>(files.rlim_cur); ++other) {
-      if (other != kept) {
-        close(other);
-      }
-    }
-  }
+  close_own_but(kept);
   return kept;
 }
 
