@@ -7,7 +7,7 @@
 
 #include "flyball/sim/colour_camera.h"
 
-#include "simulation/seeing_setup.h"
+#include "scenario/scenario_parameters.h"
 #include <array>
 #include <cmath>
 #include <cstdio>

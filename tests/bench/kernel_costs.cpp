@@ -253,11 +253,11 @@ int main() {
     std::printf("%s\n", setup.error().message.c_str());
     return 1;
   }
-  const std::vector<Look> views = look_around(scenario, setup->world);
+  const std::vector<Look> views = look_around(scenario, setup->things.world);
   measure_octomap(views, scenario.map.range_m);
   const auto file = find_shipped("platforms", scenario.platform.name);
   measure_flyball(views, scenario.map.range_m, load_platform(file.value()).value());
   measure_body_query(views, scenario.map.range_m);
-  measure_slam(scenario, setup->world);
+  measure_slam(scenario, setup->things.world);
   return 0;
 }
