@@ -18,6 +18,7 @@ namespace {
 struct ExplainOptions {
   std::string folder;
   bool trusts{};
+  std::vector<std::string> kernels{};
   double at_s{};
 };
 
@@ -90,6 +91,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<ExplainOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
+  add_kernels(*command, options->kernels);
   command->add_option("--at", options->at_s, "mission time")
       ->type_name("SECONDS")
       ->required()

@@ -76,6 +76,9 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
   for (const std::string& setting : options.settings) {
     flight.arguments.insert(flight.arguments.end(), {"--set", setting});
   }
+  for (const std::string& library : options.kernels) {
+    flight.arguments.insert(flight.arguments.end(), {"--kernels", library});
+  }
   if (step_s) {
     flight.scenario.vehicle.physics_step_s = flight.scenario.vehicle.comparison_step_s;
     flight.arguments.insert(flight.arguments.end(), {"--set", "vehicle.physics_step_s=" + *step_s});

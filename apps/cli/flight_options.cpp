@@ -2,6 +2,8 @@
 
 #include "flight_options.h"
 
+#include "flyball/scenario/kernel_library.h"
+
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +21,22 @@ void add_scenario(CLI::App& command, FlightOptions& options) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
+  add_kernels(command, options.kernels);
+}
+
+void add_kernels(CLI::App& command, std::vector<std::string>& files) {
+  const auto load = [](const std::string& file) {
+    const Status loaded = load_kernels(file);
+    return loaded ? std::string{} : loaded.error().message;
+  };
+  command
+      .add_option(
+          "--kernels", files,
+          "a library of kernels of one's own; its code runs in this program, with your rights")
+      ->type_name("./libNAME.so")
+      ->expected(1)
+      ->take_all()
+      ->check(CLI::Validator{load, ""});
 }
 
 void refuse_empty(CLI::Option& option) {

@@ -21,11 +21,12 @@ namespace flyball {
 struct FlightOptions {
   std::string scenario;
   std::vector<std::string> settings{};  ///< `KEY=VALUE`
+  std::vector<std::string> kernels{};   ///< Libraries; they are loaded as the options are read.
   std::string out{};
   bool json{};
 };
 
-/// Adds `SCENARIO` and `--set`.
+/// Adds `SCENARIO`, `--set` and `--kernels`.
 void add_scenario(CLI::App& command, FlightOptions& options);
 /// An option that was given, but with nothing (`--policy "$UNSET"`), is a mistake: it does not
 /// stand for the default.
@@ -38,6 +39,8 @@ void add_contest(CLI::App& command, std::vector<std::string>& policies, std::str
 /// Adds `--jobs`.
 void add_jobs(CLI::App& command, std::size_t& jobs);
 
+/// Adds `--kernels`: a library that cannot be loaded is refused like any bad value of an option.
+void add_kernels(CLI::App& command, std::vector<std::string>& files);
 /// Adds `--trust`, for records, which may be somebody else's.
 void add_trust(CLI::App& command, bool& trusts);
 

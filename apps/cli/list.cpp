@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -189,8 +190,10 @@ int list(const std::string& kind) {
 void add_list(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("list", "prints what can be named: " + kinds());
   const auto kind = std::make_shared<std::string>();  // Owners: the parser's callbacks.
+  const auto kernels = std::make_shared<std::vector<std::string>>();
   command->add_option("KIND", *kind, kinds())->required();
-  command->callback([kind, &exit_code] { exit_code = list(*kind); });
+  add_kernels(*command, *kernels);
+  command->callback([kind, kernels, &exit_code] { exit_code = list(*kind); });
 }
 
 }  // namespace flyball

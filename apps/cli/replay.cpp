@@ -17,6 +17,7 @@ namespace {
 struct ReplayOptions {
   std::string folder;
   bool trusts{};
+  std::vector<std::string> kernels{};
   std::string policy{};
 };
 
@@ -83,6 +84,7 @@ void add_replay(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<ReplayOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
+  add_kernels(*command, options->kernels);
   refuse_empty(
       *command
            ->add_option("--policy", options->policy,

@@ -252,6 +252,7 @@ void add_tournament(CLI::App& program, int& exit_code) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
+  add_kernels(*command, options->flight.kernels);
   command->add_flag("--keep-records", options->keeps_records,
                     "keeps each flight's whole record, not only what it came to");
   command->add_flag("--bound", options->shows_bound,

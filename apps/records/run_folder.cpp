@@ -5,6 +5,7 @@
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/scenario/files.h"
+#include "flyball/scenario/kernel_library.h"
 #include "flyball/sim/platform_file.h"
 
 #include "records/frame_files.h"
@@ -51,6 +52,9 @@ std::string data_fingerprint(const Scenario& scenario) {
   for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
     hash.add(content_of(file));
   }
+  for (const std::string& file : loaded_kernel_libraries()) {
+    hash.add(content_of(file));
+  }
   return hash.hex();
 }
 
@@ -76,6 +80,15 @@ void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
       quality.erase(found);
     }
   }
+}
+
+/// The libraries whose kernels the mission may name: whoever flies it again needs them.
+std::string libraries_line() {
+  std::string names;
+  for (const std::string& file : loaded_kernel_libraries()) {
+    names += (names.empty() ? "" : ", ") + fs::path{file}.filename().string();
+  }
+  return names.empty() ? "" : "# Flown with --kernels: " + names + "\n";
 }
 
 std::string summary_table(const Summary& summary) {
@@ -164,7 +177,7 @@ Status write_file(const std::string& path, const std::string& content) {
 
 std::string mission_file(const Scenario& scenario) {
   return "# Flyball " + version() + ", build " + build_fingerprint() + ", data " +
-         data_fingerprint(scenario) + "\n" + to_toml(scenario);
+         data_fingerprint(scenario) + "\n" + libraries_line() + to_toml(scenario);
 }
 
 std::string scenario_html(const Scenario& scenario) {

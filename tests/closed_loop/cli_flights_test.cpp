@@ -138,6 +138,45 @@ std::string short_world(const FlyballProgram& flyball, const std::string& name) 
                                 "[camera]\nwidth_px = 32\nheight_px = 18\n");
 }
 
+#ifdef FLYBALL_EXAMPLE_KERNELS
+const std::string own_kernels =
+    std::string{"--kernels "} + FLYBALL_EXAMPLE_KERNELS + " --set kernels.detector=blue_trousers ";
+
+TEST(CliFlights, kernels_of_ones_own_fly_from_a_library) {
+  const FlyballProgram flyball;
+  const std::string line =
+      "run photography_park --set detector.cost_of=hog --set "
+      "photography.limit_s=4 --set photography.success_s=3 --out r --json ";
+  const auto without = flyball.run(line + "--set kernels.detector=blue_trousers");
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.errors.find("no detector \"blue_trousers\""), std::string::npos)
+      << without.errors;
+  const auto flown = flyball.run(line + own_kernels);
+  if (flown.errors.find("morse-simulator-data") != std::string::npos) {
+    GTEST_SKIP() << flown.errors;
+  }
+  ASSERT_EQ(flown.exit_code, 0) << flown.errors;
+  EXPECT_GT(nlohmann::json::parse(flown.output)["quality"]["detections"], 0);
+  EXPECT_NE(flyball.place.content("r/mission.toml").find("# Flown with --kernels: lib"),
+            std::string::npos);
+  EXPECT_EQ(flyball.run("replay r").exit_code, 2) << "it names what is not loaded";
+  EXPECT_EQ(flyball.run(std::string{"replay r --kernels "} + FLYBALL_EXAMPLE_KERNELS).exit_code, 0);
+}
+
+TEST(CliFlights, kernels_of_ones_own_are_compared) {
+  const FlyballProgram flyball;
+  const std::string line = own_kernels + "--policies fixed_fine,fixed_coarse --out ";
+  const auto compared = flyball.run(std::string{"compare "} + short_flight + line + "c");
+  EXPECT_EQ(compared.exit_code, 0) << compared.errors;
+  const auto held = flyball.run("tournament --worlds " + short_world(flyball, "near") + " " + line +
+                                "t --seeds 1");
+  EXPECT_EQ(held.exit_code, 0) << held.errors;
+  EXPECT_NE(flyball.run(std::string{"list kernels --kernels "} + FLYBALL_EXAMPLE_KERNELS)
+                .output.find("blue_trousers"),
+            std::string::npos);
+}
+#endif
+
 TEST(CliFlights, a_tournament_goes_on_where_it_was_stopped) {
   const FlyballProgram flyball;
   const std::string worlds =

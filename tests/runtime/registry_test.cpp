@@ -47,6 +47,29 @@ TEST(Registry, lists_names_in_alphabetical_order) {
   EXPECT_TRUE(Registry{}.names<Fruit>().empty());
 }
 
+TEST(Registry, takes_over_what_another_one_has) {
+  Registry all = example();
+  Registry more;
+  EXPECT_TRUE(more.is_empty());
+  more.add<Vehicle>("fig", [] { return std::make_unique<LemonCar>(); });
+  EXPECT_FALSE(more.is_empty());
+  ASSERT_TRUE(all.merge(std::move(more)).ok());
+  EXPECT_NE(all.make<Vehicle>("fig"), nullptr);
+  EXPECT_NE(all.make<Vehicle>("lemon"), nullptr);
+}
+
+TEST(Registry, takes_over_nothing_when_a_name_is_taken) {
+  Registry all = example();
+  Registry more;
+  more.add<Fruit>("apple", [] { return std::make_unique<Fig>(); });
+  more.add<Fruit>("lemon", [] { return std::make_unique<Fig>(); });
+  const Status merged = all.merge(std::move(more));
+  ASSERT_FALSE(merged.ok());
+  EXPECT_EQ(merged.error().message, "\"lemon\" is taken; give yours another name");
+  EXPECT_EQ(all.names<Fruit>(), (std::vector<std::string>{"fig", "lemon"}));
+  EXPECT_EQ(all.make<Fruit>("lemon")->taste(), "sour");
+}
+
 TEST(RegistryDeathTest, a_name_cannot_be_taken_twice) {
   Registry registry = example();
   EXPECT_DEATH(registry.add<Fruit>("fig", [] { return std::make_unique<Fig>(); }),

@@ -113,6 +113,16 @@ TEST_F(Cli, refuses_what_is_no_command) {
   expect_refused("graph package_delivery --format png", "--format png is neither text nor dot");
 }
 
+TEST_F(Cli, refuses_a_library_of_kernels_that_is_none) {
+  for (const char* command :
+       {"run delivery_forest", "compare delivery_forest --policies fixed_fine",
+        "tournament --worlds delivery_forest --policies fixed_fine", "config delivery_forest",
+        "bound delivery_forest", "list kernels", "replay nowhere", "explain nowhere --at 1"}) {
+    expect_refused(std::string{command} + " --kernels ./libmine.so",
+                   "--kernels: library \"./libmine.so\" is not there");
+  }
+}
+
 TEST_F(Cli, lists_everything_that_can_be_named) {
   const std::pair<const char*, const char*> lists[] = {{"scenarios", "delivery_forest "},
                                                        {"workloads", "package_delivery\n"},
