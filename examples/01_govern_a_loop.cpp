@@ -11,6 +11,7 @@
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -66,6 +67,7 @@ flyball::Observation observe(const std::vector<Point>& points, double x_m, doubl
   const LocalMap columns = map_around(points, x_m, 0.8);
   flyball::Observation seen;
   seen.now = flyball::MissionTime{flyball::from_seconds(t_s)};
+  seen.phase = flyball::MissionPhase::cruise;  // A governor refuses to guess it.
   seen.obstacle_density =
       static_cast<double>(columns.occupied) / static_cast<double>(columns.cells);
   return seen;
@@ -80,11 +82,14 @@ std::unique_ptr<flyball::PolicyGovernor> make_governor(const flyball::KnobSettin
     return nullptr;
   }
   const auto parameters = flyball::Parameters::resolve("density", policy->parameters(), {});
-  if (!policy->start(std::get<flyball::Parameters>(parameters), knobs).ok()) {
+  const auto started = policy->start(std::get<flyball::Parameters>(parameters), knobs);
+  if (!started) {
+    std::printf("wrong: %s\n", started.error().message.c_str());
     return nullptr;
   }
-  return std::make_unique<flyball::PolicyGovernor>(std::move(policy), knobs,
-                                                   flyball::PolicyGovernorSettings{}, nullptr);
+  // The clock is the watchdog's: an answer that comes too late is not followed.
+  return std::make_unique<flyball::PolicyGovernor>(
+      std::move(policy), knobs, flyball::PolicyGovernorSettings{}, std::chrono::steady_clock::now);
 }
 
 struct Flight {

@@ -5,9 +5,12 @@
 // Nothing but the density of obstacles decides.
 
 #include "flyball/governors/policy.h"
+#include "flyball/governors/required_knobs.h"
 #include "flyball/runtime/registry.h"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -53,10 +56,11 @@ class Density final : public flyball::Policy {
                      " must not be above enter_density = " + std::to_string(enter_));
     }
     const bool sets_range = fine_range_m_ > 0.0 || coarse_range_m_ > 0.0;
-    for (const char* name : {knob, range_knob}) {
-      if (knobs.spec(name) == nullptr && (sets_range || name == knob)) {
-        return refused("there is no knob " + std::string{name} + "; try: flyball list knobs");
-      }
+    const auto needed =
+        sets_range ? std::vector<std::string>{knob, range_knob} : std::vector<std::string>{knob};
+    if (flyball::Status status = flyball::require_knobs("policy \"density\"", knobs, needed);
+        !status) {
+      return status;
     }
     if (sets_range) {  // With one of them given, the other one must come back.
       const double usual_m = knobs.value(range_knob);

@@ -8,6 +8,7 @@
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/required_knobs.h"
 #include "flyball/governors/resting.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/governors/waiting_share.h"
@@ -35,12 +36,11 @@ class EnergyClock final : public flyball::Policy {
 
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs) override {
-    for (const char* name : {"map.resolution_m", "map.range_m", "cpu.frequency_hz"}) {
-      if (knobs.spec(name) == nullptr) {
-        return flyball::Error{flyball::ErrorCode::invalid_input,
-                              "policy \"energy_clock\": there is no knob " + std::string{name} +
-                                  "; try: flyball list knobs"};
-      }
+    if (flyball::Status status =
+            flyball::require_knobs("policy \"energy_clock\"", knobs,
+                                   {"map.resolution_m", "map.range_m", "cpu.frequency_hz"});
+        !status) {
+      return status;
     }
     const flyball::KnobSpec& cells = *knobs.spec("map.resolution_m");
     cells_m_ = cells.legal;

@@ -7,11 +7,13 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/required_knobs.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace {
 
@@ -36,7 +38,13 @@ class MissionEnergy final : public flyball::Policy {
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs) override {
     deceleration_m_s2_ = given.number("deceleration_m_s2");
-    auto way = flyball::MissionWay::make("policy \"mission_energy\"", given, knobs);
+    const std::string self = "policy \"mission_energy\"";
+    if (flyball::Status status = flyball::require_knobs(
+            self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
+        !status) {
+      return status;
+    }
+    auto way = flyball::MissionWay::make(self, given, knobs);
     if (!way) {
       return way.error();
     }

@@ -9,6 +9,7 @@
 #include "flyball/governors/horizon_search.h"
 #include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/required_knobs.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
@@ -38,6 +39,11 @@ class Reference final : public flyball::Policy {
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs) override {
     const std::string self = "policy \"reference\"";
+    if (flyball::Status status = flyball::require_knobs(
+            self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
+        !status) {
+      return status;
+    }
     auto way = flyball::MissionWay::make(self, given, knobs);
     if (!way) {
       return way.error();

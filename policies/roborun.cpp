@@ -26,6 +26,7 @@
 
 #include "flyball/governors/budget_ledger.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/required_knobs.h"
 #include "flyball/governors/time_budget.h"
 #include "flyball/runtime/registry.h"
 
@@ -76,10 +77,11 @@ class Roborun final : public flyball::Policy {
 
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs) override {
-    for (const char* knob : {"map.resolution_m", "map.range_m", "mission.max_speed_m_s"}) {
-      if (knobs.spec(knob) == nullptr) {
-        return refused(std::string{"there is no knob "} + knob + "; try: flyball list knobs");
-      }
+    if (flyball::Status status =
+            flyball::require_knobs("policy \"roborun\"", knobs,
+                                   {"map.resolution_m", "map.range_m", "mission.max_speed_m_s"});
+        !status) {
+      return status;
     }
     finest_m_ = given.number("finest_m");
     least_range_m_ = given.number("least_range_m");

@@ -15,7 +15,7 @@ constexpr const char* knob = "cpu.frequency_hz";
 
 ParameterSpec sampling_period() {
   ParameterSpec spec{
-      "sampling_period_s", 0.3, 1e-4, 10.0,
+      "sampling_period_s", 0.3, 4.5e-4, 10.0,
       "How often the rule looks. Kernel 4.x on the TX2: .3; newer: .01, .002, .00045."};
   spec.required = true;
   return spec;

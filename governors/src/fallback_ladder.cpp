@@ -61,6 +61,10 @@ FallbackLadder::FallbackLadder(const FallbackSettings& settings)
 
 Fallback FallbackLadder::look(const Observation& seen, const Request& request) {
   why_ = {};
+  if (seen.phase == MissionPhase::unset) {
+    why_ = "the observation's phase was never set; set it to what the vehicle does, such as cruise";
+    return Fallback::table;
+  }
   if (!settings_.enabled) {
     return Fallback::none;
   }

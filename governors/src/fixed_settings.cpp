@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/fixed_settings.h"
 
+#include "flyball/governors/required_knobs.h"
+
 #include <array>
 
 namespace flyball {
@@ -30,6 +32,22 @@ ParameterSpec spec_of(const Setting& setting) {
           std::string{setting.description} + " 0: as the scenario says."};
 }
 
+/// 0: as the scenario says.
+double value_of(const Setting& setting, const Parameters& given) {
+  const auto declared = given.values().find(setting.parameter);
+  return declared == given.values().end() ? 0.0 : given.number(setting.parameter);
+}
+
+std::vector<std::string> needed(const Parameters& given) {
+  std::vector<std::string> names;
+  for (const Setting& setting : settings) {
+    if (value_of(setting, given) != 0.0) {
+      names.emplace_back(setting.knob);
+    }
+  }
+  return names;
+}
+
 bool reaches(const KnobSpec& spec, double value) {
   const double low = spec.legal.empty() ? spec.min : spec.legal.front();
   const double high = spec.legal.empty() ? spec.max : spec.legal.back();
@@ -56,9 +74,11 @@ Result<Decision> fixed_settings(const std::string& owner,
                                 const Parameters& given,
                                 const KnobSettings& knobs) {
   Decision wish;
+  if (Status status = require_knobs(owner, knobs, needed(given)); !status) {
+    return status.error();
+  }
   for (const Setting& setting : settings) {
-    const auto declared = given.values().find(setting.parameter);
-    const double value = declared == given.values().end() ? 0.0 : given.number(setting.parameter);
+    const double value = value_of(setting, given);
     if (value == 0.0) {
       continue;
     }
@@ -71,8 +91,7 @@ Result<Decision> fixed_settings(const std::string& owner,
     if (value < setting.least) {
       return refused("must be at least " + std::to_string(setting.least));
     }
-    const KnobSpec* spec = knobs.spec(setting.knob);
-    if (spec == nullptr || !reaches(*spec, value)) {
+    if (!reaches(*knobs.spec(setting.knob), value)) {
       return refused(std::string{setting.knob} + " cannot take this value here");
     }
     wish.set(setting.knob, value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/mission_way.h"
 
+#include "flyball/governors/required_knobs.h"
 #include "flyball/governors/search_space.h"
 
 #include <algorithm>
@@ -71,10 +72,10 @@ Result<MissionWay> MissionWay::make(const std::string& owner,
   const auto refused = [&owner](const std::string& why) {
     return Error{ErrorCode::invalid_input, owner + ": " + why};
   };
-  for (const char* name : {"planner.budget", "map.resolution_m", "map.range_m"}) {
-    if (knobs.spec(name) == nullptr) {
-      return refused("there is no knob " + std::string{name} + "; try: flyball list knobs");
-    }
+  if (const Status status =
+          require_knobs(owner, knobs, {"planner.budget", "map.resolution_m", "map.range_m"});
+      !status) {
+    return status.error();
   }
   MissionWay way{given, knobs, !knobs.spec("map.resolution_m")->legal.empty()};
   if (way.levels_m_.front() >= way.levels_m_.back()) {

@@ -116,6 +116,8 @@ const char* to_string(MissionPhase phase) {
       return "land";
     case MissionPhase::wait:
       return "wait";
+    case MissionPhase::unset:
+      return "unset";
   }
   return "unknown";
 }

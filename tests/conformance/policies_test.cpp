@@ -12,7 +12,9 @@
 
 #include "built_data.h"
 #include "counting_new.h"
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -115,6 +117,36 @@ TEST(Policies, start_or_say_why_not_when_a_mission_has_no_knobs) {
     const auto status = policy->start(std::get<flyball::Parameters>(given), {});
     EXPECT_TRUE(status.ok() || !status.error().message.empty()) << name;
   }
+}
+
+/// Why a policy does not start with these knobs; empty: it starts.
+std::string refusal(const std::string& name, const flyball::KnobSettings& knobs) {
+  const auto policy = policies().make<flyball::Policy>(name);
+  auto specs = policy->parameters();
+  for (auto& spec : specs) {
+    spec.required = false;
+  }
+  const auto given = flyball::Parameters::resolve(name, specs, {});
+  const auto status = policy->start(std::get<flyball::Parameters>(given), knobs);
+  return status.ok() ? "" : status.error().message;
+}
+
+TEST(Policies, name_all_knobs_that_they_miss_at_once) {
+  int named = 0;
+  const auto all = flyball::conformance_knobs();
+  for (const std::string& name : policies().names<flyball::Policy>()) {
+    const std::string without_any = refusal(name, {});
+    for (const flyball::KnobSpec& needed : all.specs()) {
+      std::vector<flyball::KnobSpec> others;
+      std::copy_if(all.specs().begin(), all.specs().end(), std::back_inserter(others),
+                   [&](const flyball::KnobSpec& one) { return one.name != needed.name; });
+      if (!refusal(name, flyball::KnobSettings{others}).empty()) {
+        EXPECT_NE(std::string::npos, without_any.find(needed.name)) << name << ": " << without_any;
+        ++named;
+      }
+    }
+  }
+  EXPECT_GE(named, 12) << "nothing was compared";
 }
 
 /// Breaks the contract in the way that its parameter says.

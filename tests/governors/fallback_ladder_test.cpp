@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 class Looking {
  public:
   explicit Looking(const FallbackSettings& settings = {}) : ladder{settings} {
+    seen.phase = MissionPhase::cruise;
     seen.latency = 100ms;
     seen.latency_bound = 200ms;
     seen.frequency = Hertz{2e9};
@@ -36,6 +37,22 @@ TEST(FallbackLadder, stays_down_while_nothing_is_wrong) {
     looking.seen.deadline_misses = i % 2;  // Two a second are drained.
     EXPECT_EQ(Fallback::none, looking.next());
     EXPECT_EQ("", looking.ladder.why());
+  }
+}
+
+TEST(FallbackLadder, takes_a_phase_that_was_never_set_for_a_mistake) {
+  for (const bool enabled : {true, false}) {
+    FallbackSettings settings;
+    settings.enabled = enabled;
+    Looking looking{settings};
+    looking.seen.phase = Observation{}.phase;
+    EXPECT_EQ(Fallback::table, looking.next());
+    EXPECT_EQ(
+        "the observation's phase was never set; set it to what the vehicle does, such as "
+        "cruise",
+        looking.ladder.why());
+    looking.seen.phase = MissionPhase::wait;
+    EXPECT_EQ(Fallback::none, looking.next());
   }
 }
 

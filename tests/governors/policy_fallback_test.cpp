@@ -31,6 +31,7 @@ Decision wish(std::string_view knob, double value) {
 
 Observation at(std::chrono::milliseconds t) {
   Observation seen;
+  seen.phase = flyball::MissionPhase::cruise;
   seen.now = MissionTime{t};
   return seen;
 }

@@ -1,9 +1,9 @@
 cmake_minimum_required(VERSION 3.25)
-# Installs Flyball into a prefix of its own, builds somebody's policy against it in an empty folder,
-# and lets it be checked and flown by the installed program.
+# Installs Flyball into a prefix of its own, builds somebody's policy and kernel against it in an empty
+# folder, and lets the installed program check, fly and list them.
 set(folder ${built}/package/policy)
 file(REMOVE_RECURSE ${folder})
-file(COPY ${source}/policy/ DESTINATION ${folder}/project)
+file(COPY ${source}/policy/ ${flyball}/examples/kernels/blue_trousers.cpp DESTINATION ${folder}/project)
 
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed
@@ -32,3 +32,7 @@ foreach(name libmine fixed_coarse)
     message(FATAL_ERROR "${name} is not in the comparison: ${said}")
   endif()
 endforeach()
+run(prefix/bin/flyball list kernels --kernels build/libblue_trousers.so)
+if(NOT said MATCHES "blue_trousers")
+  message(FATAL_ERROR "the kernel is not in the list: ${said}")
+endif()

@@ -2,6 +2,7 @@
 //
 // Governs one decision with nothing but the public headers of runtime, governors and policies.
 
+#include <chrono>
 #include <cstdio>
 
 #include <flyball/governors/policy_governor.h>
@@ -21,8 +22,9 @@ int main() {
   if (!policy->start(std::get<flyball::Parameters>(parameters), knobs).ok()) {
     return 1;
   }
-  flyball::PolicyGovernor governor{std::move(policy), knobs, {}, nullptr};
+  flyball::PolicyGovernor governor{std::move(policy), knobs, {}, std::chrono::steady_clock::now};
   flyball::Observation seen;
+  seen.phase = flyball::MissionPhase::cruise;
   seen.obstacle_density = 0.0;
   const auto decision = governor.decide(seen);
   std::printf("%.2f\n", decision.begin()->value);

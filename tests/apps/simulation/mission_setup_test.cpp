@@ -64,7 +64,9 @@ TEST(MissionSetup, may_fly_an_applications_policy_with_a_clock_rule_beside_it) {
   const auto setup = set_up(scenario);
   ASSERT_TRUE(setup.ok()) << setup.error().message;
   std::map<std::string, double> wished;
-  for (const auto& [knob, value] : setup->governor->decide({})) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  for (const auto& [knob, value] : setup->governor->decide(seen)) {
     wished[std::string{knob}] = value;
   }
   EXPECT_EQ(wished["map.resolution_m"], 0.80);

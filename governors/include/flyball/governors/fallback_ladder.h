@@ -42,7 +42,9 @@ struct FallbackSettings {
   Duration least_hover{std::chrono::seconds{2}};
 };
 
-/// Watches the input of decisions. Allocates nothing after construction.
+/// Watches the input of decisions. An observation whose phase was never set is a mistake of whoever
+/// observes, and is met by the table even where the ladder is not enabled. Allocates nothing after
+/// construction.
 class FallbackLadder {
  public:
   /// @pre `map_window` is 1 to 64.

@@ -11,11 +11,13 @@
 
 namespace flyball {
 
-enum class MissionPhase : std::uint8_t { take_off, cruise, land, wait };
+/// `unset` is nobody's phase: who observes must say what the vehicle does, because a policy saves
+/// where latency buys no speed.
+enum class MissionPhase : std::uint8_t { take_off, cruise, land, wait, unset };
 
 struct Observation {
   MissionTime now{};
-  MissionPhase phase{MissionPhase::wait};
+  MissionPhase phase{MissionPhase::unset};
   double speed_m_s{};
   double known_free_m{};        ///< Along the committed path; 0 when there is none.
   double obstacle_density{};    ///< Share of .8 m columns around the vehicle that hold an obstacle,
