@@ -41,7 +41,8 @@ TEST(MissionWay, says_what_contradicts_what) {
   EXPECT_NE(refusal({{"least_range_m", 20.0}, {"most_range_m", 10.0}}).find("below most_range_m"),
             std::string::npos);
   EXPECT_EQ(refusal({}, KnobSettings{}),
-            "policy \"mine\": there is no knob planner.budget; try: flyball list knobs");
+            "policy \"mine\": there is no knob planner.budget, map.resolution_m, map.range_m; try: "
+            "flyball list knobs");
 }
 
 TEST(MissionWay, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) {

@@ -3,6 +3,7 @@
 
 #include "flyball/kernels/detector.h"
 #include "flyball/records/report.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/simulation/mission.h"
 
 #include "scratch_folder.h"
