@@ -130,7 +130,11 @@ Result<Lines> list_knobs() {
     return model.error();
   }
   Lines lines{{"KNOB", "UNIT", "OWNER", "DEFAULT", "MEANING", "VALUES"}};
-  for (const KnobSpec& knob : standard_knobs(scenario, ModeledPlatform{std::move(*model)})) {
+  const auto knobs = standard_knobs(scenario, ModeledPlatform{std::move(*model)});
+  if (!knobs) {
+    return knobs.error();
+  }
+  for (const KnobSpec& knob : *knobs) {
     lines.push_back({knob.name, knob.unit, knob.owner, number(knob.fallback), knob.description,
                      legal_values(knob)});
   }

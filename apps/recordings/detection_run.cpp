@@ -4,7 +4,7 @@
 #include "flyball/records/pictures.h"
 #include "flyball/records/report.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -23,7 +23,7 @@ Result<std::unique_ptr<Detector>> detector_of(const DetectionRun& run) {
   scenario.kernels.detector = run.detector;
   scenario.kernels.detector_parameters = run.parameters;
   scenario.detector.models_folder = run.models_folder;
-  return make_detector(scenario);
+  return make_kernel<Detector>(scenario.kernels, model_finder(scenario));
 }
 
 /// `vtest_000040.png`: of a video each frame has its own file.

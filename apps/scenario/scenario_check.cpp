@@ -3,10 +3,12 @@
 
 #include "scenario/scenario_check.h"
 
+#include "flyball/kernels/mapper.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
 
+#include "scenario/kernel_choice.h"
 #include "scenario/scenario_keys.h"
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
@@ -47,15 +49,9 @@ std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {
       {"mission.workload", "workload", scenario.mission.workload, workload_names(), "workloads"},
       {"world.generator", "world", scenario.world.generator, world_names(), "worlds"},
   };
-  const KernelSettings& kernels = scenario.kernels;
-  const std::vector<std::string> names{
-      kernels.point_cloud, kernels.mapper,       kernels.collision_check, kernels.planner,
-      kernels.smoother,    kernels.path_tracker, kernels.localizer,       kernels.coverage,
-      kernels.explorer,    kernels.detector,     kernels.tracker};
-  const std::vector<KernelFamily> families = kernel_families();  // In the order of `names`.
-  for (std::size_t i = 0; i < families.size(); ++i) {
-    things.push_back({"kernels." + families[i].name, families[i].name, names[i],
-                      families[i].kernels, "kernels"});
+  for (const FamilyChoice& family : family_choices()) {
+    things.push_back({"kernels." + family.name, family.name, scenario.kernels.*family.kernel,
+                      family.names(), "kernels"});
   }
   return things;
 }
@@ -137,9 +133,19 @@ bool is_folder_name(const std::string& name) {
 }  // namespace
 
 std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given) {
-  const auto mapper = make_mapper(scenario.kernels);
-  if (!mapper) {
+  const FamilyChoice& family = family_choice(typeid(Mapper));
+  const auto unconfigured = family.make(scenario.kernels.mapper);
+  if (!unconfigured || !resolved(family.owner(scenario.kernels), unconfigured->parameters(),
+                                 scenario.kernels.mapper_parameters)) {
     return {};  // Named elsewhere.
+  }
+  const auto refused = [&scenario](const Error& error) -> std::vector<Error> {
+    return {{ErrorCode::invalid_input,
+             "mapper \"" + scenario.kernels.mapper + "\" refuses: " + error.message}};
+  };
+  const auto mapper = make_kernel<Mapper>(scenario.kernels);
+  if (!mapper) {
+    return refused(mapper.error());
   }
   const std::vector<double> cells_m = (*mapper)->resolutions_m();
   const double wanted_m = scenario.map.resolution_m;
@@ -152,11 +158,7 @@ std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given)
   // The mapper itself knows best how far it reaches: an empty scan is refused for its settings.
   const auto tried =
       (*mapper)->prepare(PointCloud{}, Pose::Identity(), {wanted_m, scenario.map.range_m});
-  if (!tried) {
-    return {{ErrorCode::invalid_input,
-             "mapper \"" + scenario.kernels.mapper + "\" refuses: " + tried.error().message}};
-  }
-  return {};
+  return tried ? std::vector<Error>{} : refused(tried.error());
 }
 
 std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given) {

@@ -3,6 +3,8 @@
 
 #include "scenario/scenario_fields.h"
 
+#include "scenario/kernel_choice.h"
+
 namespace flyball {
 namespace {
 
@@ -176,24 +178,13 @@ Fields gps_fields() {
 }
 
 Fields kernel_fields() {
-  constexpr auto in = &Scenario::kernels;
-  using K = KernelSettings;
-  return {
-      {"kernels.point_cloud", &at<in, &K::point_cloud>, 0, 0, "depth image to points"},
-      {"kernels.mapper", &at<in, &K::mapper>, 0, 0, "points to occupancy"},
-      {"kernels.collision_check", &at<in, &K::collision_check>, 0, 0,
-       "looks along the path being flown"},
-      {"kernels.planner", &at<in, &K::planner>, 0, 0, "shortest path"},
-      {"kernels.smoother", &at<in, &K::smoother>, 0, 0, "way-points to a trajectory"},
-      {"kernels.path_tracker", &at<in, &K::path_tracker>, 0, 0, "trajectory to set-points"},
-      {"kernels.localizer", &at<in, &K::localizer>, 0, 0, "where the vehicle believes it is"},
-      {"kernels.coverage", &at<in, &K::coverage>, 0, 0, "an area to a path over all of it"},
-      {"kernels.explorer", &at<in, &K::explorer>, 0, 0, "where to look next"},
-      {"kernels.slam_load", &at<in, &K::slam_load>, 0, 0,
-       "charge the SLAM time per frame beside a localizer that needs none"},
-      {"kernels.detector", &at<in, &K::detector>, 0, 0, "people in colour images"},
-      {"kernels.tracker", &at<in, &K::tracker>, 0, 0, "where what was detected goes"},
-  };
+  Fields fields;
+  for (const FamilyChoice& family : family_choices()) {
+    fields.push_back({"kernels." + family.name, family.place, 0, 0, family.description});
+  }
+  fields.push_back({"kernels.slam_load", &at<&Scenario::kernels, &KernelSettings::slam_load>, 0, 0,
+                    "charge the SLAM time per frame beside a localizer that needs none"});
+  return fields;
 }
 
 Fields scan_fields() {

@@ -50,6 +50,8 @@ struct GivenValue {
 /// The value as a text that is not empty; `--set name=079` on the command line is a text, too.
 [[nodiscard]] std::optional<std::string> as_text(const GivenValue& given);
 
+/// The number of a setting; empty where no setting has this key, or it is not a number.
+[[nodiscard]] std::optional<double> number_at(const Scenario& scenario, const std::string& key);
 /// The field's value as TOML writes it.
 [[nodiscard]] std::string toml_value(const Scenario& scenario, const ScenarioField& field);
 /// Shortest text that reads back to the same number.

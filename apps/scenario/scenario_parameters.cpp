@@ -2,31 +2,31 @@
 
 #include "scenario/scenario_parameters.h"
 
-#include "flyball/kernels/detector.h"
-#include "flyball/scenario/models.h"
 #include "flyball/scenario/plugins.h"
 #include "flyball/sim/world.h"
 
+#include "scenario/kernel_choice.h"
 #include "scenario/scenario_keys.h"
-#include <utility>
 
 namespace flyball {
 namespace {
 
-constexpr const char* world_prefix = "world.";
-constexpr const char* mapper_prefix = "kernels.mapper_parameters.";
-constexpr const char* localizer_prefix = "kernels.localizer_parameters.";
-constexpr const char* detector_prefix = "kernels.detector_parameters.";
-
-template <class Plugin>
-ParameterGroup group_of(const std::string& family, const std::string& name, const char* prefix) {
-  ParameterGroup group;
-  group.selector = prefix == world_prefix ? "world.generator" : "kernels." + family;
-  group.prefix = prefix;
-  group.owner = family + " \"" + name + "\"";
-  if (const auto plugin = all_plugins().make<Plugin>(name)) {
+ParameterGroup world_group(const std::string& name) {
+  ParameterGroup group{"world.generator", "world.", "world \"" + name + "\""};
+  if (const auto generator = all_plugins().make<WorldGenerator>(name)) {
     group.exists = true;
-    group.specs = plugin->parameters();
+    group.specs = generator->parameters();
+  }
+  return group;
+}
+
+ParameterGroup group_of(const FamilyChoice& family, const KernelSettings& kernels) {
+  const std::string selector = "kernels." + family.name;
+  ParameterGroup group{selector, selector + "_parameters.", family.owner(kernels)};
+  group.of_kernel = family.parameters;
+  if (const auto kernel = family.make(kernels.*family.kernel)) {
+    group.exists = true;
+    group.specs = kernel->parameters();
   }
   return group;
 }
@@ -71,46 +71,22 @@ std::vector<Error> take_parameters(ParameterValues& values,
   return errors;
 }
 
-template <class Plugin>
-Result<std::unique_ptr<Plugin>> make_configured(const std::string& family,
-                                                const std::string& name,
-                                                const ParameterValues& given) {
-  auto plugin = all_plugins().make<Plugin>(name);
-  if (!plugin) {
-    return unknown(family, name, "kernels");
-  }
-  const auto chosen = resolved(family + " \"" + name + "\"", plugin->parameters(), given);
-  if (!chosen) {
-    return chosen.error();
-  }
-  plugin->configure(*chosen);
-  return plugin;
-}
-
 }  // namespace
 
 std::vector<ParameterGroup> parameter_groups(const Scenario& scenario) {
-  const KernelSettings& kernels = scenario.kernels;
-  return {group_of<WorldGenerator>("world", scenario.world.generator, world_prefix),
-          group_of<Mapper>("mapper", kernels.mapper, mapper_prefix),
-          group_of<Localizer>("localizer", kernels.localizer, localizer_prefix),
-          group_of<Detector>("detector", kernels.detector, detector_prefix)};
+  std::vector<ParameterGroup> groups{world_group(scenario.world.generator)};
+  for (const FamilyChoice& family : family_choices()) {
+    groups.push_back(group_of(family, scenario.kernels));
+  }
+  return groups;
 }
 
 const ParameterValues& values_of(const Scenario& scenario, const ParameterGroup& group) {
-  if (group.prefix == world_prefix) {
-    return scenario.world.parameters;
-  }
-  if (group.prefix == mapper_prefix) {
-    return scenario.kernels.mapper_parameters;
-  }
-  return group.prefix == localizer_prefix ? scenario.kernels.localizer_parameters
-                                          : scenario.kernels.detector_parameters;
+  return group.of_kernel == nullptr ? scenario.world.parameters : scenario.kernels.*group.of_kernel;
 }
 
 ParameterValues& values_of(Scenario& scenario, const ParameterGroup& group) {
-  return const_cast<ParameterValues&>(  // NOLINT(*-const-cast): the scenario is not constant
-      values_of(std::as_const(scenario), group));
+  return group.of_kernel == nullptr ? scenario.world.parameters : scenario.kernels.*group.of_kernel;
 }
 
 std::vector<Error> read_parameters(Scenario& scenario, const GivenValues& given) {
@@ -150,34 +126,6 @@ Result<Parameters> resolved(const std::string& owner,
     return joined(*errors);
   }
   return std::get<Parameters>(std::move(parameters));
-}
-
-Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels) {
-  return make_configured<Mapper>("mapper", kernels.mapper, kernels.mapper_parameters);
-}
-
-Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels) {
-  return make_configured<Localizer>("localizer", kernels.localizer, kernels.localizer_parameters);
-}
-
-Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario) {
-  const std::string& name = scenario.kernels.detector;
-  auto detector = all_plugins().make<Detector>(name);
-  if (!detector) {
-    return unknown("detector", name, "kernels");
-  }
-  const auto chosen = resolved("detector \"" + name + "\"", detector->parameters(),
-                               scenario.kernels.detector_parameters);
-  if (!chosen) {
-    return chosen.error();
-  }
-  const Status started = detector->start(*chosen, [&scenario](const std::string& file) {
-    return find_model(file, scenario.detector.models_folder);
-  });
-  if (!started) {
-    return started.error();
-  }
-  return detector;
 }
 
 }  // namespace flyball

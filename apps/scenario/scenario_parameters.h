@@ -5,17 +5,10 @@
 /// Settings that a plug-in declares for itself: those of the world's generator (`world.spread_m`)
 /// and of kernels (`kernels.mapper_parameters.front_end`).
 
-#include "flyball/kernels/detector.h"
-#include "flyball/kernels/localizer.h"
-#include "flyball/kernels/mapper.h"
-
 #include "scenario/scenario_reader.h"
-#include <memory>
 #include <vector>
 
 namespace flyball {
-
-using ParameterValues = std::map<std::string, ParameterValue>;
 
 /// The parameters of one plug-in that a scenario names.
 struct ParameterGroup {
@@ -24,6 +17,7 @@ struct ParameterGroup {
   std::string owner;     ///< For messages: `world "forest"`.
   bool exists{};         ///< False when there is no such plug-in, so its parameters are unknown.
   std::vector<ParameterSpec> specs{};
+  ParameterValues KernelSettings::*of_kernel{};  ///< Null: they are the world's.
 };
 
 [[nodiscard]] std::vector<ParameterGroup> parameter_groups(const Scenario& scenario);
@@ -48,16 +42,5 @@ struct ParameterGroup {
 [[nodiscard]] Result<Parameters> resolved(const std::string& owner,
                                           const std::vector<ParameterSpec>& specs,
                                           const ParameterValues& given);
-
-/// The mapper that the scenario names, configured.
-///
-/// @error `not_found`, or `invalid_input` with a sentence for each wrong parameter.
-[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const KernelSettings& kernels);
-/// The same for the localizer.
-[[nodiscard]] Result<std::unique_ptr<Localizer>> make_localizer(const KernelSettings& kernels);
-/// The detector that the scenario names, started.
-///
-/// @error `not_found` (no such detector; weights, cascades), `invalid_input` (a parameter).
-[[nodiscard]] Result<std::unique_ptr<Detector>> make_detector(const Scenario& scenario);
 
 }  // namespace flyball

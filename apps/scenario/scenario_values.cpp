@@ -146,6 +146,20 @@ std::optional<Error> assign(Scenario& scenario,
       field.place);
 }
 
+std::optional<double> number_at(const Scenario& scenario, const std::string& key) {
+  Scenario copy = scenario;  // As in `toml_value`.
+  for (const ScenarioField& field : scenario_fields()) {
+    if (field.key == key) {
+      const auto* real = std::get_if<double* (*)(Scenario&)>(&field.place);
+      const auto* whole = std::get_if<int* (*)(Scenario&)>(&field.place);
+      return real != nullptr    ? std::optional{*(*real)(copy)}
+             : whole != nullptr ? std::optional{1.0 * *(*whole)(copy)}
+                                : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
 std::string toml_value(const Scenario& scenario, const ScenarioField& field) {
   Scenario copy =
       scenario;  // The places are for writing; a copy spares a second table for reading.

@@ -5,7 +5,7 @@
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/runtime/assert.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -21,7 +21,7 @@ constexpr double nearest_m = 20.0;
 constexpr double path_width_reach_m = 8.0;  // Farther on the path will often be another one.
 
 std::unique_ptr<Mapper> made(const KernelSettings& kernels) {
-  auto mapper = make_mapper(kernels);
+  auto mapper = make_kernel<Mapper>(kernels);
   FLYBALL_ASSERT(mapper.ok(), "%s", mapper.error().message.c_str());
   return std::move(*mapper);
 }

@@ -8,6 +8,7 @@
 #include "flyball/sim/platform_file.h"
 #include "flyball/sim/worlds.h"
 
+#include "scenario/kernel_choice.h"
 #include "scenario/scenario_check.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/seeing_setup.h"
@@ -42,36 +43,27 @@ Result<World> make_world(const Scenario& scenario) {
 
 /// Makes one kernel, or adds a sentence to `missing`.
 template <class Family>
-void make(std::unique_ptr<Family>& kernel,
-          const std::string& family,
-          const std::string& name,
-          std::vector<Error>& missing) {
-  kernel = all_plugins().make<Family>(name);
-  if (!kernel) {
-    missing.push_back(unknown(family, name, "kernels"));
+void make(std::unique_ptr<Family>& kernel, const Scenario& scenario, std::vector<Error>& missing) {
+  auto made = make_kernel<Family>(scenario.kernels, model_finder(scenario));
+  if (made) {
+    kernel = std::move(*made);
+  } else {
+    missing.push_back(made.error());
   }
 }
 
-Result<MissionKernels> make_kernels(const KernelSettings& names) {
+Result<MissionKernels> make_kernels(const Scenario& scenario) {
   MissionKernels kernels;
   std::vector<Error> missing;
-  make(kernels.point_cloud, "point cloud kernel", names.point_cloud, missing);
-  if (auto mapper = make_mapper(names)) {
-    kernels.mapper = std::move(*mapper);
-  } else {
-    missing.push_back(mapper.error());
-  }
-  make(kernels.collision_check, "collision check", names.collision_check, missing);
-  make(kernels.planner, "planner", names.planner, missing);
-  make(kernels.smoother, "smoother", names.smoother, missing);
-  make(kernels.path_tracker, "path tracker", names.path_tracker, missing);
-  if (auto localizer = make_localizer(names)) {
-    kernels.localizer = std::move(*localizer);
-  } else {
-    missing.push_back(localizer.error());
-  }
-  make(kernels.coverage, "coverage planner", names.coverage, missing);
-  make(kernels.explorer, "explorer", names.explorer, missing);
+  make(kernels.point_cloud, scenario, missing);
+  make(kernels.mapper, scenario, missing);
+  make(kernels.collision_check, scenario, missing);
+  make(kernels.planner, scenario, missing);
+  make(kernels.smoother, scenario, missing);
+  make(kernels.path_tracker, scenario, missing);
+  make(kernels.localizer, scenario, missing);
+  make(kernels.coverage, scenario, missing);
+  make(kernels.explorer, scenario, missing);
   if (!missing.empty()) {
     return joined(missing);
   }
@@ -138,7 +130,7 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
     return world.error();
   }
   setup.things.world = std::move(*world);
-  auto kernels = make_kernels(scenario.kernels);
+  auto kernels = make_kernels(scenario);
   if (!kernels) {
     return kernels.error();
   }
@@ -159,8 +151,11 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
                      "kernels.mapper_parameters.cost_of to \"octomap\", or add [kernels." +
                      priced_as + "] to the platform file"};
   }
-  setup.equipment.knobs = KnobSettings{
-      standard_knobs(scenario, *setup.platform, setup.equipment.kernels.mapper->resolutions_m())};
+  auto knobs = standard_knobs(scenario, *setup.platform);
+  if (!knobs) {
+    return knobs.error();
+  }
+  setup.equipment.knobs = KnobSettings{std::move(*knobs)};
   return setup;
 }
 

@@ -5,23 +5,10 @@
 #include "flyball/flight/workload.h"
 #include "flyball/scenario/plugins.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 
 namespace flyball {
 namespace {
-
-Result<std::unique_ptr<Tracker>> make_tracker(const std::string& name) {
-  auto tracker = all_plugins().make<Tracker>(name);
-  if (!tracker) {
-    return unknown("tracker", name, "kernels");
-  }
-  const auto chosen = resolved("tracker \"" + name + "\"", tracker->parameters(), {});
-  if (!chosen) {
-    return chosen.error();
-  }
-  tracker->configure(*chosen);
-  return tracker;
-}
 
 Status check_price(const Scenario& scenario, const Platform& platform) {
   const std::string priced_as = detector_cost(flight_settings(scenario));
@@ -83,13 +70,14 @@ Result<ColourCameras> equip_to_see(const Scenario& scenario,
   if (const Status priced = check_price(scenario, platform); !priced) {
     return priced.error();
   }
-  auto detector = make_detector(scenario);
+  const FindModel find_model = model_finder(scenario);
+  auto detector = make_kernel<Detector>(scenario.kernels, find_model);
   if (!detector) {
     return detector.error();
   }
   equipment.kernels.detector = std::move(*detector);
   for (auto* place : {&equipment.kernels.buffered_tracker, &equipment.kernels.real_time_tracker}) {
-    auto tracker = make_tracker(scenario.kernels.tracker);
+    auto tracker = make_kernel<Tracker>(scenario.kernels, find_model);
     if (!tracker) {
       return tracker.error();
     }

@@ -17,7 +17,7 @@ namespace flyball {
 /// Adds detector and trackers to `equipment` if the scenario's workload looks for people, and a
 /// forward camera if its localizer takes images.
 ///
-/// @error As `make_detector`; and a mesh of somebody in the world that is missing, a detector,
+/// @error As `make_kernel`; and a mesh of somebody in the world that is missing, a detector,
 ///        tracker or localizer that takes images that the platform has no price for.
 [[nodiscard]] Result<ColourCameras> equip_to_see(const Scenario& scenario,
                                                  const Platform& platform,

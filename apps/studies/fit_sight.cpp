@@ -9,7 +9,7 @@
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/world.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include "simulation/seeing_setup.h"
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,7 @@ Status see(const std::vector<Stretch>& stretches,
     if (!frames) {
       return frames.error();
     }
-    const auto made = make_localizer(kernels);
+    const auto made = make_kernel<Localizer>(kernels);
     if (!made) {
       return made.error();
     }

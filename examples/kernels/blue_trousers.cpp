@@ -26,7 +26,7 @@ class BlueTrousers final : public flyball::Detector {
             {"least_px", 12.0, 1.0, 10000.0, "Fewer blue pixels are nobody."}};
   }
 
-  flyball::Status start(const flyball::Parameters& chosen, const flyball::FindModel&) override {
+  flyball::Status configure(const flyball::Parameters& chosen, const flyball::FindModel&) override {
     bluer_by_ = static_cast<int>(chosen.number("bluer_by"));
     least_px_ = chosen.number("least_px");
     return flyball::Done{};

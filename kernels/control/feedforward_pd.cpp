@@ -14,10 +14,12 @@ namespace {
 
 using flyball::Vec3;
 
-constexpr double position_gain_1_s = 0.8;
-constexpr double max_correction_m_s =
-    0.5;  // A jump of the estimate must not become a jump of the vehicle.
-constexpr double max_centripetal_m_s2 = 4.0;  // Half the tilt that braking takes: more is a kink.
+struct Settings {
+  double position_gain_1_s{0.8};
+  double max_correction_m_s{0.5};
+  double max_centripetal_m_s2{4.0};  ///< Half the tilt that braking takes: more is a kink.
+};
+
 constexpr double look_m = 0.1;  // Two samples of a path: their tangents differ enough.
 
 /// Towards the centre of the curve; zero where the path is straight.
@@ -29,6 +31,22 @@ Vec3 normal_at(const flyball::Path& path, const flyball::Path::Sample& here) {
 
 class FeedforwardPd final : public flyball::PathTracker {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    const Settings usual;
+    return {{"position_gain_1_s", usual.position_gain_1_s, 0.0, 10.0,
+             "speed that is added for each metre off the path"},
+            {"max_correction_m_s", usual.max_correction_m_s, 0.0, 10.0,
+             "at most so much: a jump of the estimate must not become a jump of the vehicle"},
+            {"max_centripetal_m_s2", usual.max_centripetal_m_s2, 0.0, 20.0,
+             "most acceleration that is fed forward in a bend"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    settings_ = {chosen.number("position_gain_1_s"), chosen.number("max_correction_m_s"),
+                 chosen.number("max_centripetal_m_s2")};
+    return flyball::Done{};
+  }
+
   flyball::Setpoint track(const flyball::Path& path,
                           const flyball::PathReference& reference,
                           const flyball::PoseEstimate& where,
@@ -47,18 +65,21 @@ class FeedforwardPd final : public flyball::PathTracker {
     setpoint.a_WB = reference.acceleration_m_s2 * here.tangent_W;
     if (std::isfinite(here.curvature_1_m)) {  // A corner is passed at a crawl: nothing to feed.
       const double towards_centre = speed_m_s * speed_m_s * here.curvature_1_m;
-      setpoint.a_WB += std::min(towards_centre, max_centripetal_m_s2) * normal_at(path, here);
+      setpoint.a_WB +=
+          std::min(towards_centre, settings_.max_centripetal_m_s2) * normal_at(path, here);
     }
     return setpoint;
   }
 
  private:
-  static Vec3 correction(const Vec3& error_m) {
-    const Vec3 wished_m_s = position_gain_1_s * error_m;
+  [[nodiscard]] Vec3 correction(const Vec3& error_m) const {
+    const Vec3 wished_m_s = settings_.position_gain_1_s * error_m;
     const double size_m_s = wished_m_s.norm();
-    return size_m_s > max_correction_m_s ? Vec3{wished_m_s * (max_correction_m_s / size_m_s)}
-                                         : wished_m_s;
+    const double most_m_s = settings_.max_correction_m_s;
+    return size_m_s > most_m_s ? Vec3{wished_m_s * (most_m_s / size_m_s)} : wished_m_s;
   }
+
+  Settings settings_{};
 };
 
 }  // namespace

@@ -34,20 +34,20 @@ class FlyballMapper final : public flyball::Mapper {
     return specs;
   }
 
-  void configure(const flyball::Parameters& chosen) override {
-    refusal_.clear();
+  Status configure(const flyball::Parameters& chosen,
+                   const flyball::FindModel& find_model) override {
     if (chosen.text("layers") != "stock") {
       map_ = flyball::make_lattice_mapper();
-      map_->configure(chosen);
-      return;
+      return map_->configure(chosen, find_model);
     }
-    map_ = std::make_unique<flyball::LayeredMapper<flyball::BrickStore>>();
     for (const char* limit : {"most_traversals", "keep_radius_m"}) {
       if (chosen.number(limit) > 0.0) {
-        refusal_ = std::string{"layers = \"stock\" knows no "} + limit +
-                   "; leave it out, or set layers to \"one\"";
+        return Error{ErrorCode::invalid_input, std::string{"layers = \"stock\" knows no "} + limit +
+                                                   "; leave it out, or set layers to \"one\""};
       }
     }
+    map_ = std::make_unique<flyball::LayeredMapper<flyball::BrickStore>>();
+    return flyball::Done{};
   }
 
   [[nodiscard]] std::vector<double> resolutions_m() const override { return map_->resolutions_m(); }
@@ -55,12 +55,12 @@ class FlyballMapper final : public flyball::Mapper {
   Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
                                 const flyball::Pose& X_WC,
                                 const flyball::MapperSettings& settings) override {
-    return refused_or([&] { return map_->prepare(cloud_C, X_WC, settings); });
+    return map_->prepare(cloud_C, X_WC, settings);
   }
   Result<flyball::Work> prepare_frame(const flyball::PointCloudFrame& frame,
                                       const flyball::Pose& X_WC,
                                       const flyball::MapperSettings& settings) override {
-    return refused_or([&] { return map_->prepare_frame(frame, X_WC, settings); });
+    return map_->prepare_frame(frame, X_WC, settings);
   }
   void commit() override { map_->commit(); }
 
@@ -85,16 +85,7 @@ class FlyballMapper final : public flyball::Mapper {
   [[nodiscard]] Status read(const std::string& path) override { return map_->read(path); }
 
  private:
-  template <class Prepare>
-  Result<flyball::Work> refused_or(Prepare&& prepare) const {
-    if (!refusal_.empty()) {
-      return Error{ErrorCode::invalid_input, refusal_};
-    }
-    return prepare();
-  }
-
   std::unique_ptr<flyball::Mapper> map_{flyball::make_lattice_mapper()};
-  std::string refusal_{};
 };
 
 }  // namespace

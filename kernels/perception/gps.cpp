@@ -19,7 +19,7 @@ using flyball::Vec3;
 
 // Steady-state Kalman gain for 5 cm of white noise on a fix, and 5 cm/s on the velocity held for
 // the .1 s between fixes: q/r = (.005/.05)^2, gain = (-q/r + sqrt((q/r)^2 + 4 q/r)) / 2 = .095.
-constexpr double position_gain = 0.1;
+constexpr double usual_gain = 0.1;
 
 /// What kernels/modules/geodesy.cpp offers.
 using GeodeticToEnu = bool (*)(const double* place, const double* origin, double* p_W);
@@ -48,6 +48,15 @@ class GpsLocalizer final : public flyball::Localizer {
  public:
   explicit GpsLocalizer(GeodeticToEnu convert) : convert_{convert} {}
 
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"position_gain", usual_gain, 0.001, 1.0, "share of a fix in the new position"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    position_gain_ = chosen.number("position_gain");
+    return flyball::Done{};
+  }
+
   void start(const flyball::GeodeticOrigin& origin) override {
     origin_ = origin;
     last_ = std::nullopt;
@@ -61,7 +70,7 @@ class GpsLocalizer final : public flyball::Localizer {
       p_WB_ += flyball::to_seconds(sample.stamp - *last_) * v_WB_;
     }
     if (const auto fix_W = to_world(convert_, sample, origin_)) {
-      p_WB_ += (last_ ? position_gain : 1.0) * (*fix_W - p_WB_);
+      p_WB_ += (last_ ? position_gain_ : 1.0) * (*fix_W - p_WB_);
       v_WB_ = sample.v_gps_W;
       last_ = sample.stamp;
     } else if (last_) {
@@ -75,6 +84,7 @@ class GpsLocalizer final : public flyball::Localizer {
 
  private:
   GeodeticToEnu convert_;
+  double position_gain_{usual_gain};
   flyball::GeodeticOrigin origin_{};
   std::optional<flyball::MissionTime> last_{};  ///< Newest sample; empty until the first fix.
   Vec3 p_WB_{Vec3::Zero()};

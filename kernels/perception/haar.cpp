@@ -54,8 +54,8 @@ class Haar final : public flyball::Detector {
             {"level_step", 1.05, 1.01, 2.0, "Between two sizes at which people are looked for."}};
   }
 
-  [[nodiscard]] flyball::Status start(const flyball::Parameters& chosen,
-                                      const flyball::FindModel& /*find_model*/) override {
+  [[nodiscard]] flyball::Status configure(const flyball::Parameters& chosen,
+                                          const flyball::FindModel& /*find_model*/) override {
     min_neighbours_ = static_cast<int>(std::lround(chosen.number("min_neighbours")));
     level_step_ = chosen.number("level_step");
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -38,8 +38,8 @@ class Hog final : public flyball::Detector {
             {"level_step", 1.05, 1.01, 2.0, "Between two sizes at which people are looked for."}};
   }
 
-  [[nodiscard]] flyball::Status start(const flyball::Parameters& chosen,
-                                      const flyball::FindModel& /*find_model*/) override {
+  [[nodiscard]] flyball::Status configure(const flyball::Parameters& chosen,
+                                          const flyball::FindModel& /*find_model*/) override {
     threshold_ = chosen.number("threshold");
     level_step_ = chosen.number("level_step");
     try {

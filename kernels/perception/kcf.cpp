@@ -62,8 +62,10 @@ class Kcf final : public flyball::Tracker {
     return {{"threshold", 0.25, 0.05, 0.95, "Least response of the filter that counts as seen."}};
   }
 
-  void configure(const flyball::Parameters& chosen) override {
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
     settings_.detect_thresh = static_cast<float>(chosen.number("threshold"));
+    return flyball::Done{};
   }
 
   [[nodiscard]] PixelRegion learns_from(const ImageBox& box,

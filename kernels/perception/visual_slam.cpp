@@ -31,12 +31,14 @@ class VisualSlam final : public flyball::SeeingLocalizer {
             {"strong_corner", static_cast<double>(usual.strong_corner), 1.0, 100.0,
              "a corner of so much contrast hides weaker ones near it; ORB-SLAM2: 20"}};
   }
-  void configure(const flyball::Parameters& chosen) override {
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
     const auto whole = [&chosen](const char* name) {
       return static_cast<int>(std::lround(chosen.number(name)));
     };
     slam_ = std::make_unique<flyball::Slam>(flyball::SlamSettings{
         {whole("pixels_per_feature"), whole("weak_corner"), whole("strong_corner")}});
+    return flyball::Done{};
   }
   void start(const flyball::GeodeticOrigin& /*origin*/) override { place(Pose::Identity()); }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, true, false}; }

@@ -42,8 +42,8 @@ class Yolo final : public flyball::Detector {
             {"threshold", 0.3, 0.01, 0.99, "Least score that counts as a person."}};
   }
 
-  [[nodiscard]] flyball::Status start(const flyball::Parameters& chosen,
-                                      const flyball::FindModel& find_model) override {
+  [[nodiscard]] flyball::Status configure(const flyball::Parameters& chosen,
+                                          const flyball::FindModel& find_model) override {
     threshold_ = chosen.number("threshold");
     const auto layers = find_model(chosen.text("model") + ".cfg");
     if (!layers) {

@@ -34,8 +34,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr unsigned samples_per_batch = 100;  // The paper's; OMPL's default.
-constexpr unsigned most_throws = 100;        // For one sample among those that can improve a path.
+constexpr unsigned most_throws = 100;  // For one sample among those that can improve a path.
 
 /// Draws from the sampler of all planners here; OMPL's own would be seeded by the process. That one
 /// repeats the places at passages, for the sake of trees that grow towards them; here many samples
@@ -81,11 +80,13 @@ class Length final : public ob::PathLengthOptimizationObjective {
   }
 };
 
-flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+flyball::StageResult search(unsigned samples_per_batch,
+                            const flyball::SearchStage& stage,
+                            flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::BITstar;
   return flyball::search_with_ompl<Planner>(
       stage, checker,
-      [](Planner& planner) {
+      [samples_per_batch](Planner& planner) {
         planner.getProblemDefinition()->setOptimizationObjective(
             std::make_shared<Length>(planner.getSpaceInformation()));
         planner.setSamplesPerBatch(samples_per_batch);
@@ -98,10 +99,25 @@ flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionCh
 
 class BitStar final : public flyball::PathPlanner {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"samples_per_batch", 100.0, 1.0, 10000.0, "as the paper, and OMPL's default"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    samples_per_batch_ = static_cast<unsigned>(chosen.number("samples_per_batch"));
+    return flyball::Done{};
+  }
+
   flyball::Plan plan(const flyball::PlanRequest& request,
                      const flyball::OccupancyView& map) override {
-    return flyball::staged_plan(request, map, search);
+    return flyball::staged_plan(
+        request, map, [this](const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+          return search(samples_per_batch_, stage, checker);
+        });
   }
+
+ private:
+  unsigned samples_per_batch_{100};
 };
 
 }  // namespace

@@ -26,10 +26,8 @@ constexpr double two_pi = 6.283185307179586;
 constexpr double pose_step_m = 0.075;   // Half a fine cell: nothing slips between two poses.
 constexpr int tries_per_node = 25;      // In a corner hardly any sample is free.
 constexpr double branch_slack_m = 0.5;  // The vehicle is where the last step led.
-// A tree whose best node shows less than this is left for the frontiers: a step costs seconds,
-// whatever it shows. A frontier's view that shows less is noise.
-constexpr double worthwhile_m3 = 1.0;
-constexpr double least_m3 = 0.1;
+constexpr double usually_worthwhile_m3 = 1.0;
+constexpr double least_m3 = 0.1;  // A frontier's view that shows less is noise.
 
 struct Node {
   Viewpoint view{};
@@ -187,6 +185,17 @@ flyball::Aabb explored_box(const ExploreRequest& request) {
 
 class Nbvp final : public flyball::Explorer {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"worthwhile_m3", usually_worthwhile_m3, 0.0, 1000.0,
+             "a tree that shows less is left for the frontiers: a step costs seconds, whatever it "
+             "shows"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    worthwhile_m3_ = chosen.number("worthwhile_m3");
+    return flyball::Done{};
+  }
+
   ExploreStep explore(const ExploreRequest& request, const flyball::OccupancyView& map) override {
     const flyball::StateGrid grid{map, explored_box(request)};
     Tree tree{request, map, grid};
@@ -197,7 +206,7 @@ class Nbvp final : public flyball::Explorer {
     ExploreStep step;
     branch_ = tree.best_branch();
     step.gain_m3 = tree.best_m3();
-    if (step.gain_m3 >= worthwhile_m3) {
+    if (step.gain_m3 >= worthwhile_m3_) {
       step.next = branch_.front();
     } else {
       look_far(request, grid, tree.gain(), step);
@@ -225,6 +234,7 @@ class Nbvp final : public flyball::Explorer {
     }
   }
 
+  double worthwhile_m3_{usually_worthwhile_m3};
   std::vector<Viewpoint> branch_{};  ///< The last step's, from its first node on.
 };
 

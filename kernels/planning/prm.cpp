@@ -25,8 +25,6 @@ namespace {
 
 using flyball::Vec3;
 
-constexpr std::size_t neighbours = 10;  // OMPL's default for its PRM.
-
 /// A place of the roadmap. It stays where it is: its state points into it.
 struct Milestone {
   explicit Milestone(const Vec3& at_W) : p_W{at_W} { holder.values = p_W.data(); }
@@ -44,8 +42,12 @@ struct Milestone {
 
 class Roadmap {
  public:
-  Roadmap(const Vec3& start_W, const Vec3& goal_W, flyball::MotionChecker& checker)
-      : checker_{checker} {
+  /// @param neighbours  To each of so many a new milestone is connected.
+  Roadmap(const Vec3& start_W,
+          const Vec3& goal_W,
+          std::size_t neighbours,
+          flyball::MotionChecker& checker)
+      : neighbours_{neighbours}, checker_{checker} {
     add(start_W);
     add(goal_W);
   }
@@ -55,7 +57,7 @@ class Roadmap {
     Milestone& fresh = milestones_.emplace_back(p_W);
     fresh.index = fresh.leader = milestones_.size() - 1;
     std::vector<Milestone*> near;
-    tree_.nearestK(&fresh, neighbours, near);
+    tree_.nearestK(&fresh, neighbours_, near);
     if (!near.empty() && near.front()->p_W == p_W) {
       milestones_.pop_back();
       return;
@@ -122,17 +124,20 @@ class Roadmap {
     return before;
   }
 
+  std::size_t neighbours_;
   flyball::MotionChecker& checker_;
   std::deque<Milestone> milestones_{};
   flyball::KdTree<Milestone*> tree_{};
 };
 
 // Each iteration draws one sample.
-flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+flyball::StageResult search(std::size_t neighbours,
+                            const flyball::SearchStage& stage,
+                            flyball::MotionChecker& checker) {
   flyball::StageResult result;
   flyball::PlanSampler sampler{
       checker, {stage.box_W, stage.start_W, stage.goal_W, stage.shorter_than_m}, stage.seed};
-  Roadmap roadmap{stage.start_W, stage.goal_W, checker};
+  Roadmap roadmap{stage.start_W, stage.goal_W, neighbours, checker};
   while (!roadmap.is_connected() && sampler.draws() < stage.max_iterations) {
     const Vec3 p_W = sampler.draw();
     if (checker.is_free(p_W)) {
@@ -148,10 +153,26 @@ flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionCh
 
 class Prm final : public flyball::PathPlanner {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"neighbours", 10.0, 1.0, 100.0,
+             "a new place is connected with so many at most; OMPL's default"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    neighbours_ = static_cast<std::size_t>(chosen.number("neighbours"));
+    return flyball::Done{};
+  }
+
   flyball::Plan plan(const flyball::PlanRequest& request,
                      const flyball::OccupancyView& map) override {
-    return flyball::staged_plan(request, map, search);
+    return flyball::staged_plan(
+        request, map, [this](const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+          return search(neighbours_, stage, checker);
+        });
   }
+
+ private:
+  std::size_t neighbours_{10};
 };
 
 }  // namespace

@@ -15,18 +15,22 @@
 
 namespace {
 
-constexpr double range_m = 4.0;     // As rrt_connect.
-constexpr double goal_bias = 0.05;  // Share of the iterations that aim at the goal: OMPL's default.
+struct Settings {
+  double range_m{4.0};     ///< As rrt_connect.
+  double goal_bias{0.05};  ///< OMPL's default.
+};
 
-flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+flyball::StageResult search(const Settings& settings,
+                            const flyball::SearchStage& stage,
+                            flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::RRT;
   // An iteration that aims at the goal draws no sample, so the questions are counted: one for each.
   int asked = 0;
   return flyball::search_with_ompl<Planner>(
       stage, checker,
-      [](Planner& planner) {
-        planner.setRange(range_m);
-        planner.setGoalBias(goal_bias);
+      [&settings](Planner& planner) {
+        planner.setRange(settings.range_m);
+        planner.setGoalBias(settings.goal_bias);
       },
       [&](const Planner&, const flyball::PlanSampler&) { return asked++ >= stage.max_iterations; },
       [&](const Planner&, const flyball::PlanSampler&) {
@@ -36,10 +40,29 @@ flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionCh
 
 class Rrt final : public flyball::PathPlanner {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    const Settings usual;
+    return {
+        {"range_m", usual.range_m, 0.1, 100.0,
+         "longest step: longer ones are blocked more often, shorter ones cost iterations"},
+        {"goal_bias", usual.goal_bias, 0.0, 1.0, "share of the iterations that aim at the goal"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    settings_ = {chosen.number("range_m"), chosen.number("goal_bias")};
+    return flyball::Done{};
+  }
+
   flyball::Plan plan(const flyball::PlanRequest& request,
                      const flyball::OccupancyView& map) override {
-    return flyball::staged_plan(request, map, search);
+    return flyball::staged_plan(
+        request, map, [this](const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+          return search(settings_, stage, checker);
+        });
   }
+
+ private:
+  Settings settings_{};
 };
 
 }  // namespace

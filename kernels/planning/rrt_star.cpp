@@ -15,12 +15,14 @@
 
 namespace {
 
-constexpr double range_m = 4.0;
+constexpr double usual_range_m = 4.0;
 
-flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+flyball::StageResult search(double range_m,
+                            const flyball::SearchStage& stage,
+                            flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::RRTstar;
   return flyball::search_with_ompl<Planner>(
-      stage, checker, [](Planner& planner) { planner.setRange(range_m); },
+      stage, checker, [range_m](Planner& planner) { planner.setRange(range_m); },
       flyball::ImprovingStop{stage.max_iterations},
       [](const Planner& planner, const flyball::PlanSampler&) {
         return static_cast<int>(planner.numIterations());
@@ -29,10 +31,26 @@ flyball::StageResult search(const flyball::SearchStage& stage, flyball::MotionCh
 
 class RrtStar final : public flyball::PathPlanner {
  public:
+  [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
+    return {{"range_m", usual_range_m, 0.1, 100.0,
+             "longest step: longer ones are blocked more often, shorter ones cost iterations"}};
+  }
+  flyball::Status configure(const flyball::Parameters& chosen,
+                            const flyball::FindModel& /*find_model*/) override {
+    range_m_ = chosen.number("range_m");
+    return flyball::Done{};
+  }
+
   flyball::Plan plan(const flyball::PlanRequest& request,
                      const flyball::OccupancyView& map) override {
-    return flyball::staged_plan(request, map, search);
+    return flyball::staged_plan(
+        request, map, [this](const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
+          return search(range_m_, stage, checker);
+        });
   }
+
+ private:
+  double range_m_{usual_range_m};
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 namespace flyball {
@@ -21,13 +22,49 @@ std::string legal_values(const KnobSpec& spec) {
     return text_of(spec.min) + " to " + text_of(spec.max);
   }
   std::string list;
-  for (const double value : spec.legal) {
-    list += (list.empty() ? "" : ", ") + text_of(value);
+  for (std::size_t i = 0; i < spec.legal.size(); ++i) {
+    list += (list.empty() ? "" : ", ") + text_of(spec.legal[i]);
+    list += i < spec.labels.size() ? " (" + spec.labels[i] + ")" : "";
   }
   return list;
 }
 
+bool has_sound_values(const KnobSpec& spec) {
+  if (!std::isfinite(spec.min) || !std::isfinite(spec.max) || spec.min > spec.max) {
+    return false;
+  }
+  const auto is_out = [&spec](double value) { return !(value >= spec.min && value <= spec.max); };
+  return std::none_of(spec.legal.begin(), spec.legal.end(), is_out) &&
+         std::adjacent_find(spec.legal.begin(), spec.legal.end(), std::greater_equal<>{}) ==
+             spec.legal.end();
+}
+
 }  // namespace
+
+Status check_declaration(const KnobSpec& spec) {
+  const auto wrong = [&spec](const std::string& what) {
+    return Error{ErrorCode::invalid_input, "knob \"" + spec.name + "\" " + what};
+  };
+  const std::size_t dot = spec.name.find('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == spec.name.size()) {
+    return wrong("needs a name of two parts, as in map.range_m");
+  }
+  if (spec.unit.empty() || spec.owner.empty() || spec.description.empty()) {
+    return wrong("needs a unit, an owner and a description");
+  }
+  if (!has_sound_values(spec)) {
+    return wrong("needs finite limits, and legal values within them in ascending order");
+  }
+  if (!spec.is_legal(spec.fallback)) {
+    return wrong("cannot be " + text_of(spec.fallback) + " " + spec.unit +
+                 " at first; legal: " + legal_values(spec));
+  }
+  if (!spec.labels.empty() && spec.labels.size() != spec.legal.size()) {
+    return wrong("has " + std::to_string(spec.labels.size()) + " labels for " +
+                 std::to_string(spec.legal.size()) + " legal values");
+  }
+  return Done{};
+}
 
 double KnobSpec::nearest(double wish) const {
   FLYBALL_ASSERT(std::isfinite(wish), "knob %s, wish=%g", name.c_str(), wish);

@@ -5,9 +5,10 @@
 //
 //   ninja detector_recall && FLYBALL_MODELS=DIR bin/detector_recall
 
+#include "flyball/kernels/detector.h"
 #include "flyball/sim/colour_camera.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -156,7 +157,7 @@ int measure() {
     Scenario scenario;
     scenario.kernels.detector = subject.kind;
     scenario.kernels.detector_parameters = subject.parameters;
-    auto detector = make_detector(scenario);
+    auto detector = make_kernel<Detector>(scenario.kernels, model_finder(scenario));
     if (!detector) {
       std::printf("%s is left out: %s\n", subject.title.c_str(), detector.error().message.c_str());
       continue;

@@ -17,7 +17,7 @@
 
 #include "cost_fit.h"
 #include "maps/octomap_tree.h"
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include "simulation/mission_setup.h"
 #include "studies/fit_scenes.h"
 #include "studies/fit_sight.h"
@@ -154,7 +154,7 @@ void measure_flyball(const std::vector<Look>& views, double range_m, const Platf
       KernelSettings chosen;
       chosen.mapper = "flyball";
       chosen.mapper_parameters["front_end"] = std::string{front_end};
-      const auto mapper = std::move(make_mapper(chosen).value());
+      const auto mapper = std::move(make_kernel<Mapper>(chosen).value());
       double total_s = 0.0;
       for (const Look& view : views) {
         Sample sample;
@@ -212,7 +212,7 @@ void see_and_time(const std::vector<VisualFrame>& frames,
   KernelSettings kernels;
   kernels.localizer = "visual_slam";
   kernels.localizer_parameters = {{"weak_corner", weak_corner}};
-  const auto localizer = std::move(make_localizer(kernels).value());
+  const auto localizer = std::move(make_kernel<Localizer>(kernels).value());
   localizer->start({});
   localizer->place(X_WB);
   for (const VisualFrame& frame : frames) {

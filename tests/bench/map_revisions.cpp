@@ -26,8 +26,11 @@ std::unique_ptr<Mapper> made(const RevisedMapper& kind) {
   if (kind.front_end != nullptr) {
     given["front_end"] = std::string{kind.front_end};
   }
-  mapper->configure(
-      std::get<Parameters>(Parameters::resolve("mapper", mapper->parameters(), given)));
+  const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
+  if (!mapper->configure(std::get<Parameters>(chosen), no_models)) {
+    std::fprintf(stderr, "mapper %s refuses its parameters\n", kind.mapper);
+    std::exit(2);
+  }
   return mapper;
 }
 

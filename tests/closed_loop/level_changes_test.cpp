@@ -104,9 +104,9 @@ class Accompanied final : public Mapper {
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
     return flown_->parameters();
   }
-  void configure(const Parameters& chosen) override {
-    flown_->configure(chosen);
-    fine_->configure(chosen);
+  Status configure(const Parameters& chosen, const FindModel& find_model) override {
+    const Status flown = flown_->configure(chosen, find_model);
+    return flown ? fine_->configure(chosen, find_model) : flown;
   }
   [[nodiscard]] std::vector<double> resolutions_m() const override {
     return flown_->resolutions_m();

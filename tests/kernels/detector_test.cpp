@@ -20,7 +20,7 @@ std::unique_ptr<Detector> make(const std::string& name) {
 
 Status start(Detector& detector, const std::map<std::string, ParameterValue>& given = {}) {
   const auto chosen = Parameters::resolve("detector", detector.parameters(), given);
-  return detector.start(std::get<Parameters>(chosen), find_test_model);
+  return detector.configure(std::get<Parameters>(chosen), find_test_model);
 }
 
 /// Grey, darker towards the bottom: nobody is in it.

@@ -99,12 +99,15 @@ TEST(FlyballLayers, come_back_from_a_file) {
 
 TEST(FlyballLayers, refuse_what_only_one_lattice_can_do) {
   for (const std::string name : {"keep_radius_m", "most_traversals"}) {
-    const auto mapper =
-        kit::made_mapper("flyball", {{"layers", std::string{"stock"}}, {name, 40.0}});
-    const auto work =
-        mapper->prepare(kit::wall_scan(3.0F), kit::looking_along_x(), {0.15, range_m});
-    ASSERT_FALSE(work.ok());
-    EXPECT_NE(work.error().message.find(name), std::string::npos) << work.error().message;
+    Registry registry;
+    register_kernels(registry);
+    const auto mapper = registry.make<Mapper>("flyball");
+    const auto chosen = Parameters::resolve("flyball", mapper->parameters(),
+                                            {{"layers", std::string{"stock"}}, {name, 40.0}});
+    const Status configured = mapper->configure(std::get<Parameters>(chosen), no_models);
+    ASSERT_FALSE(configured.ok());
+    EXPECT_NE(configured.error().message.find(name), std::string::npos)
+        << configured.error().message;
   }
 }
 

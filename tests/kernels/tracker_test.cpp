@@ -53,7 +53,7 @@ class Kcf : public testing::Test {
     tracker = registry.make<Tracker>("kcf");
     ASSERT_NE(tracker, nullptr);
     const auto chosen = Parameters::resolve("kcf", tracker->parameters(), {});
-    tracker->configure(std::get<Parameters>(chosen));
+    EXPECT_TRUE(tracker->configure(std::get<Parameters>(chosen), no_models));
   }
 
   /// What it says to a square that moves, shown what it asks for, or everything.

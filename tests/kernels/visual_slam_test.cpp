@@ -146,7 +146,7 @@ double features_with(const std::map<std::string, ParameterValue>& given) {
   register_kernels(registry);
   const auto localizer = registry.make<Localizer>("visual_slam");
   const auto chosen = Parameters::resolve("visual_slam", localizer->parameters(), given);
-  localizer->configure(std::get<Parameters>(chosen));
+  EXPECT_TRUE(localizer->configure(std::get<Parameters>(chosen), no_models));
   localizer->start({});
   localizer->place(kit::circle_pose(0.0));
   Work work;

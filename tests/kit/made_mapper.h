@@ -23,7 +23,7 @@ inline std::unique_ptr<Mapper> made_mapper(
   register_kernels(registry);
   auto mapper = registry.make<Mapper>(name);
   const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
-  mapper->configure(std::get<Parameters>(chosen));
+  EXPECT_TRUE(mapper->configure(std::get<Parameters>(chosen), no_models));
   return mapper;
 }
 

@@ -49,7 +49,7 @@ struct MissionRig {
       : scenario{std::move(chosen)} {
     MissionEquipment equipment;
     equipment.body = {0.325, 0.1};
-    equipment.knobs = KnobSettings{standard_knobs(scenario, platform)};
+    equipment.knobs = KnobSettings{standard_knobs(scenario, platform).value()};
     auto grid_mapper = std::make_unique<GridMapper>(map);
     mapper = grid_mapper.get();
     equipment.kernels.mapper = std::move(grid_mapper);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/knob.h"
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +55,51 @@ TEST(KnobSpec, knows_what_is_legal) {
     EXPECT_FALSE(knob.is_legal(std::numeric_limits<double>::quiet_NaN()));
     EXPECT_FALSE(knob.is_legal(std::numeric_limits<double>::infinity()));
   }
+}
+
+/// What is wrong with the declaration; empty: nothing.
+template <class Change>
+std::string fault(KnobSpec spec, Change&& change) {
+  spec.unit = spec.owner = spec.description = "m";
+  if (!spec.legal.empty()) {
+    spec.min = spec.legal.front();
+    spec.max = spec.legal.back();
+  }
+  change(spec);
+  const Status status = check_declaration(spec);
+  return status ? "" : status.error().message;
+}
+
+TEST(KnobSpec, a_sound_declaration_passes) {
+  EXPECT_EQ(fault(resolution(), [](KnobSpec&) {}), "");
+  EXPECT_EQ(fault(range(), [](KnobSpec&) {}), "");
+  EXPECT_EQ(fault(resolution(), [](KnobSpec& k) { k.labels = {"a", "b", "c"}; }), "");
+}
+
+TEST(KnobSpec, a_declaration_that_is_wrong_is_refused_with_the_reason) {
+  const auto says = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  for (const char* name : {"", "range", ".range", "map."}) {
+    says(fault(range(), [name](KnobSpec& k) { k.name = name; }), "a name of two parts");
+  }
+  says(fault(range(), [](KnobSpec& k) { k.description = ""; }), "a description");
+  says(fault(range(), [](KnobSpec& k) { k.min = 30.0; }), "finite limits");
+  says(fault(range(), [](KnobSpec& k) { k.max = std::nan(""); }), "finite limits");
+  says(fault(resolution(), [](KnobSpec& k) { k.legal = {0.3, 0.15, 0.6}; }), "ascending");
+  says(fault(resolution(), [](KnobSpec& k) { k.legal.push_back(9.0); }), "within them");
+  says(fault(range(), [](KnobSpec& k) { k.fallback = 1.0; }), "cannot be 1 m at first");
+  says(fault(resolution(), [](KnobSpec& k) { k.labels = {"a"}; }), "1 labels for 3 legal values");
+}
+
+TEST(KnobSettings, name_what_a_value_stands_for) {
+  KnobSpec kind = resolution();
+  kind.labels = {"fine", "medium", "coarse"};
+  KnobSettings knobs{{kind}};
+  const Status set = knobs.set(kind.name, 7.0);
+  ASSERT_FALSE(set.ok());
+  EXPECT_NE(set.error().message.find("0.15 (fine), 0.3 (medium)"), std::string::npos)
+      << set.error().message;
 }
 
 TEST(KnobSettings, start_at_their_defaults_and_keep_what_is_set) {

@@ -53,7 +53,7 @@ class LatticeMapper final : public Mapper {
     };
   }
 
-  void configure(const Parameters& chosen) override {
+  Status configure(const Parameters& chosen, const FindModel& /*find_model*/) override {
     const std::string& front_end = chosen.text("front_end");
     front_end_ = front_end == "exact"  ? FrontEnd::exact
                  : front_end == "rays" ? FrontEnd::rays
@@ -62,6 +62,7 @@ class LatticeMapper final : public Mapper {
     most_traversals_ = chosen.number("most_traversals");
     keep_radius_m_ = chosen.number("keep_radius_m");
     begin(chosen.number("finest_m"));
+    return Done{};
   }
 
   [[nodiscard]] std::vector<double> resolutions_m() const override {

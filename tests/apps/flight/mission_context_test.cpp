@@ -32,7 +32,7 @@ TEST(MissionContext, the_slowest_zone_and_the_knob_limit_the_speed) {
   MissionBrief brief;
   brief.zones = {{{Vec3{0, 0, 0}, Vec3{2, 2, 2}}, 3.0}, {{Vec3{1, 0, 0}, Vec3{2, 2, 2}}, 1.0}};
   MissionEquipment equipment;
-  equipment.knobs = KnobSettings{standard_knobs(rig.scenario, rig.platform)};
+  equipment.knobs = KnobSettings{standard_knobs(rig.scenario, rig.platform).value()};
   MemoryRecorder trace;
   const MissionContext context{flight_settings(rig.scenario), rig.platform, trace, brief,
                                std::move(equipment)};

@@ -13,7 +13,7 @@ namespace {
 class Blind final : public flyball::Detector {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override { return {}; }
-  flyball::Status start(const flyball::Parameters&, const flyball::FindModel&) override {
+  flyball::Status configure(const flyball::Parameters&, const flyball::FindModel&) override {
     return flyball::Done{};
   }
   flyball::Result<std::vector<flyball::Detection>> detect(const flyball::ColourImage&,

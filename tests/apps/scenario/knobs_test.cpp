@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/scenario/knobs.h"
 
+#include "flyball/kernels/collision_check.h"
+#include "flyball/runtime/decision.h"
+#include "flyball/scenario/plugins.h"
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -14,38 +18,119 @@ ModeledPlatform two_clocks() {
   return ModeledPlatform{model};
 }
 
-TEST(StandardKnobs, every_default_is_legal_for_the_default_scenario) {
-  const ModeledPlatform platform = two_clocks();
+Scenario one_gigahertz() {
   Scenario scenario;
   scenario.platform.cores = 2;
   scenario.platform.frequency_hz = 1e9;
-  for (const auto& spec : standard_knobs(scenario, platform)) {
-    EXPECT_TRUE(spec.is_legal(spec.fallback)) << spec.name << " = " << spec.fallback;
-    EXPECT_FALSE(spec.description.empty()) << spec.name;
-    EXPECT_FALSE(spec.unit.empty()) << spec.name;
+  return scenario;
+}
+
+std::string refusal(const Scenario& scenario) {
+  const auto knobs = standard_knobs(scenario, two_clocks());
+  return knobs ? "" : knobs.error().message;
+}
+
+TEST(StandardKnobs, every_default_is_legal_for_the_default_scenario) {
+  const auto knobs = standard_knobs(one_gigahertz(), two_clocks());
+  ASSERT_TRUE(knobs.ok()) << knobs.error().message;
+  EXPECT_LE(knobs->size(), Decision::capacity);
+  for (const auto& spec : *knobs) {
+    EXPECT_TRUE(check_declaration(spec)) << check_declaration(spec).error().message;
   }
 }
 
 TEST(StandardKnobs, clocks_and_cores_are_the_platforms) {
-  const ModeledPlatform platform = two_clocks();
-  Scenario scenario;
-  scenario.platform.cores = 3;
-  scenario.platform.frequency_hz = 2e9;
-  const KnobSettings knobs{standard_knobs(scenario, platform)};
+  const KnobSettings knobs{standard_knobs(one_gigahertz(), two_clocks()).value()};
   EXPECT_EQ(knobs.spec("cpu.frequency_hz")->legal, (std::vector<double>{1e9, 2e9}));
   EXPECT_EQ(knobs.spec("cpu.cores")->legal, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(knobs.value("cpu.cores"), 2.0);
+}
+
+TEST(StandardKnobs, a_platform_that_lacks_the_clock_or_the_cores_is_refused) {
+  Scenario scenario = one_gigahertz();
+  scenario.platform.cores = 9;
+  EXPECT_NE(refusal(scenario).find("cpu.cores"), std::string::npos) << refusal(scenario);
+}
+
+TEST(StandardKnobs, begin_with_what_the_scenario_says) {
+  Scenario scenario = one_gigahertz();
+  scenario.map = {0.6, 5.0, 12.0};
+  scenario.planner.budget = 700;
+  scenario.detector.scale = 2.0;
+  scenario.mission.max_speed_m_s = 3.0;
+  const KnobSettings knobs{standard_knobs(scenario, two_clocks()).value()};
+  EXPECT_EQ(knobs.value("map.resolution_m"), 0.6);
+  EXPECT_EQ(knobs.value("map.range_m"), 5.0);
+  EXPECT_EQ(knobs.value("map.rate_hz"), 12.0);
+  EXPECT_EQ(knobs.value("planner.budget"), 700.0);
+  EXPECT_EQ(knobs.value("detector.scale"), 2.0);
+  EXPECT_EQ(knobs.value("mission.max_speed_m_s"), 3.0);
 }
 
 TEST(StandardKnobs, a_mapper_may_have_levels_of_its_own) {
-  const ModeledPlatform platform = two_clocks();
-  Scenario scenario;
-  scenario.platform.cores = 2;
-  scenario.platform.frequency_hz = 1e9;
-  const KnobSettings knobs{standard_knobs(scenario, platform, {0.15, 0.3, 0.6})};
+  Scenario scenario = one_gigahertz();
+  const KnobSettings any{standard_knobs(scenario, two_clocks()).value()};
+  EXPECT_TRUE(any.spec("map.resolution_m")->legal.empty()) << "stock takes any";
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters["finest_m"] = 0.075;
+  const KnobSettings knobs{standard_knobs(scenario, two_clocks()).value()};
   const KnobSpec& spec = *knobs.spec("map.resolution_m");
-  EXPECT_EQ(spec.legal, (std::vector<double>{0.15, 0.3, 0.6}));
+  EXPECT_EQ(spec.legal, (std::vector<double>{0.075, 0.15, 0.3, 0.6}));
   EXPECT_EQ(spec.nearest(0.8), 0.6);
-  EXPECT_TRUE(standard_knobs(scenario, platform).front().legal.empty()) << "stock takes any";
+}
+
+/// A collision check with a parameter and a knob of its own, or with knobs that cannot be.
+class KnobbyCheck final : public CollisionChecker {
+ public:
+  [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
+    return {{"first_m", 0.5, 0.0, 10.0, "First value of the knob."},
+            {"copies", 1.0, 1.0, 20.0, "How many knobs."},
+            {"name", std::string{"knobby.margin_m"}, 0.0, 0.0, "Of the knob."}};
+  }
+  Status configure(const Parameters& chosen, const FindModel&) override {
+    const double first_m = chosen.number("first_m");
+    for (int i = 0; i < chosen.number("copies"); ++i) {
+      const std::string name = chosen.text("name") + (i == 0 ? "" : std::to_string(i));
+      knobs_.push_back({name, "m", "check", {}, 0.0, 1.0, first_m, {}, "kept from obstacles"});
+    }
+    return Done{};
+  }
+  [[nodiscard]] std::vector<KnobSpec> knobs() const override { return knobs_; }
+  PathCheck check(const OccupancyView&, const PathSpan&, const Cylinder&, Work&) override {
+    return {};
+  }
+
+ private:
+  std::vector<KnobSpec> knobs_{};
+};
+
+class OwnKnobs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    add_plugins([](Registry& all) {
+      all.add<CollisionChecker>("knobby", [] { return std::make_unique<KnobbyCheck>(); });
+    });
+  }
+  static Scenario with(const std::string& parameter, ParameterValue value) {
+    Scenario scenario = one_gigahertz();
+    scenario.kernels.collision_check = "knobby";
+    scenario.kernels.collision_check_parameters = {{parameter, std::move(value)}};
+    return scenario;
+  }
+};
+
+TEST_F(OwnKnobs, of_a_kernel_are_the_missions) {
+  const KnobSettings knobs{standard_knobs(with("first_m", 0.25), two_clocks()).value()};
+  EXPECT_EQ(knobs.value("knobby.margin_m"), 0.25) << "as its parameter says";
+}
+
+TEST_F(OwnKnobs, that_cannot_be_are_refused_in_one_sentence) {
+  EXPECT_NE(refusal(with("first_m", 5.0))
+                .find("collision_check \"knobby\": knob "
+                      "\"knobby.margin_m\" cannot be 5 m at first"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("name", "map.range_m")).find("is there already"), std::string::npos);
+  EXPECT_NE(refusal(with("copies", 20.0)).find("a decision holds 16"), std::string::npos);
 }
 
 }  // namespace

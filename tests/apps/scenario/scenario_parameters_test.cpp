@@ -2,6 +2,9 @@
 
 #include "scenario/scenario_parameters.h"
 
+#include "flyball/kernels/localizer.h"
+
+#include "scenario/kernel_choice.h"
 #include "scratch_folder.h"
 #include <algorithm>
 
@@ -107,7 +110,7 @@ TEST(ScenarioParameters, a_localizer_has_its_own_too) {
   const KernelSettings& kernels = std::get<LoadedScenario>(result).scenario.kernels;
   EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("weak_corner")), 7.0);
   EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("strong_corner")), 5.0);
-  EXPECT_TRUE(make_localizer(kernels));
+  EXPECT_TRUE(make_kernel<Localizer>(kernels));
   EXPECT_EQ(said("", {slam[0], "kernels.localizer_parameters.weak_corner=0"}),
             "localizer \"visual_slam\", weak_corner: 0 is not within 1 to 100\n");
 }
@@ -144,6 +147,36 @@ TEST(ScenarioParameters, without_cost_of_a_mapper_is_charged_under_its_own_name)
   EXPECT_EQ(mapper_cost(kernels), "flyball");
   kernels.mapper_parameters["cost_of"] = std::string{"octomap"};
   EXPECT_EQ(mapper_cost(kernels), "octomap");
+}
+
+TEST(ScenarioParameters, are_those_of_every_family) {
+  const auto result = loaded("[kernels]\nplanner = \"rrt\"\nplanner_parameters.goal_bias = 0.2\n",
+                             {"kernels.path_tracker_parameters.position_gain_1_s=1.5",
+                              "kernels.tracker_parameters.threshold=0.4"});
+  ASSERT_TRUE(std::holds_alternative<LoadedScenario>(result));
+  const Scenario& scenario = std::get<LoadedScenario>(result).scenario;
+  EXPECT_EQ(std::get<double>(scenario.kernels.planner_parameters.at("goal_bias")), 0.2);
+  EXPECT_EQ(std::get<double>(scenario.kernels.path_tracker_parameters.at("position_gain_1_s")),
+            1.5);
+  EXPECT_EQ(std::get<double>(scenario.kernels.tracker_parameters.at("threshold")), 0.4);
+  EXPECT_EQ(family_choices().size(), 11U);
+}
+
+TEST(ScenarioParameters, make_every_kernel_of_every_family) {
+  for (const FamilyChoice& family : family_choices()) {
+    for (const std::string& name : family.names()) {
+      KernelSettings kernels;
+      kernels.*family.kernel = name;
+      const auto kernel = make_kernel(family, kernels, model_finder({}));
+      // What a machine lacks is said, and nothing else is wrong with the defaults.
+      EXPECT_TRUE(kernel || kernel.error().code == ErrorCode::not_found)
+          << family.owner(kernels) << ": " << kernel.error().message;
+      (kernels.*family.parameters)["no_such"] = 1.0;
+      const auto refused = make_kernel(family, kernels, no_models);
+      ASSERT_FALSE(refused.ok());
+      EXPECT_NE(refused.error().message.find(family.owner(kernels)), std::string::npos);
+    }
+  }
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/simulation/mission.h"
 
-#include "scenario/scenario_parameters.h"
+#include "scenario/kernel_choice.h"
 #include "short_delivery.h"
 #include "simulation/closed_loop.h"
 #include "simulation/mission_setup.h"
@@ -73,7 +73,7 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   const DepthFrame frame = camera.frame(X_WC, MissionTime{}, 0);
   Work points;
   const auto cloud = ground.context->kernels.point_cloud->build(frame, 7.0, points);
-  const auto mapper = make_mapper(scenario.kernels);
+  const auto mapper = make_kernel<Mapper>(scenario.kernels);
   const auto work = (*mapper)->prepare(cloud.cloud_C.value(), X_WC, {0.15, 7.0});
   ASSERT_TRUE(work.ok());
   const Platform& computer = *ground.setup.platform;

@@ -22,8 +22,8 @@ std::unique_ptr<Mapper> make(const std::string& name,
   Registry registry;
   register_kernels(registry);
   auto mapper = registry.make<Mapper>(name);
-  mapper->configure(
-      std::get<Parameters>(Parameters::resolve("mapper", mapper->parameters(), given)));
+  const auto chosen = Parameters::resolve("mapper", mapper->parameters(), given);
+  EXPECT_TRUE(mapper->configure(std::get<Parameters>(chosen), no_models));
   return mapper;
 }
 

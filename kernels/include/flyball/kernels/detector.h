@@ -6,12 +6,9 @@
 
 #include "flyball/runtime/colour_image.h"
 #include "flyball/runtime/kernel.h"
-#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
-#include <functional>
-#include <string>
 #include <vector>
 
 namespace flyball {
@@ -21,19 +18,20 @@ struct Detection {
   double score{};  ///< Higher is surer; its range is the detector's own.
 };
 
-/// Where a file lies that a detector needs and that does not come with the program (weights).
-using FindModel = std::function<Result<std::string>(const std::string& file)>;
-
 class Detector : public Kernel {
  public:
-  /// Settings of this implementation that stay for the mission, unlike the knob `detector.scale`.
-  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
-  /// Once, before the first `detect`.
-  ///
-  /// @param chosen  Resolved from `parameters()`.
-  /// @error         `not_found` for a file that is missing, `invalid_input` for one that is not
-  ///                what it should be: the detector must not be used then.
-  [[nodiscard]] virtual Status start(const Parameters& chosen, const FindModel& find_model) = 0;
+  /// The size of the image in which people are looked for.
+  [[nodiscard]] std::vector<KnobSpec> knobs() const override {
+    return {{"detector.scale",
+             "1",
+             "detect",
+             {},
+             0.25,
+             4.0,
+             1.0,
+             {},
+             "size of the image in which people are looked for, over the camera's"}};
+  }
   /// People in the image, surest first; none is a result too.
   ///
   /// @param scale  The image is resized by it before anything is looked for: smaller is cheaper,

@@ -8,7 +8,6 @@
 #include "flyball/runtime/imu.h"
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/messages.h"
-#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
@@ -34,10 +33,7 @@ struct LocalizerInputs {
 /// then on.
 class Localizer : public Kernel {
  public:
-  /// Settings of this implementation that stay for the mission.
-  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
-  /// Before `start`. @param chosen  Resolved from `parameters()`.
-  virtual void configure([[maybe_unused]] const Parameters& chosen) {}
+  /// Once it is configured: where W lies. What was estimated before is forgotten.
   virtual void start(const GeodeticOrigin& origin) = 0;
   /// Samples arrive in order of their stamps. Adds `samples` to `work`.
   [[nodiscard]] virtual PoseEstimate estimate(const NavigationSample& sample, Work& work) = 0;

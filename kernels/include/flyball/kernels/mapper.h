@@ -7,7 +7,6 @@
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/messages.h"
 #include "flyball/runtime/occupancy.h"
-#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
@@ -44,18 +43,45 @@ struct MapContents {
   std::size_t bytes{};  ///< Of the store of cells, without work space.
 };
 
+/// @param resolutions_m  That a mapper maps at, ascending; empty: any.
+[[nodiscard]] inline KnobSpec resolution_knob(const std::vector<double>& resolutions_m) {
+  KnobSpec spec{"map.resolution_m",
+                "m",
+                "map",
+                resolutions_m,
+                0.05,
+                2.0,
+                0.15,
+                {},
+                "cell size at which depth is integrated"};
+  if (!resolutions_m.empty()) {
+    spec.min = resolutions_m.front();
+    spec.max = resolutions_m.back();
+    spec.fallback = spec.nearest(spec.fallback);
+  }
+  return spec;
+}
+
 /// Insertion is split in two, because on the modeled computer a map is computed when its job starts
 /// and becomes visible when the job ends.
 class Mapper : public Kernel {
  public:
-  /// Settings of this implementation that stay for the mission, unlike knobs.
-  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
-  /// Before the first `prepare`; without it every parameter has its default.
-  ///
-  /// @pre `chosen` was resolved from `parameters()`.
-  virtual void configure([[maybe_unused]] const Parameters& chosen) {}
   /// Resolutions that this implementation maps at, ascending, once it is configured; empty: any.
   [[nodiscard]] virtual std::vector<double> resolutions_m() const { return {}; }
+  /// At which resolution, how far and how often depth is integrated.
+  [[nodiscard]] std::vector<KnobSpec> knobs() const override {
+    return {resolution_knob(resolutions_m()),
+            {"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, {}, "how far depth is integrated"},
+            {"map.rate_hz",
+             "Hz",
+             "points",
+             {},
+             0.5,
+             60.0,
+             20.0,
+             {},
+             "frames integrated a second, at most"}};
+  }
 
   /// Computes what a scan changes; the visible map stays as it is. Replaces an earlier `prepare`
   /// that was not committed.

@@ -47,6 +47,18 @@ struct Plan {
 
 class PathPlanner : public Kernel {
  public:
+  /// How much one plan may cost: `PlanRequest::max_iterations`.
+  [[nodiscard]] std::vector<KnobSpec> knobs() const override {
+    return {{"planner.budget",
+             "iterations",
+             "plan",
+             {},
+             100.0,
+             1e6,
+             4000.0,
+             {},
+             "iterations that one plan may take"}};
+  }
   /// Unknown space may be crossed, occupied cubes may not. Same request and map, same plan.
   [[nodiscard]] virtual Plan plan(const PlanRequest& request, const OccupancyView& map) = 0;
 };

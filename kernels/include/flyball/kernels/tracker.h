@@ -6,7 +6,6 @@
 
 #include "flyball/runtime/colour_image.h"
 #include "flyball/runtime/kernel.h"
-#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
@@ -17,11 +16,6 @@ namespace flyball {
 
 class Tracker : public Kernel {
  public:
-  /// Settings of this implementation that stay for the mission.
-  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
-  /// Before the first `begin`. @pre `chosen` was resolved from `parameters()`.
-  virtual void configure([[maybe_unused]] const Parameters& chosen) {}
-
   /// The pixels that `begin` needs to learn what is in the box: those that it reads at most.
   [[nodiscard]] virtual PixelRegion learns_from([[maybe_unused]] const ImageBox& box,
                                                 const Intrinsics& camera) const {

@@ -27,11 +27,20 @@ struct KnobSpec {
   std::string description{};
   /// Keeps its value at least this long; empty: as long as the governor says.
   std::optional<Duration> min_dwell{};
+  /// What each of `legal` stands for, where values are numbers of things: `hog`, `haar`.
+  std::vector<std::string> labels{};
 
   /// The legal value nearest to `wish`, the smaller of two equally near. @pre `wish` is finite.
   [[nodiscard]] double nearest(double wish) const;
   [[nodiscard]] bool is_legal(double value) const;
 };
+
+/// Whether a knob is declared as it must be: a name with a dot, unit, owner and description; finite
+/// limits, legal values in ascending order within them, a legal default, a label for each legal
+/// value or none.
+///
+/// @error `invalid_input`, with the first thing that is wrong.
+[[nodiscard]] Status check_declaration(const KnobSpec& spec);
 
 /// Values by knob name, kept for the specs that it was made from.
 class KnobSettings {

@@ -45,7 +45,6 @@ TEST(Plausible, leaves_out_whatever_has_not_the_size_of_a_person_where_it_stands
 class ByteDetector final : public Detector {
  public:
   explicit ByteDetector(std::uint8_t last = 255) : last_{last} {}
-  Status start(const Parameters&, const FindModel&) override { return Done{}; }
   Result<std::vector<Detection>> detect(const ColourImage& image, double, Work& work) override {
     work.add("images", 1.0);
     if (image.rgb.front() > last_) {

@@ -27,21 +27,32 @@ struct MissionSettings {
       3.0};  ///< A path that ends farther from the goal is replanned (MAVBench).
 };
 
+/// Parameters of one kernel, as it declares them.
+using ParameterValues = std::map<std::string, ParameterValue>;
+
 struct KernelSettings {
   std::string point_cloud{"depth_to_points"};
+  ParameterValues point_cloud_parameters{};
   std::string mapper{"octomap"};
-  std::map<std::string, ParameterValue> mapper_parameters{};  ///< As the mapper declares them.
+  ParameterValues mapper_parameters{};
   std::string collision_check{"swept_cylinder"};
+  ParameterValues collision_check_parameters{};
   std::string planner{"rrt_connect"};
+  ParameterValues planner_parameters{};
   std::string smoother{"minimum_snap"};
+  ParameterValues smoother_parameters{};
   std::string path_tracker{"feedforward_pd"};
+  ParameterValues path_tracker_parameters{};
   std::string localizer{"truth"};
-  std::map<std::string, ParameterValue> localizer_parameters{};  ///< As the localizer declares.
+  ParameterValues localizer_parameters{};
   std::string coverage{"lawnmower"};
+  ParameterValues coverage_parameters{};
   std::string explorer{"nbvp"};
+  ParameterValues explorer_parameters{};
   std::string detector{"hog"};
-  std::map<std::string, ParameterValue> detector_parameters{};  ///< As the detector declares them.
+  ParameterValues detector_parameters{};
   std::string tracker{"kcf"};
+  ParameterValues tracker_parameters{};
   bool slam_load{
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The knobs that every workload of this project has.
+/// The knobs of a mission: those that its kernels declare, and those of mission and platform.
 
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/platform.h"
@@ -10,11 +10,13 @@
 
 namespace flyball {
 
-/// Defaults are the scenario's values; legal clocks and cores are the platform's.
+/// Those of all eleven kernels that the scenario names, in the order in which data passes through
+/// them, then speed, cores and clock. A knob whose name is a setting of the scenario begins with
+/// that setting's value; clocks and cores are the platform's.
 ///
-/// @param resolutions_m  Those that the mapper maps at, ascending; empty: all.
-[[nodiscard]] std::vector<KnobSpec> standard_knobs(const Scenario& scenario,
-                                                   const Platform& platform,
-                                                   const std::vector<double>& resolutions_m = {});
+/// @error `not_found` or `invalid_input`: a kernel that is not there, a parameter of one that is
+///        wrong, two knobs of one name, a knob whose first value is not legal, or too many of them.
+[[nodiscard]] Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario,
+                                                           const Platform& platform);
 
 }  // namespace flyball
