@@ -3,7 +3,11 @@
 
 #include "scenario/scenario_reader.h"
 
+#include "flyball/runtime/toml_text.h"
+
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -91,8 +95,12 @@ std::string trimmed(const std::string& text) {
 
 /// One value on the right of `=`; the parser reads it as the only line of a file.
 std::optional<GivenValue> toml_scalar(const std::string& text) {
+  const std::string line = "value = " + text;
+  if (fault_of_toml(line)) {
+    return std::nullopt;
+  }
   try {
-    const toml::table table = toml::parse("value = " + text);
+    const toml::table table = toml::parse(line);
     const toml::node* node = table.get("value");
     return table.size() == 1 && node != nullptr ? scalar(*node, "--set") : std::nullopt;
   } catch (const toml::parse_error&) {
@@ -105,12 +113,21 @@ std::optional<GivenValue> toml_scalar(const std::string& text) {
 ScenarioText read_scenario_file(const std::string& path) {
   const std::string file = std::filesystem::path{path}.filename().string();
   ScenarioText read;
-  try {
-    flatten(toml::parse_file(path), "", file, read);
-  } catch (const toml::parse_error& broken) {
+  const auto complain = [&read, &file](std::uint64_t line, std::string_view what) {
     read.errors.push_back(
-        {ErrorCode::invalid_input, file + ":" + std::to_string(broken.source().begin.line) +
-                                       ": this is not TOML: " + std::string{broken.description()}});
+        {ErrorCode::invalid_input,
+         file + ":" + std::to_string(line) + ": this is not TOML: " + std::string{what}});
+  };
+  std::ifstream in{path};
+  const std::string content{std::istreambuf_iterator<char>{in}, {}};
+  if (const auto fault = fault_of_toml(content)) {
+    complain(static_cast<std::uint64_t>(fault->line), fault->what);
+    return read;
+  }
+  try {
+    flatten(toml::parse(content), "", file, read);
+  } catch (const toml::parse_error& broken) {
+    complain(broken.source().begin.line, broken.description());
   }
   return read;
 }

@@ -2,6 +2,7 @@
 // tested-in: replay
 
 #include "flyball/flight/governing/choice_text.h"
+#include "flyball/governors/policy_period.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/studies/replay.h"
 
@@ -63,6 +64,9 @@ void take_row(const Json& row, RecordedFlight& flight) {
     flight.choices[time_of(row)] = what;
   } else if (channel == "governor") {
     flight.period = seconds_in(row, "period_s");
+    if (const auto fault = fault_of_period(to_seconds(flight.period)); fault[0] != '\0') {
+      throw std::out_of_range{fault.data()};
+    }
   } else if (channel == "mission") {
     flight.version = row.at("version").get<std::string>();
   }
@@ -85,6 +89,14 @@ Status read_trace(const std::string& path, RecordedFlight& flight) {
                                                  ": is no row of a trace (" + error.what() +
                                                  "); fly the mission again"};
     }
+  }
+  // Rows come at 10 Hz at least. A time that was damaged would make a flight of days, each of whose
+  // decisions is made again.
+  constexpr Duration widest_gap = std::chrono::seconds{1};
+  if (flight.end.time_since_epoch() / widest_gap > static_cast<Duration::rep>(number)) {
+    return Error{ErrorCode::invalid_input,
+                 path + ": " + std::to_string(number) + " rows cannot be a flight of " +
+                     std::to_string(to_seconds(flight.end)) + " s; fly the mission again"};
   }
   if (flight.period <= Duration::zero() || flight.choices.empty()) {
     return Error{ErrorCode::invalid_input,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/preset.h"
 
+#include "flyball/runtime/toml_text.h"
+
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -119,6 +121,10 @@ Result<Preset> load_preset(const std::string& path) {
   const auto text = content_of(path);
   if (!text) {
     return Error{ErrorCode::not_found, "no preset file " + path + "; try: flyball list policies"};
+  }
+  if (const auto fault = fault_of_toml(*text)) {
+    return Error{ErrorCode::invalid_input,
+                 path + ":" + std::to_string(fault->line) + ": " + fault->what};
   }
   try {
     return Reader{path}.read(toml::parse(*text));

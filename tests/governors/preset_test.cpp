@@ -96,6 +96,12 @@ TEST_F(Preset, says_where_a_file_is_not_toml) {
   EXPECT_EQ(0U, preset.error().message.find(path_ + ":3: ")) << preset.error().message;
 }
 
+TEST_F(Preset, says_where_a_file_is_what_its_parser_must_not_see) {
+  const auto preset = load("policy = 'fixed'\n[parameters]\nm\xcc\x9e = 1\n");
+  ASSERT_FALSE(preset.ok());
+  EXPECT_EQ(preset.error().message, path_ + ":3: letters outside of ASCII must stand in quotes");
+}
+
 TEST_F(Preset, is_not_found_where_no_file_is) {
   for (const std::string& path : {path_ + ".missing", scratch_.path()}) {
     const auto preset = flyball::load_preset(path);

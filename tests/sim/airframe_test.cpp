@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -105,6 +106,34 @@ TEST(Airframe, impossible_values_are_refused_with_both_sides_of_the_inequality) 
   const auto short_list = load_altered("[0.252, 0.190, 0.131]", "[0.252, 0.190]");
   ASSERT_FALSE(short_list.ok());
   EXPECT_NE(short_list.error().message.find("a list of 3 numbers"), std::string::npos);
+}
+
+TEST(Airframe, values_beyond_any_vehicle_are_refused_before_they_overflow) {
+  const std::pair<const char*, const char*> damages[] = {
+      {"battery_cells = 6", "battery_cells = 4294967302"},  // 6, cut to 32 bits
+      {"battery_cells = 6", "battery_cells = -9223372036854775808"},
+      {"drag_area_m2 = ", "drag_area_m2 = inf # "},
+      {"drag_area_m2 = ", "drag_area_m2 = 1e300 # "},
+      {"arm_m = 0.325", "arm_m = 1e200"},
+      {"mass_kg = 2.431", "mass_kg = nan"},
+      {"[0.252, 0.190, 0.131]", "[0.252, 1e200, 0.131]"},
+      {"[0.252, 0.190, 0.131]", "[0.252, nan, 0.131]"},
+      {"power_b = [-2.595", "power_b = [nan"},
+      {"power_b = [-2.595", "power_b = [-1e300"}};
+  for (const auto& [right, wrong] : damages) {
+    const auto loaded = load_altered(right, wrong);
+    ASSERT_FALSE(loaded.ok()) << wrong;
+    const std::string key{wrong, std::string{wrong}.find_first_of(" [")};
+    EXPECT_NE(loaded.error().message.find(key.empty() ? "body_size_m" : key), std::string::npos)
+        << loaded.error().message;
+  }
+}
+
+TEST(Airframe, a_text_that_its_parser_must_not_see_is_refused_with_its_line) {
+  const auto header = load_altered("name = \"matrice_100\"", "[=]");
+  ASSERT_FALSE(header.ok());
+  EXPECT_NE(header.error().message.find("line 4: the name of a table"), std::string::npos)
+      << header.error().message;
 }
 
 TEST(Airframe, a_missing_file_is_not_found_and_a_broken_one_names_its_line) {

@@ -100,6 +100,13 @@ TEST(PlatformFile, with_a_syntax_error_says_in_which_line) {
   EXPECT_NE(failure_of(with("max_cores = 2", "max_cores =")).find("line 3"), std::string::npos);
 }
 
+TEST(PlatformFile, with_a_text_that_its_parser_must_not_see_says_in_which_line) {
+  for (const char* text : {"max_cores = 2\xcc\x9e", "[.max_cores]"}) {
+    EXPECT_NE(failure_of(with("max_cores = 2", text)).find("line 3"), std::string::npos) << text;
+  }
+  EXPECT_EQ(load_platform("/dev/zero").error().code, ErrorCode::not_found);  // It never ends.
+}
+
 TEST(PlatformFile, refuses_a_kernel_that_would_cost_nothing) {
   EXPECT_NE(failure_of(with("updates = 1e-6", "")).find("names no work"), std::string::npos);
   EXPECT_NE(failure_of(with("scale = 2.0", "scale = 0.0")).find("must be positive"),

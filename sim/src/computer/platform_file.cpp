@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/platform_file.h"
 
+#include "flyball/runtime/toml_text.h"
+
 #include "computer/platform_table.h"
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <memory>
 #include <sstream>
 
 #include <toml++/toml.h>
@@ -145,6 +149,18 @@ PlatformModel read_model(const toml::table& file, std::vector<std::string>& prob
   return model;
 }
 
+/// @throw toml::parse_error
+toml::table parsed(const std::string& path) {
+  std::ifstream file{path};
+  const std::string content{std::istreambuf_iterator<char>{file}, {}};
+  if (const auto fault = fault_of_toml(content)) {
+    const auto line = static_cast<toml::source_index>(fault->line);
+    throw toml::parse_error{fault->what.c_str(), toml::source_position{line, 1},
+                            std::make_shared<const std::string>(path)};
+  }
+  return toml::parse(content, path);
+}
+
 /// The file that this one is like; empty when it stands alone.
 std::string base_path(const toml::table& file, const std::string& path) {
   const auto base = file["like"].value<std::string>();
@@ -158,7 +174,7 @@ toml::table completed(toml::table own, const std::string& path) {
   if (base.empty()) {
     return own;
   }
-  toml::table all = toml::parse_file(base);
+  toml::table all = parsed(base);
   const auto take_over = [](const toml::table& from, toml::table& into) {
     for (const auto& [key, node] : from) {
       into.insert_or_assign(key.str(), node);
@@ -184,13 +200,13 @@ std::string joined(const std::vector<std::string>& problems) {
 }  // namespace
 
 Result<PlatformModel> load_platform(const std::string& path) {
-  std::ifstream stream{path};
-  if (!stream) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed) || !std::ifstream{path}) {
     return Error{ErrorCode::not_found,
                  "no platform file \"" + path + "\"; try: flyball list platforms"};
   }
   try {
-    toml::table own = toml::parse(stream, path);
+    toml::table own = parsed(path);
     if (own.contains("like") && !std::filesystem::is_regular_file(base_path(own, path))) {
       return Error{ErrorCode::invalid_input,
                    "platform file \"" + path + "\" must be like another platform beside it, and " +
@@ -216,7 +232,7 @@ Result<PlatformModel> load_platform(const std::string& path) {
 std::vector<std::string> files_of_platform(const std::string& path) {
   std::vector<std::string> files{path};
   try {
-    const std::string base = base_path(toml::parse_file(path), path);
+    const std::string base = base_path(parsed(path), path);
     if (!base.empty()) {
       files.push_back(base);
     }

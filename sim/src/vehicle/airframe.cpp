@@ -2,9 +2,14 @@
 
 #include "flyball/sim/airframe.h"
 
+#include "flyball/runtime/toml_text.h"
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <fstream>
+#include <iterator>
+#include <limits>
 #include <set>
 
 #include <toml++/toml.h>
@@ -40,7 +45,10 @@ class Reader {
       return;
     }
     const auto number = node->value_exact<int64_t>();
-    number ? (void)(value = static_cast<int>(*number)) : complain(key, "an integer");
+    constexpr std::int64_t most = std::numeric_limits<int>::max();
+    number&& std::abs(static_cast<double>(*number)) <= static_cast<double>(most)
+        ? (void)(value = static_cast<int>(*number))
+        : complain(key, "an integer");
   }
 
   void read(const char* key, std::string& value) {
@@ -122,6 +130,42 @@ Airframe read(Reader& reader) {
   return a;
 }
 
+struct Limit {
+  const char* key;
+  double value;
+  double most;
+};
+
+// Far above any vehicle that somebody carries, far below what overflows in the equations of motion.
+constexpr double most_kg = 1000.0;
+constexpr double most_m = 100.0;
+constexpr double most_m2 = 100.0;
+constexpr double most_coefficient = 10.0;
+constexpr double most_rpm = 1e6;
+constexpr double most_lag_s = 10.0;
+constexpr double most_v = 1000.0;
+constexpr double most_ah = 1e4;
+constexpr double most_cells = 1000.0;
+constexpr double most_power_b = 1e6;
+
+std::vector<Limit> limits_of(const Airframe& a) {
+  return {{"mass_kg", a.mass_kg, most_kg},
+          {"arm_m", a.arm_m, most_m},
+          {"rotor_diameter_m", a.rotor_diameter_m, most_m},
+          {"thrust_coefficient", a.thrust_coefficient, most_coefficient},
+          {"power_coefficient", a.power_coefficient, most_coefficient},
+          {"max_rotor_rpm", a.max_rotor_rpm, most_rpm},
+          {"rotor_lag_s", a.rotor_lag_s, most_lag_s},
+          {"body_size_m", a.body_size_m.x(), most_m},
+          {"body_size_m", a.body_size_m.y(), most_m},
+          {"body_size_m", a.body_size_m.z(), most_m},
+          {"body_diameter_m", a.body_diameter_m, most_m},
+          {"body_height_m", a.body_height_m, most_m},
+          {"battery_v", a.battery_v, most_v},
+          {"battery_ah", a.battery_ah, most_ah},
+          {"battery_cells", static_cast<double>(a.battery_cells), most_cells}};
+}
+
 std::vector<std::string> physics_complaints(const Airframe& airframe) {
   std::vector<std::string> complaints;
   for (const Error& error : airframe.validate()) {
@@ -174,24 +218,16 @@ std::vector<Error> Airframe::validate() const {
       errors.push_back({ErrorCode::invalid_input, sentence});
     }
   };
-  // std::map: the sentences come in the same order everywhere.
-  const std::map<std::string, double> positive{{"mass_kg", mass_kg},
-                                               {"arm_m", arm_m},
-                                               {"rotor_diameter_m", rotor_diameter_m},
-                                               {"thrust_coefficient", thrust_coefficient},
-                                               {"power_coefficient", power_coefficient},
-                                               {"max_rotor_rpm", max_rotor_rpm},
-                                               {"rotor_lag_s", rotor_lag_s},
-                                               {"body_size_m", body_size_m.minCoeff()},
-                                               {"body_diameter_m", body_diameter_m},
-                                               {"body_height_m", body_height_m},
-                                               {"battery_v", battery_v},
-                                               {"battery_ah", battery_ah},
-                                               {"battery_cells", battery_cells}};
-  for (const auto& [key, value] : positive) {
-    require(std::isfinite(value) && value > 0.0, key + " = " + text(value) + " must be > 0");
+  for (const Limit& limit : limits_of(*this)) {
+    require(limit.value > 0.0 && limit.value <= limit.most,  // False for NaN.
+            std::string{limit.key} + " = " + text(limit.value) + " must be > 0 and at most " +
+                text(limit.most));
   }
-  require(drag_area_m2 >= 0.0, "drag_area_m2 = " + text(drag_area_m2) + " must be >= 0");
+  require(drag_area_m2 >= 0.0 && drag_area_m2 <= most_m2,
+          "drag_area_m2 = " + text(drag_area_m2) + " must be >= 0 and at most " + text(most_m2));
+  require(std::all_of(power_b.begin(), power_b.end(),
+                      [](double b) { return std::abs(b) <= most_power_b; }),
+          "power_b must hold numbers from " + text(-most_power_b) + " to " + text(most_power_b));
   require(rotor_mass_kg >= 0.0 && 4.0 * rotor_mass_kg < mass_kg,
           "four rotors of " + text(rotor_mass_kg) +
               " kg must weigh >= 0 and less than mass_kg = " + text(mass_kg));
@@ -209,7 +245,12 @@ Result<Airframe> load_airframe(const std::string& path) {
     return Error{ErrorCode::not_found, "no airframe file \"" + path + "\""};
   }
   try {
-    const toml::table table = toml::parse_file(path);
+    std::ifstream file{path};
+    const std::string content{std::istreambuf_iterator<char>{file}, {}};
+    if (const auto fault = fault_of_toml(content)) {
+      return all_of(path, {"line " + std::to_string(fault->line) + ": " + fault->what});
+    }
+    const toml::table table = toml::parse(content);
     Reader reader{table};
     Airframe airframe = read(reader);
     std::vector<std::string> complaints = reader.complaints();

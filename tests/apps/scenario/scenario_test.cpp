@@ -127,6 +127,15 @@ TEST(Scenario, broken_toml_is_named_with_its_line) {
   EXPECT_EQ(said.rfind("mine.toml:2: this is not TOML: ", 0), 0U) << said;
 }
 
+TEST(Scenario, texts_that_toml_plus_plus_must_not_see_are_named_with_their_line) {
+  for (const char* text : {"[map]\nrange_m\xcc\x9e = 3\n", "[map]\n[=]\n"}) {
+    const std::string said = joined(errors_of(text));
+    EXPECT_EQ(said.rfind("mine.toml:2: this is not TOML: ", 0), 0U) << said;
+  }
+  const auto read = load_scenario("delivery_open", {"map.range_m=3\xcc\x9e"});
+  EXPECT_NE(joined(std::get<Errors>(read)).find("must be a number"), std::string::npos);
+}
+
 TEST(Scenario, a_missing_file_is_named_with_the_way_out) {
   const auto by_name = std::get<Errors>(load_scenario("delivery_moon", {}));
   EXPECT_EQ(joined(by_name), "no scenario \"delivery_moon\"; try: flyball list scenarios\n");

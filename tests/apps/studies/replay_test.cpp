@@ -209,9 +209,11 @@ TEST(Replay, refuses_choices_and_times_that_are_none) {
       {choice + "fixed: " + resolution, choice + "fixed:" + resolution},
       {"\"period_s\":0.25", "\"period_s\":1e300"},
       {"\"period_s\":0.25", "\"period_s\":-1"},
+      {"\"period_s\":0.25", "\"period_s\":1e-9"},
       {"\"period_s\":0.25", "\"period_s\":null"},
       {"{\"t_s\":0.25,", "{\"t_s\":-1e300,"},
       {"{\"t_s\":0.25,", "{\"t_s\":1e300,"},
+      {"{\"t_s\":0.25,", "{\"t_s\":100000,"},
       {"{\"t_s\":0.25,", "{\"t_s\":\"now\","}};
   for (const auto& [right, wrong] : damages) {
     const auto read = read_with(folder, "trace.jsonl", right, wrong);

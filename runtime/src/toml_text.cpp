@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/toml_text.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+bool is_key_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-';
+}
+
+bool is_outside_of_ascii(char c) {
+  return static_cast<unsigned char>(c) >= 0x80U;
+}
+
+/// Reads TOML's lexical elements as far as it takes to tell names and values from texts and
+/// comments.
+class TomlScan {
+ public:
+  explicit TomlScan(std::string_view text) : text_{text} {
+    if (starts_with("\xef\xbb\xbf")) {  // A byte order mark.
+      text_.remove_prefix(3);
+    }
+  }
+
+  std::optional<TomlFault> fault() {
+    while (at_ < text_.size() && what_.empty()) {
+      look_at_element();
+    }
+    if (what_.empty()) {
+      return std::nullopt;
+    }
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size()));
+    return TomlFault{1 + static_cast<int>(std::count(text_.begin(), end, '\n')), what_};
+  }
+
+ private:
+  void look_at_element() {
+    const char next = text_[at_];
+    if (next == '#') {
+      at_ = std::min(text_.find('\n', at_), text_.size());
+    } else if (next == '"' || next == '\'') {
+      look_at_quoted();
+    } else if (next == '[' && open_.empty() && is_first_of_line()) {
+      look_at_header();
+    } else {
+      look_at_character(next);
+    }
+  }
+
+  void look_at_character(char next) {
+    if (is_outside_of_ascii(next)) {
+      what_ = "letters outside of ASCII must stand in quotes";
+      return;
+    }
+    if (next == '[' || next == '{') {
+      open_ += next;
+    } else if (next == '}' && !open_.empty() && open_.back() == '[') {
+      what_ = "a list ends with ] and not with }";
+      return;
+    } else if ((next == ']' || next == '}') && !open_.empty()) {
+      open_.pop_back();
+    }
+    ++at_;
+  }
+
+  /// `[name]` or `[[name]]`: up to the first character of the name.
+  void look_at_header() {
+    ++at_;
+    skip_blanks();
+    if (starts_with("[")) {
+      ++at_;
+      skip_blanks();
+    }
+    const char next = at_ < text_.size() ? text_[at_] : ']';
+    if (!is_key_character(next) && next != '"' && next != '\'' && next != ']') {
+      what_ = "the name of a table must begin with a letter, a digit, _, - or a quotation mark";
+    }
+  }
+
+  /// toml++ takes a quotation mark within a bare value for a part of it, up to the next blank.
+  void look_at_quoted() {
+    const char before = at_ == 0 ? '\n' : text_[at_ - 1];
+    if (is_key_character(before) || before == '+') {
+      what_ = "a quotation mark stands within a word";
+      return;
+    }
+    const std::size_t begin = at_;
+    const bool is_long = starts_with("\"\"\"") || starts_with("'''");
+    skip_quoted(text_.substr(at_, is_long ? 3 : 1), is_long);
+    const std::string_view quoted = text_.substr(begin, at_ - begin);
+    if (before == '.' && std::any_of(quoted.begin(), quoted.end(), is_outside_of_ascii)) {
+      what_ = "letters outside of ASCII must not stand behind a point";
+    }
+  }
+
+  /// To behind the quotation marks, or to where the text breaks off.
+  void skip_quoted(std::string_view mark, bool goes_over_lines) {
+    const bool escapes = mark.front() == '"';
+    at_ += mark.size();
+    while (at_ < text_.size() && !starts_with(mark)) {
+      if (text_[at_] == '\n' && !goes_over_lines) {
+        return;
+      }
+      at_ += escapes && text_[at_] == '\\' ? 2 : 1;
+    }
+    at_ = std::min(at_ + mark.size(), text_.size());
+  }
+
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size()); }
+  [[nodiscard]] bool is_first_of_line() const {
+    const std::size_t before =
+        at_ == 0 ? std::string_view::npos : text_.find_last_not_of(blanks, at_ - 1);
+    return before == std::string_view::npos || text_[before] == '\n';
+  }
+  [[nodiscard]] bool starts_with(std::string_view what) const {
+    return text_.compare(std::min(at_, text_.size()), what.size(), what) == 0;
+  }
+
+  std::string_view text_;
+  std::size_t at_{};
+  std::string open_{};  ///< The brackets of lists and of tables in a line that are not closed.
+  std::string what_{};
+};
+
+}  // namespace
+
+std::optional<TomlFault> fault_of_toml(std::string_view text) {
+  return TomlScan{text}.fault();
+}
+
+}  // namespace flyball

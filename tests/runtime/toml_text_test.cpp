@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/toml_text.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+/// 0: the text may be read.
+int line_of_fault(std::string_view text) {
+  const auto fault = fault_of_toml(text);
+  EXPECT_TRUE(!fault || !fault->what.empty());
+  return fault ? fault->line : 0;
+}
+
+TEST(TomlText, lets_through_whatever_may_stand_in_toml) {
+  for (const std::string_view text :
+       {"", "a = 1", "[a]\nb = [1, 2]", "[[a]]\n[ [1] ]", "[ \"a\" . 'b' ]", "['ä']\n\"ö\" = 'ü'",
+        "# äöü [=\na = 1 # ü", "a = \"\"\"\n[=\nä\\\"\"\"\"\n", "a = '''\n[=\nä'''",
+        "\xef\xbb\xbf"
+        "a = 1",
+        "a = [\n[1],\n[ -1 ],\n[ 'x' ]\n]\n", "a = [\n  [+1]\n]\n[b]", "a = {b = [\n[.5]]}", "[]",
+        "[", "a = \"\\\"ä\"", "a = 'C:\\'\n[b]"}) {
+    EXPECT_EQ(0, line_of_fault(text)) << text;
+  }
+}
+
+TEST(TomlText, finds_letters_that_are_not_quoted) {
+  EXPECT_EQ(1, line_of_fault("mäßig = 1"));
+  EXPECT_EQ(2, line_of_fault("a = 1\nb = 3.33\xcc\x9e-6\n"));
+  EXPECT_EQ(3, line_of_fault("a = '''\nä'''\nb = ü"));
+  EXPECT_EQ(2, line_of_fault("a = \"broken off\nb = ü"));
+  EXPECT_EQ(1, line_of_fault("[ä]"));
+  EXPECT_EQ(1, line_of_fault("a = 1\xc2\xa0"));
+}
+
+TEST(TomlText, finds_quotation_marks_that_toml_plus_plus_takes_for_a_part_of_a_value) {
+  EXPECT_EQ(1, line_of_fault("a = 0y\"½\""));
+  EXPECT_EQ(2, line_of_fault("\na = 1.'½'"));
+  EXPECT_EQ(1, line_of_fault("a = +'½'"));
+  EXPECT_EQ(0, line_of_fault("a.\"b c\" = 1"));
+}
+
+TEST(TomlText, finds_lists_that_end_as_tables_do) {
+  EXPECT_EQ(2, line_of_fault("a = [\n}"));
+  EXPECT_EQ(1, line_of_fault("a = {b = [[}"));
+  EXPECT_EQ(0, line_of_fault("a = {b = [{c = 1}, {}]}"));
+}
+
+TEST(TomlText, finds_tables_whose_name_begins_with_no_letter) {
+  using namespace std::string_view_literals;
+  for (const auto text : {"[\0]"sv, "[=]"sv, "[.a]"sv, "[[ .a]]"sv, "a = [1]\n [\n"sv, "[[["sv,
+                          "a = {}\n[{"sv, "# [\n[#"sv, "a = ']'\n[*]"sv}) {
+    EXPECT_NE(0, line_of_fault(text)) << text;
+  }
+  EXPECT_EQ(3, line_of_fault("[a]\n\n [ =]"));
+  EXPECT_EQ(1, line_of_fault("\xef\xbb\xbf[#"));
+}
+
+}  // namespace
+}  // namespace flyball
