@@ -183,6 +183,12 @@ flyball::Aabb explored_box(const ExploreRequest& request) {
   return box;
 }
 
+bool is_finite(const ExploreRequest& request) {
+  return request.from.p_W.allFinite() && std::isfinite(request.from.yaw_rad) &&
+         request.volume_W.min.allFinite() && request.volume_W.max.allFinite() &&
+         request.bounds_W.min.allFinite() && request.bounds_W.max.allFinite();
+}
+
 class Nbvp final : public flyball::Explorer {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
@@ -197,6 +203,9 @@ class Nbvp final : public flyball::Explorer {
   }
 
   ExploreStep explore(const ExploreRequest& request, const flyball::OccupancyView& map) override {
+    if (!is_finite(request)) {
+      return {};
+    }
     const flyball::StateGrid grid{map, explored_box(request)};
     Tree tree{request, map, grid};
     if (!branch_.empty() && (branch_.front().p_W - request.from.p_W).norm() < branch_slack_m) {

@@ -130,6 +130,16 @@ std::vector<SearchStage> search_stages(const PlanRequest& request) {
   return stages;
 }
 
+namespace {
+
+bool is_finite(const PlanRequest& request) {
+  return request.start_W.allFinite() && request.goal_W.allFinite() &&
+         request.bounds_W.min.allFinite() && request.bounds_W.max.allFinite() &&
+         std::isfinite(request.body.radius_m) && std::isfinite(request.body.half_height_m);
+}
+
+}  // namespace
+
 Plan staged_plan(const PlanRequest& request, const OccupancyView& map, const TreeSearch& search) {
   MotionChecker bare{map, request.body, request.max_slope_rad};
   MotionChecker wide{map, with_margin(request.body), request.max_slope_rad};
@@ -138,6 +148,9 @@ Plan staged_plan(const PlanRequest& request, const OccupancyView& map, const Tre
     plan.work.add("collision_queries", bare.queries() + wide.queries());
     return failed(std::move(plan), why);
   };
+  if (!is_finite(request)) {
+    return count({}, "not finite");
+  }
   if (!bare.is_free(request.start_W)) {
     return count({}, "start blocked");
   }

@@ -58,7 +58,8 @@ struct ExploreStep {
 
 class Explorer : public Kernel {
  public:
-  /// May remember earlier steps of the same mission. Same requests and maps, same steps.
+  /// May remember earlier steps of the same mission. Same requests and maps, same steps. From a
+  /// place, or in a volume, that is not finite nothing can be seen.
   [[nodiscard]] virtual ExploreStep explore(const ExploreRequest& request,
                                             const OccupancyView& map) = 0;
 };

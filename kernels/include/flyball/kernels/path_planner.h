@@ -41,8 +41,9 @@ struct PlanRequest {
 struct Plan {
   std::vector<Vec3> waypoints_W{};  ///< From start to goal; empty when none was found.
   Work work{};            ///< `iterations`, `collision_queries`; also when none was found.
-  std::string failure{};  ///< Empty on success; else why: `start blocked`, `goal blocked`, `no path
-                          ///< within N iterations`, `no path shorter than L m`.
+  std::string failure{};  ///< Empty on success; else why: `not finite` (a place, the bounds or the
+                          ///< body), `start blocked`, `goal blocked`, `no path within N
+                          ///< iterations`, `no path shorter than L m`.
 };
 
 class PathPlanner : public Kernel {
