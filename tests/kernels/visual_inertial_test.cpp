@@ -53,6 +53,11 @@ struct Companion {
     VisualFrame frame = camera().capture(X_WC, MissionTime{from_seconds(t_s)},
                                          static_cast<std::uint64_t>(frames++));
     frame.X_BC = kit::ahead_from_body();
+    if (hangs) {
+      frame.grey = last.grey;
+      frame.depth_m = last.depth_m;
+    }
+    last = frame;
     if (in_the_dark) {
       std::fill(frame.grey.begin(), frame.grey.end(), std::uint8_t{0});
     }
@@ -72,6 +77,8 @@ struct Companion {
   double felt_s{};
   double miss_m{};
   double dropped_m_s2{};  ///< A broken accelerometer.
+  bool hangs{};           ///< The camera sends its last image again and again.
+  VisualFrame last{};
   int frames{};
 };
 
@@ -141,6 +148,40 @@ TEST(VisualInertial, knows_that_it_has_failed_when_what_it_feels_is_absurd) {
   EXPECT_FALSE(flight.next().tracked) << "it knows no place that it could find again";
 }
 
+// It would take the image for a standstill, and be 12 m off after six seconds without a word.
+TEST(VisualInertial, tells_when_the_camera_hangs_in_flight) {
+  for (const bool with_depth : {true, false}) {
+    Companion flight{kit::CircleRun{2.0, 0.5, true}};
+    for (int i = 0; i < 40; ++i) {
+      EXPECT_TRUE(flight.next(false, with_depth).tracked) << i;
+    }
+    const double before_m = flight.miss_m;
+    flight.hangs = true;
+    int goes_on = 0;
+    while (goes_on < 60 && flight.next(false, with_depth).tracked) {
+      ++goes_on;
+    }
+    EXPECT_LE(goes_on, 16) << "a second and a half";
+    EXPECT_LT(flight.miss_m, before_m + 1.0);
+  }
+}
+
+// With depth, what does not move in the image does not move; without this it took a second and a
+// half, and 2.3 m.
+TEST(VisualInertial, tells_when_the_accelerometer_contradicts_a_standstill_that_it_sees) {
+  Companion companion{kit::CircleRun{0.0, 100.0, true}};
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_TRUE(companion.next().tracked) << i;
+  }
+  companion.dropped_m_s2 = 2.0;
+  int goes_on = 0;
+  while (goes_on < 60 && companion.next().tracked) {
+    ++goes_on;
+  }
+  EXPECT_LE(goes_on, 11) << "a second";
+  EXPECT_LT(companion.miss_m, 1.5);
+}
+
 /// A vehicle that flies 2 m ahead within the first two and a half seconds, and stands from then on.
 VehicleState stopping(double t_s, bool shakes) {
   constexpr double begin_s = 0.5;
@@ -205,6 +246,15 @@ TEST(VisualInertial, stays_where_it_has_stopped) {
     }
     EXPECT_LT(companion.miss_m, stopped_m + 0.05) << shakes;
   }
+}
+
+TEST(VisualInertial, takes_the_same_image_again_for_a_standstill_where_it_feels_one) {
+  Companion companion{[](double t_s) { return stopping(t_s, true); }};
+  for (int i = 0; i < 100; ++i) {
+    companion.hangs = i > 40;
+    EXPECT_TRUE(companion.next().tracked) << i;
+  }
+  EXPECT_LT(companion.miss_m, 0.2);
 }
 
 /// A vehicle that only turns: .4 rad/s from half a second on.

@@ -180,6 +180,20 @@ void FeatureTracks::clear() {
   *images_ = Images{};
 }
 
+bool FeatureTracks::has_just_seen(const VisualFrame& frame) const {
+  if (images_->before.empty() || !check_frame(frame)) {
+    return false;
+  }
+  const cv::Mat& newest = images_->before.front();
+  const auto width = static_cast<std::size_t>(frame.camera.width_px);
+  bool is_same = newest.cols == frame.camera.width_px && newest.rows == frame.camera.height_px;
+  for (int row = 0; row < newest.rows && is_same; ++row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * width;
+    is_same = std::equal(newest.ptr(row), newest.ptr(row) + width, &frame.grey[begin]);
+  }
+  return is_same;
+}
+
 Result<std::vector<TrackedPoint>> FeatureTracks::follow(const VisualFrame& frame, Work& work) {
   if (const Status usable = check_frame(frame); !usable) {
     return usable.error();

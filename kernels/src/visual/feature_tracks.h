@@ -38,6 +38,8 @@ class FeatureTracks {
   FeatureTracks& operator=(const FeatureTracks&) = delete;
 
   void clear();
+  /// Whether the image is the newest one again, byte for byte, as a camera that hangs sends it.
+  [[nodiscard]] bool has_just_seen(const VisualFrame& frame) const;
   /// The points that are still seen, and new ones in between, in order of their ids. Adds `pixels`,
   /// `features` and `tracks` to `work`.
   /// @error `invalid_input` when the image has another size than its camera, `failed` when OpenCV

@@ -79,6 +79,7 @@ void InertialOdometry::start(const std::optional<Pose>& X_WB) {
   rest_.clear();
   X_WB_start_ = X_WB;
   has_begun_ = has_moved_ = has_been_full_ = has_failed_ = false;
+  refused_views_ = 0;
 }
 
 void InertialOdometry::feel(const ImuSample& sample) {
@@ -142,12 +143,25 @@ bool InertialOdometry::hold(const SlowView& view, double focal_px) {
   const double ray = 2.0 * view.moved_ray + still_px / focal_px;
   const double speed_sigma_m_s = std::max(least_speed_sigma_m_s, ray * depth_m / view.lasted_s);
   if (speed_sigma_m_s > slow_m_s) {
+    refused_views_ = 0;
     return false;
   }
   const bool stands = view.moved_ray * focal_px < rest_px;
-  return (stands &&
-          filter_.believe(standing(filter_, last_, speed_sigma_m_s, shaking(recent_f_B_)))) ||
-         filter_.believe(slow(filter_, speed_sigma_m_s));
+  const bool is_believed = (stands && filter_.believe(standing(filter_, last_, speed_sigma_m_s,
+                                                               shaking(recent_f_B_)))) ||
+                           filter_.believe(slow(filter_, speed_sigma_m_s));
+  // Without depth, what hardly moves in the image may be far away.
+  refused_views_ = stands && view.depth_m > 0.0 && !is_believed ? refused_views_ + 1 : 0;
+  return is_believed;
+}
+
+/// No two images of a real sensor are the same; made ones are, while the vehicle stands.
+bool InertialOdometry::is_stale(const VisualFrame& frame) const {
+  if (!has_moved_ || !tracks_.has_just_seen(frame)) {
+    return false;
+  }
+  const Innovation still = standing(filter_, last_, least_speed_sigma_m_s, shaking(recent_f_B_));
+  return filter_.surprise(still) > chi_square_95(static_cast<double>(still.residual.size()));
 }
 
 void InertialOdometry::note(const std::vector<TrackedPoint>& points) {
@@ -239,18 +253,12 @@ bool InertialOdometry::is_due(MissionTime now) const {
   return filter_.window().empty() || now - filter_.window().back().captured >= least_gap;
 }
 
-Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& work) {
-  auto points = tracks_.follow(frame, work);
-  if (!points) {
-    return points.error();
-  }
-  if (!has_begun_) {
-    begin(frame.captured);
-  }
-  advance(frame.captured);
-  OdometryOutcome outcome;
-  outcome.tracks = watch_for_motion(*points);
-  const auto view = rest_.see(*points, frame.captured, frame.camera.focal_x_px);
+void InertialOdometry::look(const VisualFrame& frame,
+                            const std::vector<TrackedPoint>& points,
+                            OdometryOutcome& outcome,
+                            Work& work) {
+  outcome.tracks = watch_for_motion(points);
+  const auto view = rest_.see(points, frame.captured, frame.camera.focal_x_px);
   bool is_bound = !has_moved_;
   if (!has_moved_) {
     stand();
@@ -259,7 +267,7 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
   }
   if (is_due(frame.captured)) {
     filter_.remember(frame.captured, frame.X_BC);
-    note(*points);
+    note(points);
     outcome.believed = use_tracks(track_sigma_px / frame.camera.focal_x_px, work);
     if (filter_.window().size() >= window_poses) {
       has_been_full_ = true;
@@ -272,9 +280,32 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
   if (is_bound || outcome.believed > 0) {
     last_bound_ = frame.captured;
   }
+}
+
+Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& work) {
+  OdometryOutcome outcome;
+  if (has_begun_) {
+    advance(frame.captured);
+  }
+  if (!has_begun_ || !is_stale(frame)) {
+    const auto points = tracks_.follow(frame, work);
+    if (!points) {
+      return points.error();
+    }
+    if (!has_begun_) {
+      begin(frame.captured);
+      advance(frame.captured);
+    }
+    look(frame, *points, outcome, work);
+  }
   has_failed_ = has_failed_ || is_absurd(filter_);
-  outcome.tracked = !has_failed_ && frame.captured - last_sight_ < blind_limit && knows_speed();
+  outcome.tracked = makes_sense() && frame.captured - last_sight_ < blind_limit;
   return outcome;
+}
+
+bool InertialOdometry::makes_sense() const {
+  constexpr int most_refused_views = 1;  // Two are a second.
+  return !has_failed_ && knows_speed() && refused_views_ <= most_refused_views;
 }
 
 bool InertialOdometry::knows_speed() const {

@@ -14,7 +14,8 @@ namespace flyball {
 
 struct OdometryOutcome {
   /// Saw enough within the last second and a half, makes sense, and knows its speed to .5 m/s; to
-  /// .2 m/s when nothing that was seen has corrected it for as long.
+  /// .2 m/s when nothing that was seen has corrected it for as long. What it feels does not speak
+  /// against what it sees for a second.
   bool tracked{};
   int tracks{};    ///< Points in the newest image that were in the one before.
   int believed{};  ///< Tracks that corrected the filter.
@@ -37,6 +38,13 @@ class InertialOdometry {
   [[nodiscard]] const InertialFilter& filter() const { return filter_; }
 
  private:
+  /// The same image again, while what it feels says that it moves: the camera hangs.
+  [[nodiscard]] bool is_stale(const VisualFrame& frame) const;
+  void look(const VisualFrame& frame,
+            const std::vector<TrackedPoint>& points,
+            OdometryOutcome& outcome,
+            Work& work);
+  [[nodiscard]] bool makes_sense() const;
   [[nodiscard]] bool is_due(MissionTime now) const;
   void begin(MissionTime now);
   void advance(MissionTime to);
@@ -69,6 +77,7 @@ class InertialOdometry {
   bool has_begun_{};
   bool has_moved_{};
   bool has_been_full_{};  ///< The window.
+  int refused_views_{};   ///< In a row: it seems to stand, and what it feels says otherwise.
   bool has_failed_{};     ///< For good: it knows no place that it could find again.
 };
 
