@@ -7,18 +7,17 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto settling = 500ms;  // Until a status is surely from after the command.
-constexpr double clear_radius_m = 1.0;
-constexpr double clear_height_m = 2.5;
 
 }  // namespace
 
 void Legs::declare(NodeSpec& spec) const {
   spec.reads.push_back(vehicle_.status.index);
   spec.writes.push_back(vehicle_.command.index);
+  spec.writes.push_back(mission_.state.index);
 }
 
 void Legs::command(JobContext& job, MissionPhase phase, const FlightCommand& command) {
-  context_->phase = phase;
+  enter(job, phase);
   job.publish(vehicle_.command, command);
   settled_ = job.now() + settling;
 }
@@ -38,11 +37,6 @@ void Legs::release_payload(JobContext& job) {
 bool Legs::are_done(JobContext& job) const {
   const auto status = job.latest(vehicle_.status);
   return status && status->manoeuvre_done && job.now() >= settled_;
-}
-
-void declare_clear_over(Mapper& mapper, const Vec3& ground_W) {
-  const Vec3 centre_W = ground_W + Vec3::UnitZ() * (0.5 * clear_height_m);
-  mapper.declare_clear(centre_W, {clear_radius_m, 0.5 * clear_height_m});
 }
 
 }  // namespace flyball

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -34,19 +35,21 @@ double start_yaw(const World& world) {
 
 }  // namespace
 
-ClosedLoop::ClosedLoop(MissionContext& context,
+ClosedLoop::ClosedLoop(MissionLink& link,
                        const Scenario& scenario,
                        const SimulatedThings& things,
-                       VirtualExecutor& executor,
+                       Executor& executor,
                        EventQueue& queue,
-                       const VehicleTopics& topics)
-    : context_{context},
+                       const VehicleTopics& topics,
+                       std::shared_ptr<Localizer> localizer)
+    : link_{link},
       scenario_{scenario},
       airframe_{things.airframe},
       cameras_{things.cameras},
       executor_{executor},
       queue_{queue},
       topics_{topics},
+      localizer_{std::move(localizer)},
       vehicle_{things.airframe,
                scenario.vehicle.payload_kg,
                start_position(things.world, things.airframe),
@@ -67,7 +70,7 @@ void ClosedLoop::start() {
   executor_.subscribe<FlightCommand>(topics_.command,
                                      [this](const FlightCommand& command) { obey(command); });
   executor_.subscribe<Setpoint>(topics_.setpoint, [this](const Setpoint& setpoint) {
-    if (context_.phase == MissionPhase::cruise) {
+    if (link_.phase() == MissionPhase::cruise) {
       controller_.follow(setpoint);
     }
   });
@@ -88,17 +91,13 @@ void ClosedLoop::start() {
   start_localizer();
 }
 
-/// It is told where the vehicle stands. Its inertial sensor is read by a driver, not by a job.
+/// It is told where the vehicle stands.
 void ClosedLoop::start_localizer() {
-  const auto& localizer = context_.kernels.localizer;
-  if (!localizer) {
-    return;
-  }
-  localizer->place(vehicle_.state().X_WB);
-  if (localizer->inputs().imu) {
+  localizer_->place(vehicle_.state().X_WB);
+  if (topics_.imu) {
     const Duration interval = from_seconds(1.0 / ImuSpec{}.rate_hz);
     queue_.every(MissionTime{interval}, interval, EventOrder::sensor, [this] {
-      context_.kernels.localizer->feel(imu_.sample(vehicle_.state(), queue_.now()));
+      executor_.publish(*topics_.imu, imu_.sample(vehicle_.state(), queue_.now()));
     });
   }
 }
@@ -114,14 +113,14 @@ void ClosedLoop::energy_step() {
   const double dt_s = to_seconds(Duration{energy_period});
   const VehicleState& state = vehicle_.state();
   // As often as power: the shortest gusts are 3 m long, .2 s at 15 m/s.
-  wind_.advance(dt_s, state.X_WB.translation().z() - context_.brief.ground_z_m, state.v_WB);
+  wind_.advance(dt_s, state.X_WB.translation().z() - link_.brief().site.ground_z_m, state.v_WB);
   log_.rotor_w = scenario_.vehicle.rotor_power == "thrust"
                      ? thrust_power_w(vehicle_, scenario_.vehicle.drive_efficiency)
                      : regression_.update(state, vehicle_.carried_kg(), wind_.velocity_W(), dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
-  log_.computer_w = context_.platform.power(executor_.operating_point(), busy).value();
+  log_.computer_w = link_.brief().platform->power(executor_.operating_point(), busy).value();
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);
@@ -158,9 +157,9 @@ void ClosedLoop::publish_depth() {
   const Pose X_WC = camera_pose(X_WB, scenario_.camera);
   const std::uint64_t number = frame_count_++;
   const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
-  if (context_.view) {
+  if (topics_.view) {
     const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
-    executor_.publish(*context_.view,
+    executor_.publish(*topics_.view,
                       View{depth, cameras_.forward->frame({X_WC, X_LC}, queue_.now(), number),
                            X_WB.inverse() * X_WC});
   }

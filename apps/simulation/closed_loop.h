@@ -4,8 +4,10 @@
 /// @file
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
-#include "flyball/flight/mission_context.h"
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/flight/vehicle_port.h"
+#include "flyball/kernels/localizer.h"
+#include "flyball/runtime/event_queue.h"
+#include "flyball/runtime/executor.h"
 #include "flyball/scenario/scenario.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/battery.h"
@@ -17,6 +19,7 @@
 #include "flyball/sim/vehicle.h"
 #include "flyball/sim/wind.h"
 
+#include "simulation/mission_link.h"
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
@@ -38,12 +41,13 @@ struct FlightLog {
 class ClosedLoop {
  public:
   /// All arguments outlive the loop.
-  ClosedLoop(MissionContext& context,
+  ClosedLoop(MissionLink& link,
              const Scenario& scenario,
              const SimulatedThings& things,
-             VirtualExecutor& executor,
+             Executor& executor,
              EventQueue& queue,
-             const VehicleTopics& topics);
+             const VehicleTopics& topics,
+             std::shared_ptr<Localizer> localizer);
 
   /// Calls `listener` with the truth at each navigation sample, before it is published.
   void on_navigation(std::function<void(const TruePose&)> listener) {
@@ -75,13 +79,14 @@ class ClosedLoop {
   void publish_colour();
   void obey(const FlightCommand& command);
 
-  MissionContext& context_;
+  MissionLink& link_;
   const Scenario& scenario_;
   const Airframe& airframe_;
   const ColourCameras& cameras_;
-  VirtualExecutor& executor_;
+  Executor& executor_;
   EventQueue& queue_;
   VehicleTopics topics_;
+  std::shared_ptr<Localizer> localizer_;  ///< Told where it starts. Owners: see MissionKernels.
   Vehicle vehicle_;
   FlightController controller_;
   RegressionPower regression_;

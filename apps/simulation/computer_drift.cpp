@@ -20,13 +20,13 @@ std::string degrees(double temperature_c) {
 
 }  // namespace
 
-ComputerDrift::ComputerDrift(MissionContext& context,
+ComputerDrift::ComputerDrift(MissionLink& link,
                              const Scenario& scenario,
                              DriftingPlatform& platform,
                              VirtualExecutor& executor,
                              EventQueue& queue,
                              const ClosedLoop& loop)
-    : context_{context},
+    : link_{link},
       scenario_{scenario},
       platform_{platform},
       executor_{executor},
@@ -57,7 +57,7 @@ void ComputerDrift::schedule(const ComputerEvent& event) {
 }
 
 void ComputerDrift::change(const ComputerEvent& event, bool begins) {
-  context_.event(queue_.now(), describe(event, begins));
+  link_.event(describe(event, begins));
   cool();
   strain();
 }
@@ -92,9 +92,8 @@ void ComputerDrift::heat_step() {
   last_energy_j_ = energy_j;
   obey_trips();
   if (++steps_ % steps_per_record == 0) {
-    context_.recorder.record(queue_.now(), "heat",
-                             {{"temperature_c", heat_->temperature_c()},
-                              {"granted_hz", executor_.operating_point().frequency.value()}});
+    link_.log("heat", {{"temperature_c", heat_->temperature_c()},
+                       {"granted_hz", executor_.operating_point().frequency.value()}});
   }
 }
 
@@ -107,9 +106,9 @@ void ComputerDrift::obey_trips() {
   throttle_events_ += is_lower ? 1 : 0;
   cap_ = cap;
   const std::string at = " at " + degrees(heat_->temperature_c());
-  context_.event(queue_.now(), cap ? (is_lower ? "throttled to " : "throttled less, to ") +
-                                         rounded(1e-9 * cap->value(), 3) + " GHz" + at
-                                   : "not throttled any more" + at);
+  link_.event(cap ? (is_lower ? "throttled to " : "throttled less, to ") +
+                        rounded(1e-9 * cap->value(), 3) + " GHz" + at
+                  : "not throttled any more" + at);
   strain();
 }
 

@@ -4,11 +4,12 @@
 /// @file
 /// The companion computer as it truly is in flight: the scenario's events, and its heat.
 
-#include "flyball/flight/mission_context.h"
 #include "flyball/runtime/drifting_platform.h"
 #include "flyball/runtime/thermal.h"
+#include "flyball/runtime/virtual_executor.h"
 
 #include "simulation/closed_loop.h"
+#include "simulation/mission_link.h"
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ namespace flyball {
 class ComputerDrift {
  public:
   /// All arguments outlive the drift; `executor` runs on `platform`.
-  ComputerDrift(MissionContext& context,
+  ComputerDrift(MissionLink& link,
                 const Scenario& scenario,
                 DriftingPlatform& platform,
                 VirtualExecutor& executor,
@@ -45,7 +46,7 @@ class ComputerDrift {
   void heat_step();
   void obey_trips();
 
-  MissionContext& context_;
+  MissionLink& link_;
   const Scenario& scenario_;
   DriftingPlatform& platform_;
   VirtualExecutor& executor_;

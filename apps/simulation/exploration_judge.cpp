@@ -132,15 +132,12 @@ MapAgreement ExplorationJudge::agreement(const Mapper& mapper) const {
   return {share(surfaces, occupied.cells()), share(occupied, space_.surfaces)};
 }
 
-ExplorationJudge make_exploration_judge(const FlightSettings& settings,
-                                        const MissionBrief& brief,
-                                        const Cylinder& body,
-                                        const World& world) {
+ExplorationJudge make_exploration_judge(const Brief& brief, const World& world) {
   ObservableRequest request;
-  request.body = body;
-  request.start_W = brief.start_W + Vec3::UnitZ() * brief.cruise_height_m;
-  request.camera = settings.camera;
-  request.range_m = settings.map.range_m;
+  request.body = brief.body;
+  request.start_W = brief.site.start_W + Vec3::UnitZ() * brief.site.cruise_height_m;
+  request.camera = brief.settings.camera;
+  request.range_m = brief.settings.map.range_m;
   return ExplorationJudge{observable_space(world, request)};
 }
 

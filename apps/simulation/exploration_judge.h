@@ -4,7 +4,7 @@
 /// @file
 /// Holds a map against the true world. It judges an exploration; it never steers one.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/brief.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/sim/observable_space.h"
 #include "flyball/sim/world.h"
@@ -34,11 +34,8 @@ class ExplorationJudge {
   std::vector<GridCell> unknown_{};
 };
 
-/// How well a map of the brief's volume shows what can be seen of it from free space that the body
+/// How well a map of the site's volume shows what can be seen of it from free space that the body
 /// can reach.
-[[nodiscard]] ExplorationJudge make_exploration_judge(const FlightSettings& settings,
-                                                      const MissionBrief& brief,
-                                                      const Cylinder& body,
-                                                      const World& world);
+[[nodiscard]] ExplorationJudge make_exploration_judge(const Brief& brief, const World& world);
 
 }  // namespace flyball

@@ -8,16 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace flyball {
 
-FlightRecorder::FlightRecorder(MissionContext& context,
-                               const Graph& graph,
-                               const ClosedLoop& loop,
-                               const Navigator* navigator)
-    : context_{context}, graph_{graph}, loop_{loop}, navigator_{navigator} {}
+FlightRecorder::FlightRecorder(MissionLink& link, const Graph& graph, const ClosedLoop& loop)
+    : link_{link}, graph_{graph}, loop_{loop} {}
 
-void FlightRecorder::record_state(MissionTime now) {
+void FlightRecorder::record_state() {
   const VehicleState& state = loop_.vehicle().state();
   const Vec3& p = state.X_WB.translation();
   std::vector<Field> row{{"x_m", p.x()},
@@ -25,23 +23,25 @@ void FlightRecorder::record_state(MissionTime now) {
                          {"z_m", p.z()},
                          {"yaw_rad", yaw_of(state.X_WB.linear().col(0))},
                          {"speed_m_s", state.v_WB.norm()},
-                         {"resolution_m", context_.knobs.value("map.resolution_m")},
-                         {"frequency_hz", context_.knobs.value("cpu.frequency_hz")},
                          {"rotor_w", loop_.log().rotor_w},
                          {"computer_w", loop_.log().computer_w},
                          {"battery_percent", loop_.battery().percent()},
                          {"battery_v", loop_.battery().voltage_v()},
-                         {"phase", std::string{to_string(context_.phase)}}};
-  if (navigator_ != nullptr) {
-    row.push_back({"set_speed_m_s", navigator_->follower().target_speed_m_s()});
-    row.push_back({"known_free_m", navigator_->follower().known_free_m()});
-    row.push_back({"latency_bound_s", to_seconds(navigator_->follower().latency_bound())});
-    const TrackingError& error = navigator_->tracking_error();
+                         {"phase", std::string{to_string(link_.phase())}}};
+  if (const auto& knobs = link_.knobs()) {
+    row.push_back({"resolution_m", knobs->value("map.resolution_m")});
+    row.push_back({"frequency_hz", knobs->value("cpu.frequency_hz")});
+  }
+  if (const auto& navigator = link_.navigator()) {
+    row.push_back({"set_speed_m_s", navigator->target_speed_m_s});
+    row.push_back({"known_free_m", navigator->known_free_m});
+    row.push_back({"latency_bound_s", to_seconds(navigator->latency_bound)});
+    const TrackingError& error = navigator->tracking_error;
     row.push_back({"tracking_error_m", error.size_m});
     row.push_back({"across_error_m", error.across_m});
     row.push_back({"height_error_m", error.height_m});
   }
-  context_.recorder.record(now, "state", row);
+  link_.log("state", std::move(row));
 }
 
 void FlightRecorder::record_job(const JobRecord& job) {
@@ -56,12 +56,11 @@ void FlightRecorder::record_job(const JobRecord& job) {
   if (node.name == "localize" || node.name == "follow") {
     return;
   }
-  context_.recorder.record(job.ended, "job",
-                           {{"node", node.name},
-                            {"released_s", to_seconds(job.released)},
-                            {"started_s", to_seconds(job.started)},
-                            {"busy_s", to_seconds(job.busy)},
-                            {"missed", static_cast<std::int64_t>(job.missed)}});
+  link_.log("job", {{"node", node.name},
+                    {"released_s", to_seconds(job.released)},
+                    {"started_s", to_seconds(job.started)},
+                    {"busy_s", to_seconds(job.busy)},
+                    {"missed", static_cast<std::int64_t>(job.missed)}});
 }
 
 std::map<std::string, KernelStatistics> FlightRecorder::kernels() const {

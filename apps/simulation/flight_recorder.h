@@ -4,7 +4,6 @@
 /// @file
 /// What goes into the trace while a mission flies, and the statistics of its jobs.
 
-#include "flyball/flight/navigation/navigator.h"
 #include "flyball/records/summary.h"
 
 #include "simulation/closed_loop.h"
@@ -16,14 +15,11 @@ namespace flyball {
 
 class FlightRecorder {
  public:
-  /// All arguments outlive the recorder; `navigator` may be null.
-  FlightRecorder(MissionContext& context,
-                 const Graph& graph,
-                 const ClosedLoop& loop,
-                 const Navigator* navigator);
+  /// All arguments outlive the recorder.
+  FlightRecorder(MissionLink& link, const Graph& graph, const ClosedLoop& loop);
 
   /// One row of channel `state`.
-  void record_state(MissionTime now);
+  void record_state();
   /// Statistics of every job; a row of channel `job` for those that are not mere routine.
   void record_job(const JobRecord& job);
   [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
@@ -33,10 +29,9 @@ class FlightRecorder {
     std::vector<double> mission_ms;
     double host_s{};
   };
-  MissionContext& context_;
+  MissionLink& link_;
   const Graph& graph_;
   const ClosedLoop& loop_;
-  const Navigator* navigator_;
   std::map<std::string, Calls> calls_;
 };
 

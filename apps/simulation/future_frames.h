@@ -6,9 +6,9 @@
 /// that ask for it and never fly outside.
 
 #include "flyball/flight/governing/governor_loop.h"
-#include "flyball/flight/mission_context.h"
-#include "flyball/flight/navigation/path_follower.h"
 #include "flyball/governors/foresight.h"
+#include "flyball/kernels/mapper.h"
+#include "flyball/kernels/point_cloud.h"
 #include "flyball/sim/depth_camera.h"
 
 #include <array>
@@ -24,12 +24,13 @@ namespace flyball {
 class FutureFrames final : public ForesightSource {
  public:
   /// All arguments outlive this but `settings`. @pre The scenario's mapper is one.
-  FutureFrames(const MissionContext& context,
+  FutureFrames(std::shared_ptr<const Brief> brief,
                const World& world,
                const Platform& computer,
                std::vector<MapSetting> settings);
 
-  [[nodiscard]] const Foresight& look(const PathFollower& follower) override;
+  [[nodiscard]] const Foresight& look(const NavigatorState& navigator,
+                                      const Situation& situation) override;
   [[nodiscard]] std::size_t frames_taken() const { return durations_s_.size(); }
 
  private:
@@ -37,16 +38,18 @@ class FutureFrames final : public ForesightSource {
     Vec3 p_W{Vec3::Zero()};
     Vec3 tangent_W{Vec3::Zero()};
   };
-  [[nodiscard]] Spot spot(const PathFollower& follower, double ahead_m) const;
-  [[nodiscard]] PlaceAhead place(const PathFollower& follower,
-                                 const Spot& spot,
-                                 double ahead_m) const;
+  [[nodiscard]] static Spot spot(const NavigatorState& navigator, double ahead_m);
+  [[nodiscard]] static PlaceAhead place(const NavigatorState& navigator,
+                                        const Situation& situation,
+                                        const Spot& spot,
+                                        double ahead_m);
   [[nodiscard]] const std::vector<double>& durations_s(const Spot& spot);
   [[nodiscard]] std::vector<double> taken_at(const Spot& spot);
   [[nodiscard]] double duration_s(const Work& points, const Work& map, Hertz clock) const;
 
-  const MissionContext& context_;
-  const Platform& computer_;  ///< With its drift.
+  std::shared_ptr<const Brief> brief_;              ///< Owners: the nodes and this.
+  std::shared_ptr<PointCloudBuilder> point_cloud_;  ///< Of its own.
+  const Platform& computer_;                        ///< With its drift.
   std::vector<MapSetting> settings_;
   DepthCamera camera_;
   std::unique_ptr<Mapper> mapper_;

@@ -4,12 +4,15 @@
 
 namespace flyball {
 
-void MapJudge::look(MissionTime now) {
+void MapJudge::look(MissionTime /*now*/) {
   if (!judge_) {
-    judge_ = make_exploration_judge(context_.settings, context_.brief, context_.body, world_);
+    judge_ = make_exploration_judge(link_.brief(), world_);
   }
-  coverage_percent_ = judge_->coverage_percent(context_.map());
-  context_.recorder.record(now, "coverage", {{"coverage_percent", coverage_percent_}});
+  if (!link_.map()) {
+    return;
+  }
+  coverage_percent_ = judge_->coverage_percent(*link_.map()->map);
+  link_.log("coverage", {{"coverage_percent", coverage_percent_}});
 }
 
 MissionFailure MapJudge::objection() const {
@@ -20,7 +23,7 @@ std::map<std::string, double> MapJudge::figures() const {
   if (!judge_) {
     return {};
   }
-  const MapAgreement agreement = judge_->agreement(*context_.kernels.mapper);
+  const MapAgreement agreement = judge_->agreement(mapper_);
   return {{"coverage_percent", coverage_percent_},
           {"map_precision", agreement.precision},
           {"map_recall", agreement.recall}};

@@ -4,21 +4,23 @@
 /// @file
 /// Whether an exploration has mapped what can be seen.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/kernels/mapper.h"
 #include "flyball/sim/world.h"
 
 #include "simulation/exploration_judge.h"
 #include "simulation/judge.h"
+#include "simulation/mission_link.h"
 #include <optional>
 
 namespace flyball {
 
 class MapJudge final : public Judge {
  public:
-  /// All arguments outlive the judge. @param least_percent  Less coverage is `incomplete`; 0: any
+  /// All arguments outlive the judge. @param mapper  Asked when the graph has stopped.
+  /// @param least_percent  Less coverage is `incomplete`; 0: any
   /// will do.
-  MapJudge(MissionContext& context, const World& world, double least_percent)
-      : context_{context}, world_{world}, least_percent_{least_percent} {}
+  MapJudge(MissionLink& link, const Mapper& mapper, const World& world, double least_percent)
+      : link_{link}, mapper_{mapper}, world_{world}, least_percent_{least_percent} {}
 
   /// A row of channel `coverage`.
   void look(MissionTime now) override;
@@ -27,7 +29,8 @@ class MapJudge final : public Judge {
   [[nodiscard]] std::map<std::string, double> figures() const override;
 
  private:
-  MissionContext& context_;
+  MissionLink& link_;
+  const Mapper& mapper_;
   const World& world_;
   double least_percent_;
   std::optional<ExplorationJudge> judge_{};  ///< From the first look on: it takes long to make.

@@ -5,6 +5,7 @@
 #include "flyball/flight/workload.h"
 #include "flyball/records/version.h"
 #include "flyball/runtime/quantile.h"
+#include "flyball/runtime/virtual_executor.h"
 #include "flyball/scenario/plugins.h"
 
 #include "records/fingerprint.h"
@@ -12,6 +13,7 @@
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
 #include "simulation/future_frames.h"
+#include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
 #include "simulation/referee.h"
 #include "simulation/simulated_board.h"
@@ -26,9 +28,18 @@ using namespace std::chrono_literals;
 constexpr auto state_period = 100ms;
 constexpr auto progress_period = 10s;
 
-VehicleExtras extras_of(const MissionSetup& setup, const MissionContext& context) {
-  const auto& localizer = context.kernels.localizer;
-  return {setup.things.cameras.gimbal != nullptr, localizer && localizer->inputs().truth};
+VehicleExtras extras_of(const MissionSetup& setup) {
+  const LocalizerInputs wanted = setup.equipment.kernels.localizer->inputs();
+  VehicleExtras extras;
+  extras.colour_camera = setup.things.cameras.gimbal != nullptr;
+  extras.rgbd_camera = setup.equipment.has_rgb_camera;
+  extras.imu = wanted.imu;
+  extras.true_pose = wanted.truth;
+  return extras;
+}
+
+OperatingPoint start_point(const Scenario& scenario) {
+  return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
 }
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -37,84 +48,103 @@ struct Flight {
          MissionSetup& setup,
          MemoryRecorder& trace,
          std::unique_ptr<Workload> made)
-      : context{flight_settings(scenario), *setup.platform, trace,
-                brief_of(setup.things.world, scenario.world.generator), std::move(setup.equipment)},
-        workload{std::move(made)},
+      : workload{std::move(made)},
         graph{scenario.mission.workload},
-        period{setup.governor->period()},
         computer{setup.platform->model()},
-        topics{add_vehicle_topics(graph, extras_of(setup, context))} {
-    workload->build(graph, topics, context);
-    executor = std::make_unique<VirtualExecutor>(
-        graph, computer, queue,
-        OperatingPoint{scenario.platform.cores, Hertz{scenario.platform.frequency_hz}});
-    loop = std::make_unique<ClosedLoop>(context, scenario, setup.things, *executor, queue, topics);
-    referee =
-        std::make_unique<Referee>(context, scenario, setup.things, graph, *executor, queue, *loop);
-    drift = std::make_unique<ComputerDrift>(context, scenario, computer, *executor, queue, *loop);
-    board = std::make_unique<SimulatedBoard>(*executor, *loop, drift.get());
-    future = foresight(*setup.governor, setup.things.world);
-    governor = std::make_unique<GovernorLoop>(context, *setup.governor, *board,
-                                              workload->navigator(), future.get());
-    recorder = std::make_unique<FlightRecorder>(context, graph, *loop, workload->navigator());
+        board{start_point(scenario)} {
+    parts.brief = adapted_brief(scenario, setup);
+    parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
+    parts.mission = add_mission_topics(graph);
+    parts.kernels = setup.equipment.kernels;
+    workload->build(graph, parts);
+    add_finish(graph, parts.mission);
+    add_record(graph, parts.mission, trace);
+    add_governing(scenario, setup);
+    executor = std::make_unique<VirtualExecutor>(graph, computer, queue, start_point(scenario));
+    link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
+    loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
+                                        parts.vehicle, parts.kernels.localizer);
+    referee = std::make_unique<Referee>(*link, scenario, setup.things, graph, *executor, queue,
+                                        *loop, *parts.kernels.mapper);
+    drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
+    board.connect(*executor, *loop, drift.get());
+    recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
   }
 
-  [[nodiscard]] std::unique_ptr<FutureFrames> foresight(const PolicyGovernor& asks,
-                                                        const World& world) const {
-    std::vector<MapSetting> settings = asks.policy().foresees();
-    if (settings.empty() || workload->navigator() == nullptr || !context.maps_obstacles) {
-      return nullptr;
+  [[nodiscard]] std::shared_ptr<const Brief> adapted_brief(const Scenario& scenario,
+                                                           const MissionSetup& setup) const {
+    Brief brief = brief_of(scenario, setup);
+    workload->adapt(brief);
+    return std::make_shared<const Brief>(std::move(brief));
+  }
+
+  void add_governing(const Scenario& scenario, MissionSetup& setup) {
+    const GovernorInputs inputs = governor_inputs(graph);
+    std::vector<MapSetting> settings = setup.governor->policy().foresees();
+    if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
+      future = std::make_unique<FutureFrames>(parts.brief, setup.things.world, computer,
+                                              std::move(settings));
     }
-    return std::make_unique<FutureFrames>(context, world, computer, std::move(settings));
+    governor = std::make_shared<GovernorLoop>(parts, setup.equipment.knobs, *setup.governor, board,
+                                              inputs, future.get());
+    period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
+    add_governor(graph, parts, inputs, period, governor);
   }
 
   EventQueue queue;
-  MissionContext context;
   std::unique_ptr<Workload> workload;
   Graph graph;
-  std::optional<Duration> period;  ///< Between decisions, if the policy says.
-  DriftingPlatform computer;  ///< The true one: what is known of it on board is in the context.
-  VehicleTopics topics;
+  DriftingPlatform computer;  ///< The true one: what is known of it on board is in the brief.
+  SimulatedBoard board;
+  FlightParts parts;
+  std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
+  std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
+  Duration period{};                       ///< Between decisions.
   std::unique_ptr<VirtualExecutor> executor;
+  std::unique_ptr<MissionLink> link;
   std::unique_ptr<ClosedLoop> loop;
   std::unique_ptr<Referee> referee;
   std::unique_ptr<ComputerDrift> drift;
-  std::unique_ptr<SimulatedBoard> board;
-  std::unique_ptr<FutureFrames> future;  ///< Null for a policy that does not ask.
-  std::unique_ptr<GovernorLoop> governor;
   std::unique_ptr<FlightRecorder> recorder;
 };
 
-void connect(Flight& flight, const Scenario& scenario, const MissionHooks& hooks) {
+void tell_progress(const Flight& flight, const MissionHooks& hooks) {
+  const Vec3& here_W = flight.loop->vehicle().state().X_WB.translation();
+  const auto& navigator = flight.link->navigator();
+  const double goal_m = navigator ? (navigator->goal_W - here_W).norm() : 0.0;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.0f m to go, battery %.0f %%", goal_m,
+                flight.loop->battery().percent());
+  hooks.progress(to_seconds(flight.queue.now()), text);
+}
+
+void connect(Flight& flight, const MissionHooks& hooks) {
   auto& queue = flight.queue;
   flight.executor->on_job([&flight](const JobRecord& job) { flight.recorder->record_job(job); });
   flight.executor->on_miss([&flight](int, OnMiss action) {
-    flight.governor->count_miss();
-    if (action == OnMiss::brake && flight.context.phase == MissionPhase::cruise) {
+    if (action == OnMiss::brake && flight.link->phase() == MissionPhase::cruise) {
       flight.loop->emergency_hold();
     }
   });
-  const Duration period = flight.period.value_or(from_seconds(scenario.governor.period_s));
-  flight.context.recorder.record(MissionTime{}, "governor", {{"period_s", to_seconds(period)}});
-  queue.every(MissionTime{}, period, EventOrder::governor,
-              [&flight] { flight.governor->tick(flight.queue.now()); });
+  flight.link->log("governor", {{"period_s", to_seconds(flight.period)}});
   queue.every(MissionTime{}, state_period, EventOrder::observer,
-              [&flight] { flight.recorder->record_state(flight.queue.now()); });
+              [&flight] { flight.recorder->record_state(); });
   if (hooks.progress) {
-    queue.every(
-        MissionTime{progress_period}, progress_period, EventOrder::observer, [&flight, &hooks] {
-          const double goal_m =
-              (flight.context.goal_now_W - flight.loop->vehicle().state().X_WB.translation())
-                  .norm();
-          char text[96];
-          std::snprintf(text, sizeof text, "%.0f m to go, battery %.0f %%", goal_m,
-                        flight.loop->battery().percent());
-          hooks.progress(to_seconds(flight.queue.now()), text);
-        });
+    queue.every(MissionTime{progress_period}, progress_period, EventOrder::observer,
+                [&flight, &hooks] { tell_progress(flight, hooks); });
   }
   flight.loop->start();
   flight.referee->start();
   flight.drift->start(flight.computer.nominal().thermal);
+}
+
+/// Flies until the mission is over, and what happens at that same moment.
+void run(Flight& flight, const MissionHooks& hooks) {
+  EventQueue& queue = flight.queue;
+  queue.run([&] { return flight.link->outcome() || (hooks.stop && hooks.stop()); });
+  while (queue.next() && *queue.next() <= queue.now()) {
+    (void)queue.step();
+  }
 }
 
 void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {
@@ -138,19 +168,20 @@ void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenar
 }
 
 void fill_computing(Summary& summary, const Flight& flight) {
-  const MissionCounters& counters = flight.context.counters;
-  summary.replans = counters.replans;
-  summary.deadline_overruns = flight.governor->misses() + counters.bound_overruns;
+  const MapUses& maps = flight.link->map_uses();
+  const auto& navigator = flight.link->navigator();
+  summary.replans = navigator ? navigator->replans : 0;
+  summary.deadline_overruns = flight.board.read().deadline_misses + maps.overruns;
   summary.decisions = flight.governor->decisions();
   summary.knob_changes = flight.governor->knob_changes();
   summary.policy_faults = flight.governor->faults();
   summary.policy_trouble = flight.governor->trouble();
-  summary.latency_p50_s = quantile(counters.latency_s, 0.5);
-  summary.latency_p95_s = quantile(counters.latency_s, 0.95);
-  summary.latency_max_s = quantile(counters.latency_s, 1.0);
-  summary.maps = counters.budget_use.size();
-  summary.bound_overruns = counters.bound_overruns;
-  summary.budget_use_p50 = quantile(counters.budget_use, 0.5);
+  summary.latency_p50_s = quantile(maps.latency_s, 0.5);
+  summary.latency_p95_s = quantile(maps.latency_s, 0.95);
+  summary.latency_max_s = quantile(maps.latency_s, 1.0);
+  summary.maps = maps.budget_use.size();
+  summary.bound_overruns = maps.overruns;
+  summary.budget_use_p50 = quantile(maps.budget_use, 0.5);
   summary.promises = flight.governor->promise_levels();
   summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
   summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
@@ -159,7 +190,10 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
   summary.quality.merge(flight.referee->figures());
-  summary.quality.merge(flight.context.localization.quality(flight.queue.now()));
+  if (const auto& localization = flight.link->localization()) {
+    summary.quality["localization_lost"] = localization->times_lost;
+    summary.quality["localization_lost_s"] = localization->lost_s;
+  }
 }
 
 Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
@@ -174,8 +208,8 @@ Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
 Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const World& world) {
   auto workload = named_workload(scenario);
   if (workload) {
-    if (const Status possible = (*workload)->check(flight_settings(scenario),
-                                                   brief_of(world, scenario.world.generator));
+    if (const Status possible =
+            (*workload)->check(flight_settings(scenario), site_of(world, scenario.world.generator));
         !possible) {
       return possible.error();
     }
@@ -235,8 +269,8 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
   Flight flight{scenario, *setup, *record.trace, std::move(*workload)};
-  connect(flight, scenario, hooks);
-  flight.queue.run([&] { return flight.context.is_over() || (hooks.stop && hooks.stop()); });
+  connect(flight, hooks);
+  run(flight, hooks);
   if (const Status written =
           hooks.final_map.empty() ? Done{} : mapper.write(hooks.final_map, std::nullopt);
       !written) {

@@ -43,7 +43,7 @@ Result<World> make_world(const Scenario& scenario) {
 
 /// Makes one kernel, or adds a sentence to `missing`.
 template <class Family>
-void make(std::unique_ptr<Family>& kernel, const Scenario& scenario, std::vector<Error>& missing) {
+void make(std::shared_ptr<Family>& kernel, const Scenario& scenario, std::vector<Error>& missing) {
   auto made = make_kernel<Family>(scenario.kernels, model_finder(scenario));
   if (made) {
     kernel = std::move(*made);
@@ -86,10 +86,24 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
 
 }  // namespace
 
-MissionBrief brief_of(const World& world, const std::string& name) {
+Site site_of(const World& world, const std::string& name) {
   return {name,          world.bounds_W,        world.zones,      world.start_W,
           world.goal_W,  world.cruise_height_m, world.ground_z_m, world.open_above_m,
           world.volume_W};
+}
+
+Brief brief_of(const Scenario& scenario, const MissionSetup& setup) {
+  Brief brief;
+  brief.settings = flight_settings(scenario);
+  brief.site = site_of(setup.things.world, scenario.world.generator);
+  brief.platform = setup.platform;
+  brief.body = setup.equipment.body;
+  return brief;
+}
+
+Workbench workbench_of(const Scenario& scenario, const MissionSetup& setup) {
+  return {brief_of(scenario, setup), knobs_at_start(setup.equipment.knobs),
+          setup.equipment.kernels};
 }
 
 Result<MissionSetup> set_up(const Scenario& scenario) {

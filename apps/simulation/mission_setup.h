@@ -4,24 +4,40 @@
 /// @file
 /// Turns the names in a scenario into things: platform, airframe, world, kernels, governor.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/brief.h"
+#include "flyball/flight/navigation/situation.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/scenario/knobs.h"
 
+#include "simulation/mission_equipment.h"
 #include "simulation/simulated_things.h"
 #include <memory>
 
 namespace flyball {
 
 struct MissionSetup {
-  std::unique_ptr<ModeledPlatform> platform;
+  std::shared_ptr<const ModeledPlatform> platform;  ///< Owners: this and the brief.
   SimulatedThings things;
   MissionEquipment equipment;
   std::unique_ptr<PolicyGovernor> governor;
 };
 
 /// What a world's file declares to the vehicle before take-off.
-[[nodiscard]] MissionBrief brief_of(const World& world, const std::string& name);
+[[nodiscard]] Site site_of(const World& world, const std::string& name);
+
+/// What is known on board of a mission that has been set up. @param scenario  The one it was set up
+/// from.
+[[nodiscard]] Brief brief_of(const Scenario& scenario, const MissionSetup& setup);
+
+/// For those who call kernels one by one, without a graph.
+struct Workbench {
+  Brief brief{};
+  KnobsInForce knobs{};
+  MissionKernels kernels{};
+  /// Goes by the mapper's own view; valid until the mapper is used again.
+  [[nodiscard]] Situation situation() const { return {brief, knobs, kernels.mapper->view()}; }
+};
+[[nodiscard]] Workbench workbench_of(const Scenario& scenario, const MissionSetup& setup);
 
 /// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
 [[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);

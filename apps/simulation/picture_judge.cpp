@@ -6,29 +6,28 @@
 
 namespace flyball {
 
-PictureJudge::PictureJudge(MissionContext& context,
+PictureJudge::PictureJudge(MissionLink& link,
                            Executor& executor,
                            Topic<GroundPicture> pictures,
                            std::function<Pose()> true_pose)
-    : context_{context},
+    : link_{link},
       true_pose_{std::move(true_pose)},
-      seen_{scanned_area_W(context.brief, context.settings.scan), scan_cell_m} {
-  executor.subscribe<GroundPicture>(pictures,
-                                    [this](const GroundPicture& picture) { took(picture.taken); });
+      seen_{scanned_area_W(link.brief().site, link.brief().settings.scan), scan_cell_m} {
+  executor.subscribe<GroundPicture>(pictures, [this](const GroundPicture& /*picture*/) { took(); });
 }
 
-void PictureJudge::took(MissionTime now) {
+void PictureJudge::took() {
   const auto footprint =
-      footprint_of(downward_camera_pose(true_pose_()), context_.settings.camera.intrinsics(),
-                   context_.brief.ground_z_m);
+      footprint_of(downward_camera_pose(true_pose_()), link_.brief().settings.camera.intrinsics(),
+                   link_.brief().site.ground_z_m);
   if (footprint) {
     seen_.add(*footprint);
-    record(*footprint, now, context_.recorder);
+    link_.log("footprint", row_of(*footprint));
   }
 }
 
 MissionFailure PictureJudge::objection() const {
-  return seen_.covered_percent() < context_.settings.scan.coverage_percent
+  return seen_.covered_percent() < link_.brief().settings.scan.coverage_percent
              ? MissionFailure::incomplete
              : MissionFailure::none;
 }

@@ -6,10 +6,10 @@
 
 #include "flyball/flight/exploration/ground_coverage.h"
 #include "flyball/flight/exploration/ground_pictures.h"
-#include "flyball/flight/mission_context.h"
 #include "flyball/runtime/executor.h"
 
 #include "simulation/judge.h"
+#include "simulation/mission_link.h"
 #include <functional>
 
 namespace flyball {
@@ -18,7 +18,7 @@ class PictureJudge final : public Judge {
  public:
   /// All arguments outlive the judge, which listens to the topic from now on.
   /// @param true_pose  X_WB now.
-  PictureJudge(MissionContext& context,
+  PictureJudge(MissionLink& link,
                Executor& executor,
                Topic<GroundPicture> pictures,
                std::function<Pose()> true_pose);
@@ -29,9 +29,9 @@ class PictureJudge final : public Judge {
   [[nodiscard]] std::map<std::string, double> figures() const override;
 
  private:
-  void took(MissionTime now);
+  void took();
 
-  MissionContext& context_;
+  MissionLink& link_;
   std::function<Pose()> true_pose_;
   GroundCoverage seen_;
 };

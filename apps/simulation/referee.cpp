@@ -20,24 +20,25 @@ constexpr double clearance_limit_m = 5.0;
 
 }  // namespace
 
-Referee::Referee(MissionContext& context,
+Referee::Referee(MissionLink& link,
                  const Scenario& scenario,
                  const SimulatedThings& things,
                  const Graph& graph,
                  Executor& executor,
                  EventQueue& queue,
-                 ClosedLoop& loop)
-    : context_{context},
+                 ClosedLoop& loop,
+                 const Mapper& mapper)
+    : link_{link},
       scenario_{scenario},
       things_{things},
       queue_{queue},
       loop_{loop},
       clearance_{things.world},
       min_clearance_m_{clearance_limit_m} {
-  appoint(graph, executor);
+  appoint(graph, executor, mapper);
 }
 
-void Referee::appoint(const Graph& graph, Executor& executor) {
+void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapper) {
   if (const auto pose = graph.find<PoseEstimate>("pose")) {
     auto judge = std::make_unique<LocalizationJudge>(executor, *pose);
     loop_.on_navigation([judge = judge.get()](const TruePose& truth) { judge->note(truth); });
@@ -46,28 +47,28 @@ void Referee::appoint(const Graph& graph, Executor& executor) {
   const auto sightings = graph.find<Sightings>("sightings");
   const auto finding = graph.find<Finding>("finding");
   if (sightings && finding) {
-    judges_.push_back(std::make_unique<SightingJudge>(context_, things_.world.people, executor,
-                                                      queue_, *sightings, *finding));
+    judges_.push_back(std::make_unique<SightingJudge>(link_, things_.world.people, executor, queue_,
+                                                      *sightings, *finding));
   }
   if (graph.find<ExploreQuery>("explore.request")) {
-    const double least_percent = sightings ? 0.0 : context_.settings.explore.coverage_percent;
-    judges_.push_back(std::make_unique<MapJudge>(context_, things_.world, least_percent));
+    const double least_percent = sightings ? 0.0 : link_.brief().settings.explore.coverage_percent;
+    judges_.push_back(std::make_unique<MapJudge>(link_, mapper, things_.world, least_percent));
   }
   if (const auto target = graph.find<Target>("target")) {
-    auto score = std::make_unique<TrackingScore>(context_, things_.world.people);
+    auto score = std::make_unique<TrackingScore>(link_, things_.world.people);
     loop_.on_picture([score = score.get()](std::uint64_t sequence, const Pose& X_WC) {
       score->note(sequence, X_WC);
     });
     executor.subscribe<Target>(*target, [this, score = score.get()](const Target& seen) {
-      if (context_.phase == MissionPhase::cruise) {
-        score->count(queue_.now(), seen);
+      if (link_.phase() == MissionPhase::cruise) {
+        score->count(seen);
       }
     });
     judges_.push_back(std::move(score));
   }
   if (const auto pictures = graph.find<GroundPicture>("picture")) {
     judges_.push_back(std::make_unique<PictureJudge>(
-        context_, executor, *pictures, [this] { return loop_.vehicle().state().X_WB; }));
+        link_, executor, *pictures, [this] { return loop_.vehicle().state().X_WB; }));
   }
 }
 
@@ -92,19 +93,20 @@ void Referee::check() {
     min_clearance_m_ = std::min(min_clearance_m_, distance_m);
   }
   if (distance_m <= 0.0) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::collision);
+    link_.finish(MissionStatus::failed, MissionFailure::collision);
   }
   if (loop_.battery().is_empty()) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::battery_empty);
+    link_.finish(MissionStatus::failed, MissionFailure::battery_empty);
   }
   if (to_seconds(now) > scenario_.mission.time_limit_s) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::time_limit);
+    link_.finish(MissionStatus::failed, MissionFailure::time_limit);
   }
 }
 
 Verdict Referee::verdict() const {
-  if (context_.status() != MissionStatus::succeeded) {
-    return {context_.status(), context_.failure()};
+  const MissionEnd end = link_.outcome().value_or(MissionEnd{});
+  if (end.status != MissionStatus::succeeded) {
+    return {end.status, end.failure};
   }
   for (const auto& judge : judges_) {
     if (const MissionFailure why = judge->objection(); why != MissionFailure::none) {

@@ -24,13 +24,14 @@ struct Verdict {
 class Referee {
  public:
   /// All arguments outlive the referee.
-  Referee(MissionContext& context,
+  Referee(MissionLink& link,
           const Scenario& scenario,
           const SimulatedThings& things,
           const Graph& graph,
           Executor& executor,
           EventQueue& queue,
-          ClosedLoop& loop);
+          ClosedLoop& loop,
+          const Mapper& mapper);
 
   /// From now on it looks. After `ClosedLoop::start`.
   void start();
@@ -42,10 +43,10 @@ class Referee {
   [[nodiscard]] double min_clearance_m() const { return min_clearance_m_; }
 
  private:
-  void appoint(const Graph& graph, Executor& executor);
+  void appoint(const Graph& graph, Executor& executor, const Mapper& mapper);
   void check();
 
-  MissionContext& context_;
+  MissionLink& link_;
   const Scenario& scenario_;
   const SimulatedThings& things_;
   EventQueue& queue_;

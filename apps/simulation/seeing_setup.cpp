@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/seeing_setup.h"
 
-#include "flyball/flight/perception/visual_nodes.h"
 #include "flyball/flight/workload.h"
 #include "flyball/scenario/plugins.h"
 

@@ -4,9 +4,10 @@
 /// @file
 /// What a mission needs that sees in colour: cameras, detector, trackers.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/runtime/platform.h"
 #include "flyball/scenario/scenario.h"
 
+#include "simulation/mission_equipment.h"
 #include "simulation/simulated_things.h"
 
 namespace flyball {

@@ -15,13 +15,13 @@ constexpr std::size_t most_frames = 6;  // For the report; the finding is the la
 
 }  // namespace
 
-SightingJudge::SightingJudge(MissionContext& context,
+SightingJudge::SightingJudge(MissionLink& link,
                              const std::vector<Person>& people,
                              Executor& executor,
                              const EventQueue& queue,
                              Topic<Sightings> sightings,
                              Topic<Finding> finding)
-    : context_{context}, people_{people}, queue_{queue} {
+    : link_{link}, people_{people}, queue_{queue} {
   executor.subscribe<Sightings>(sightings, [this](const Sightings& seen) { saw(seen); });
   executor.subscribe<Finding>(finding, [this](const Finding& what) { found(what); });
 }
@@ -30,13 +30,12 @@ void SightingJudge::saw(const Sightings& seen) {
   for (const Sighting& sighting : seen.people) {
     const double error_m = distance_to_person_m(seen.frame.captured, sighting.p_W);
     const bool is_real = error_m <= found_within_m;
-    context_.recorder.record(queue_.now(), "sighting",
-                             {{"x_m", sighting.p_W.x()},
-                              {"y_m", sighting.p_W.y()},
-                              {"real", is_real ? 1.0 : 0.0},
-                              {"score", sighting.score},
-                              {"error_m", error_m},
-                              {"captured_s", to_seconds(seen.frame.captured)}});
+    link_.log("sighting", {{"x_m", sighting.p_W.x()},
+                           {"y_m", sighting.p_W.y()},
+                           {"real", is_real ? 1.0 : 0.0},
+                           {"score", sighting.score},
+                           {"error_m", error_m},
+                           {"captured_s", to_seconds(seen.frame.captured)}});
     if (!is_real && is_new(sighting.p_W)) {
       mistaken_W_.push_back(sighting.p_W);
       if (frames_.size() + 1 < most_frames) {

@@ -10,6 +10,7 @@
 #include "flyball/sim/person.h"
 
 #include "simulation/judge.h"
+#include "simulation/mission_link.h"
 #include <optional>
 
 namespace flyball {
@@ -17,7 +18,7 @@ namespace flyball {
 class SightingJudge final : public Judge {
  public:
   /// All arguments outlive the judge, which listens to both topics from now on.
-  SightingJudge(MissionContext& context,
+  SightingJudge(MissionLink& link,
                 const std::vector<Person>& people,
                 Executor& executor,
                 const EventQueue& queue,
@@ -38,7 +39,7 @@ class SightingJudge final : public Judge {
   [[nodiscard]] bool is_new(const Vec3& p_W) const;
   void keep(const ColourFrame& frame, const ImageBox& box, bool is_right, const std::string& what);
 
-  MissionContext& context_;
+  MissionLink& link_;
   const std::vector<Person>& people_;
   const EventQueue& queue_;
   std::vector<Vec3> mistaken_W_{};

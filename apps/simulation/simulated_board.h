@@ -14,17 +14,20 @@ namespace flyball {
 
 class SimulatedBoard final : public Board {
  public:
+  /// Until it is connected it says that this is granted, and hears no request.
+  explicit SimulatedBoard(const OperatingPoint& start) { unconnected_.granted = start; }
   /// All arguments outlive the board; `drift` may be null: then nothing is known of heat.
-  SimulatedBoard(VirtualExecutor& executor, const ClosedLoop& loop, const ComputerDrift* drift)
-      : executor_{executor}, loop_{loop}, drift_{drift} {}
+  void connect(Executor& executor, const ClosedLoop& loop, const ComputerDrift* drift);
 
   [[nodiscard]] BoardReading read() const override;
-  void request(const OperatingPoint& point) override { executor_.set_operating_point(point); }
+  void request(const OperatingPoint& point) override;
 
  private:
-  VirtualExecutor& executor_;
-  const ClosedLoop& loop_;
-  const ComputerDrift* drift_;
+  BoardReading unconnected_{};
+  Executor* executor_{};
+  const ClosedLoop* loop_{};
+  const ComputerDrift* drift_{};
+  std::uint64_t deadline_misses_{};
 };
 
 }  // namespace flyball

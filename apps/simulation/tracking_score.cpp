@@ -33,7 +33,7 @@ void TrackingScore::note(std::uint64_t sequence, const Pose& X_WC) {
   }
 }
 
-void TrackingScore::count(MissionTime now, const Target& target) {
+void TrackingScore::count(const Target& target) {
   double best_overlap = 0.0;
   const auto camera = std::find_if(cameras_.begin(), cameras_.end(), [&](const auto& noted) {
     return noted.first == target.frame.sequence;
@@ -55,18 +55,17 @@ void TrackingScore::count(MissionTime now, const Target& target) {
     keep({target, on_target});
   }
   const ImageBox box = target.box.value_or(ImageBox{});
-  context_.recorder.record(now, "target",
-                           {{"captured_s", to_seconds(target.frame.captured)},
-                            {"x_px", box.x_px},
-                            {"y_px", box.y_px},
-                            {"width_px", box.width_px},
-                            {"height_px", box.height_px},
-                            {"overlap", best_overlap}});
+  link_.log("target", {{"captured_s", to_seconds(target.frame.captured)},
+                       {"x_px", box.x_px},
+                       {"y_px", box.y_px},
+                       {"width_px", box.width_px},
+                       {"height_px", box.height_px},
+                       {"overlap", best_overlap}});
 }
 
 MissionFailure TrackingScore::objection() const {
-  return tracked_s() < context_.settings.photography.success_s ? MissionFailure::target_lost
-                                                               : MissionFailure::none;
+  return tracked_s() < link_.brief().settings.photography.success_s ? MissionFailure::target_lost
+                                                                    : MissionFailure::none;
 }
 
 void TrackingScore::keep(const Kept& seen) {

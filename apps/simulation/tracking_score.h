@@ -9,6 +9,7 @@
 #include "flyball/sim/person.h"
 
 #include "simulation/judge.h"
+#include "simulation/mission_link.h"
 #include <deque>
 #include <map>
 #include <string>
@@ -19,16 +20,16 @@ namespace flyball {
 
 class TrackingScore final : public Judge {
  public:
-  /// Records each frame on the context's recorder. All arguments outlive the score.
-  TrackingScore(MissionContext& context, const std::vector<Person>& people)
-      : context_{context}, people_{people} {}
+  /// Logs each frame. All arguments outlive the score.
+  TrackingScore(MissionLink& link, const std::vector<Person>& people)
+      : link_{link}, people_{people} {}
 
   /// Where the camera truly was when it took a picture; before `count` of that picture.
   void note(std::uint64_t sequence, const Pose& X_WC);
 
   /// One tracked frame. It counts as tracked when the box lies on the person's true box: overlap
   /// over union of at least .2, which a box of half the height, or of arms' width, still has.
-  void count(MissionTime now, const Target& target);
+  void count(const Target& target);
   /// Time in which the box was on the person.
   [[nodiscard]] double tracked_s() const { return tracked_.seconds(); }
   /// `target_lost` when the person was tracked for less than the mission asks for.
@@ -40,7 +41,7 @@ class TrackingScore final : public Judge {
   [[nodiscard]] std::vector<MissionFrame> frames() const override;
 
  private:
-  MissionContext& context_;
+  MissionLink& link_;
   const std::vector<Person>& people_;
   std::deque<std::pair<std::uint64_t, Pose>> cameras_{};  ///< Newest last.
   TrackedTime tracked_{};

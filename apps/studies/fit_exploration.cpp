@@ -17,15 +17,15 @@ constexpr double look_every_m = 1.0;  // A map a second at indoor speed.
 
 class Exploration {
  public:
-  Exploration(const ExplorationScene& scene, MissionContext& context, const World& world)
+  Exploration(const ExplorationScene& scene, const Workbench& bench, const World& world)
       : scene_{scene},
-        context_{context},
+        bench_{bench},
         world_{world},
-        perception_{context, world},
-        judge_{make_exploration_judge(context.settings, context.brief, context.body, world)},
+        perception_{bench, world},
+        judge_{make_exploration_judge(bench.brief, world)},
         here_{world.start_W + Vec3::UnitZ() * world.cruise_height_m,
               yaw_of(world.goal_W - world.start_W)} {
-    context.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
+    bench.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
   }
 
   Result<ExplorationLoads> go() {
@@ -54,16 +54,16 @@ class Exploration {
   }
 
   bool is_done() {
-    loads_.coverage_percent = judge_.coverage_percent(context_.map());
+    loads_.coverage_percent = judge_.coverage_percent(bench_.kernels.mapper->view());
     return loads_.coverage_percent >= scene_.scenario.explore.coverage_percent;
   }
 
   std::optional<Viewpoint> ask() {
-    ExploreRequest request = explore_request(context_, here_);
+    ExploreRequest request = explore_request(bench_.brief, here_);
     request.taken = taken_;
     request.unreachable_W = unreachable_W_;
     request.seed = scene_.scenario.seed + static_cast<std::uint64_t>(++asked_);
-    ExploreStep step = context_.kernels.explorer->explore(request, context_.map());
+    ExploreStep step = bench_.kernels.explorer->explore(request, bench_.kernels.mapper->view());
     loads_.kernels[scene_.scenario.kernels.explorer].calls.push_back(step.work);
     return step.next;
   }
@@ -76,7 +76,7 @@ class Exploration {
     query.id = static_cast<std::uint64_t>(asked_);
     query.may_be_tight = true;
     Cylinder body;
-    const Plan plan = plan_with_tubes(context_, query, body);
+    const Plan plan = plan_with_tubes(bench_.situation(), *bench_.kernels.planner, query, body);
     if (plan.waypoints_W.empty()) {
       unreachable_W_.push_back(next.p_W);
       return Done{};
@@ -98,7 +98,7 @@ class Exploration {
   }
 
   const ExplorationScene& scene_;
-  MissionContext& context_;
+  const Workbench& bench_;
   const World& world_;
   Perception perception_;
   ExplorationJudge judge_;
@@ -140,11 +140,8 @@ Result<ExplorationLoads> record(const ExplorationScene& scene) {
   if (!setup) {
     return setup.error();
   }
-  MemoryRecorder events;
-  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
-                         brief_of(setup->things.world, scene.scenario.world.generator),
-                         std::move(setup->equipment)};
-  return Exploration{scene, context, setup->things.world}.go();
+  const Workbench bench = workbench_of(scene.scenario, *setup);
+  return Exploration{scene, bench, setup->things.world}.go();
 }
 
 }  // namespace flyball

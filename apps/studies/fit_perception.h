@@ -4,9 +4,9 @@
 /// @file
 /// What the recorded scenes have in common: a vehicle that is put somewhere and looks.
 
-#include "flyball/flight/mission_context.h"
 #include "flyball/sim/depth_camera.h"
 
+#include "simulation/mission_setup.h"
 #include "studies/fit_scenes.h"
 
 namespace flyball {
@@ -16,9 +16,9 @@ namespace flyball {
 /// Camera, point cloud and map: what is done with one view.
 class Perception {
  public:
-  /// Context and world outlive it.
-  Perception(MissionContext& context, const World& world)
-      : context_{context}, camera_{world, context.settings.camera, context.settings.seed} {}
+  /// Workbench and world outlive it.
+  Perception(const Workbench& bench, const World& world)
+      : bench_{bench}, camera_{world, bench.brief.settings.camera, bench.brief.settings.seed} {}
 
   /// Looks from `X_WB`; the frame is in the map afterwards.
   Status look(const Pose& X_WB, KernelLoads& loads);
@@ -26,9 +26,9 @@ class Perception {
   Result<Work> prepare(double resolution_m);
 
  private:
-  [[nodiscard]] double range_m() const { return context_.settings.map.range_m; }
+  [[nodiscard]] double range_m() const { return bench_.brief.settings.map.range_m; }
 
-  MissionContext& context_;
+  const Workbench& bench_;
   DepthCamera camera_;
   PointCloudFrame view_{};
   Pose X_WC_{Pose::Identity()};

@@ -30,12 +30,12 @@ Scenario delivery() {
 
 class Delivery {
  public:
-  Delivery(const DeliveryScene& scene, MissionContext& context, const World& world)
-      : scene_{scene}, context_{context}, world_{world}, perception_{context, world} {
+  Delivery(const DeliveryScene& scene, const Workbench& bench, const World& world)
+      : scene_{scene}, bench_{bench}, world_{world}, perception_{bench, world} {
     const Vec3 up = Vec3::UnitZ() * world.cruise_height_m;
     path_ = Path::polyline({world.start_W + up, world.goal_W + up});
     goal_W_ = world.goal_W + up;
-    context.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
+    bench.kernels.mapper->declare_clear(world.start_W + Vec3::UnitZ() * 1.25, {1.0, 1.25});
   }
 
   Result<DeliveryLoads> go() {
@@ -61,12 +61,14 @@ class Delivery {
   }
 
  private:
-  [[nodiscard]] bool is_indoors() const { return context_.speed_limit_m_s(here_W()) <= slow_m_s; }
+  [[nodiscard]] bool is_indoors() const {
+    return bench_.situation().speed_limit_m_s(here_W()) <= slow_m_s;
+  }
   [[nodiscard]] Vec3 here_W() const { return path_.at(s_m_).p_W; }
   [[nodiscard]] Pose pose() const { return looking(here_W(), yaw_of(path_.at(s_m_).tangent_W)); }
 
   Status look() {
-    context_.kernels.mapper->declare_clear(here_W(), context_.body);
+    bench_.kernels.mapper->declare_clear(here_W(), bench_.brief.body);
     if (const Status seen = perception_.look(pose(), loads_.kernels); !seen) {
       return seen.error();
     }
@@ -84,15 +86,15 @@ class Delivery {
     const Path ahead = Path::polyline({here_W(), path_.at(end_m).p_W});
     Work priced;
     check(ahead, 0.0, priced);
-    loads_.kernels[context_.settings.kernels.collision_check].calls.push_back(priced);
+    loads_.kernels[bench_.brief.settings.kernels.collision_check].calls.push_back(priced);
     Work all;
     return check(path_, s_m_, all).blocked_at_m ? plan() : Done{};
   }
 
   PathCheck check(const Path& path, double from_m, Work& work) {
-    const PathSpan span{&path, from_m, context_.settings.map.range_m};
-    return context_.kernels.collision_check->check(context_.map(), span, context_.narrow_body(),
-                                                   work);
+    const PathSpan span{&path, from_m, bench_.brief.settings.map.range_m};
+    return bench_.kernels.collision_check->check(bench_.kernels.mapper->view(), span,
+                                                 bench_.brief.narrow_body(), work);
   }
 
   /// A planner draws lots, so one plan says little about its mean work: several are made, and the
@@ -105,11 +107,11 @@ class Delivery {
     for (int i = 0; i < plans_at_once; ++i) {
       query.id = ++plans_;
       Cylinder body;
-      const Plan plan = plan_with_tubes(context_, query, body);
+      const Plan plan = plan_with_tubes(bench_.situation(), *bench_.kernels.planner, query, body);
       if (plan.waypoints_W.empty()) {
         return Error{ErrorCode::failed, "in the recorded delivery: " + plan.failure};
       }
-      loads_.kernels[context_.settings.kernels.planner].calls.push_back(plan.work);
+      loads_.kernels[bench_.brief.settings.kernels.planner].calls.push_back(plan.work);
       path_ = Path::polyline(plan.waypoints_W);
     }
     s_m_ = 0.0;
@@ -117,7 +119,7 @@ class Delivery {
   }
 
   const DeliveryScene& scene_;
-  MissionContext& context_;
+  const Workbench& bench_;
   const World& world_;
   Perception perception_;
   std::vector<Stretch> stretches_{};
@@ -200,11 +202,8 @@ Result<DeliveryLoads> record(const DeliveryScene& scene) {
   if (!setup) {
     return setup.error();
   }
-  MemoryRecorder events;
-  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
-                         brief_of(setup->things.world, scene.scenario.world.generator),
-                         std::move(setup->equipment)};
-  return Delivery{scene, context, setup->things.world}.go();
+  const Workbench bench = workbench_of(scene.scenario, *setup);
+  return Delivery{scene, bench, setup->things.world}.go();
 }
 
 Result<KernelLoads> record(const RoomsScene& scene) {
@@ -212,17 +211,14 @@ Result<KernelLoads> record(const RoomsScene& scene) {
   if (!setup) {
     return setup.error();
   }
-  MemoryRecorder events;
-  MissionContext context{flight_settings(scene.scenario), *setup->platform, events,
-                         brief_of(setup->things.world, scene.scenario.world.generator),
-                         std::move(setup->equipment)};
+  const Workbench bench = workbench_of(scene.scenario, *setup);
   const Clearance clearance{setup->things.world};
-  Perception perception{context, setup->things.world};
+  Perception perception{bench, setup->things.world};
   KernelLoads loads;
   std::vector<Stretch> stretches;
   for (int i = 0; i < scene.rows * scene.columns * scene.headings; ++i) {
     const Pose X_WB = view_in(scene, i);
-    if (clearance.distance_m(X_WB.translation(), context.body, 1.0, true) <= 0.0) {
+    if (clearance.distance_m(X_WB.translation(), bench.brief.body, 1.0, true) <= 0.0) {
       continue;
     }
     if (const Status seen = perception.look(X_WB, loads); !seen) {

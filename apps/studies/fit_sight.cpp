@@ -4,7 +4,6 @@
 
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/flight/perception/view.h"
-#include "flyball/flight/perception/visual_nodes.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/world.h"

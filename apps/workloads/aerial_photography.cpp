@@ -4,11 +4,13 @@
 // MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and real-time tracker,
 // PID. It flies without a map: the scenario declares the space above the park clear.
 
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
 #include "flyball/flight/people/target_follower.h"
 #include "flyball/flight/people/target_nodes.h"
 #include "flyball/flight/people/tracked_time.h"
-#include "flyball/flight/perception/perception_nodes.h"
+#include "flyball/flight/perception/localization_nodes.h"
+#include "flyball/flight/perception/pose_history.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -26,53 +28,104 @@ class AerialPhotography final : public Workload {
  public:
   [[nodiscard]] bool looks_for_people() const override { return true; }
 
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    context.maps_obstacles = false;
-    vehicle_ = vehicle;
-    legs_.emplace(context, vehicle);
-    const PhotographySettings& wanted = context.settings.photography;
-    FollowSettings follow;
-    follow.distance_m = wanted.distance_m;
-    follow.person_height_m = wanted.person_height_m;
-    follow.height_m = context.brief.cruise_height_m;
-    follow.ground_z_m = context.brief.ground_z_m;
-    follow.coast_s = wanted.coast_s;
-    follow.search_rate_rad_s = wanted.search_rate_rad_s;
-    follow.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
-    follow.max_acceleration_m_s2 = 0.5 * context.settings.mission.max_acceleration_m_s2;
-    follower_ = std::make_unique<TargetFollower>(follow);
-    pose_ = add_localization(graph, vehicle, context);
-    target_ = add_target(graph, vehicle, pose_, context, log_);
-    add_history(graph);
+  void adapt(Brief& brief) const override { brief.maps_obstacles = false; }
+
+  void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
+    vehicle_ = parts.vehicle;
+    mission_ = parts.mission;
+    localization_ = add_localization(graph, parts);
+    target_ = add_target(graph, parts, localization_);
+    tracked_topic_ = graph.topic<TrackedTime>("tracked_time");
     add_control(graph);
     add_mission(graph);
   }
-
-  [[nodiscard]] const Navigator* navigator() const override { return nullptr; }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"detections", log_.detections},
             {"looks", static_cast<double>(log_.looks)},
             {"buffered_frames", static_cast<double>(log_.buffered_frames)},
-            {"tracked_believed_s", tracked_.seconds()},
+            {"tracked_believed_s", tracked_s_},
             {"is_censored", is_censored_ ? 1.0 : 0.0}};
   }
 
  private:
-  enum class Stage : std::uint8_t { ready, climbing, following };
+  enum class Stage : std::uint8_t { ready, climbing, following, done };
 
-  void add_history(Graph& graph) {
-    NodeSpec spec;
-    spec.name = "pose_history";
-    spec.trigger = OnMessage{pose_.index};
-    spec.priority = 30;
-    graph.node(std::move(spec), [this](JobContext& job) {
-      if (const auto pose = job.latest(pose_)) {
-        history_.add(*pose);
+  /// The node `control`: all that it touches is its own.
+  class Control {
+   public:
+    Control(const AerialPhotography& mission, const FollowSettings& settings)
+        : vehicle_{mission.vehicle_},
+          mission_{mission.mission_},
+          localization_{mission.localization_},
+          target_{mission.target_},
+          tracked_topic_{mission.tracked_topic_},
+          follower_{settings} {}
+
+    Work operator()(JobContext& job) {
+      Work work;
+      work.add("ticks", 1.0);
+      poses_.take_from(job, localization_.poses);
+      const bool follows = is_in(job, mission_, MissionPhase::cruise);
+      const auto pose = job.latest(localization_.pose);
+      if (follows && !has_started_ && pose) {
+        follower_.start(*pose);
+        has_started_ = true;
       }
-      return Work{};
-    });
+      look(job);
+      if (has_started_) {
+        job.publish(vehicle_.setpoint, follower_.tick(job.now(), control_period));
+      }
+      job.publish(vehicle_.gimbal, follower_.gimbal());
+      return work;
+    }
+
+   private:
+    void look(JobContext& job) {
+      // Older than what a tracker says, but all there is when none could hold whom the detector
+      // saw: somebody who turns round, or a view that swings.
+      if (const auto sighting = job.take(target_.sighting)) {
+        if (const auto pose = poses_.at(sighting->frame.captured)) {
+          follower_.sight(*sighting, *pose);
+        }
+      }
+      const auto target = job.take(target_.target);
+      if (!target) {
+        return;
+      }
+      if (const auto pose = poses_.at(target->frame.captured)) {
+        follower_.see(*target, *pose);
+      }
+      if (target->box && has_started_) {
+        tracked_.on_target(target->frame.captured);
+        job.publish(tracked_topic_, tracked_);
+      }
+    }
+
+    VehicleTopics vehicle_;
+    MissionTopics mission_;
+    LocalizationTopics localization_;
+    TargetTopics target_;
+    Topic<TrackedTime> tracked_topic_;
+    TargetFollower follower_;
+    PoseHistory poses_{};
+    TrackedTime tracked_{};
+    bool has_started_{};
+  };
+
+  [[nodiscard]] FollowSettings follow_settings() const {
+    const PhotographySettings& wanted = brief_->settings.photography;
+    FollowSettings follow;
+    follow.distance_m = wanted.distance_m;
+    follow.person_height_m = wanted.person_height_m;
+    follow.height_m = brief_->site.cruise_height_m;
+    follow.ground_z_m = brief_->site.ground_z_m;
+    follow.coast_s = wanted.coast_s;
+    follow.search_rate_rad_s = wanted.search_rate_rad_s;
+    follow.max_speed_m_s = brief_->settings.mission.max_speed_m_s;
+    follow.max_acceleration_m_s2 = 0.5 * brief_->settings.mission.max_acceleration_m_s2;
+    return follow;
   }
 
   void add_control(Graph& graph) {
@@ -83,92 +136,82 @@ class AerialPhotography final : public Workload {
     spec.priority = 40;
     spec.deadline = control_period;
     spec.on_miss = OnMiss::brake;
-    spec.reads = {target_.target.index, target_.sighting.index};
-    spec.writes = {vehicle_.setpoint.index, vehicle_.gimbal.index};
-    graph.node(std::move(spec), [this](JobContext& job) { return control(job); });
-  }
-
-  Work control(JobContext& job) {
-    Work work;
-    work.add("ticks", 1.0);
-    // Older than what a tracker says, but all there is when none could hold whom the detector saw:
-    // somebody who turns round, or a view that swings.
-    if (const auto sighting = job.take(target_.sighting)) {
-      if (const auto pose = history_.at(sighting->frame.captured)) {
-        follower_->sight(*sighting, *pose);
-      }
-    }
-    if (const auto target = job.take(target_.target)) {
-      if (const auto pose = history_.at(target->frame.captured)) {
-        follower_->see(*target, *pose);
-      }
-      if (target->box && stage_ == Stage::following) {
-        tracked_.on_target(target->frame.captured);
-      }
-    }
-    if (stage_ == Stage::following) {
-      job.publish(vehicle_.setpoint, follower_->tick(job.now(), control_period));
-    }
-    job.publish(vehicle_.gimbal, follower_->gimbal());
-    return work;
+    spec.reads = {target_.target.index, target_.sighting.index, localization_.pose.index,
+                  localization_.poses.index, mission_.state.index};
+    spec.writes = {vehicle_.setpoint.index, vehicle_.gimbal.index, tracked_topic_.index};
+    auto control = std::make_shared<Control>(*this, follow_settings());  // Owner: this node alone.
+    graph.node(std::move(spec), [control](JobContext& job) { return (*control)(job); });
   }
 
   void add_mission(Graph& graph) {
+    legs_.emplace(vehicle_, mission_);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {pose_.index};
+    spec.reads = {localization_.pose.index, target_.caught_up.index, tracked_topic_.index};
+    spec.writes = {mission_.end.index};
     legs_->declare(spec);
+    declare_log(spec, mission_);
     graph.node(std::move(spec), [this](JobContext& job) {
-      const auto pose = job.latest(pose_);
-      if (pose && !context_->is_over()) {
-        advance(job, *pose);
+      if (job.latest(localization_.pose)) {
+        advance(job);
       }
       return Work{};
     });
   }
 
-  void advance(JobContext& job, const PoseEstimate& pose) {
+  void advance(JobContext& job) {
     switch (stage_) {
       case Stage::ready:
-        legs_->take_off(job, context_->brief.cruise_height_m);
+        legs_->take_off(job, brief_->site.cruise_height_m);
         stage_ = Stage::climbing;
         break;
       case Stage::climbing:
         if (legs_->are_done(job)) {
-          follower_->start(pose);
-          context_->phase = MissionPhase::cruise;
+          legs_->enter(job, MissionPhase::cruise);
           stage_ = Stage::following;
-          context_->event(job.now(), "looks for a person");
+          log_event(job, mission_, "looks for a person");
         }
         break;
       case Stage::following:
-        end_if_due(job.now());
+        end_if_due(job);
+        break;
+      case Stage::done:
         break;
     }
   }
 
-  void end_if_due(MissionTime now) {
-    const PhotographySettings& wanted = context_->settings.photography;
-    is_censored_ = tracked_.seconds() >= wanted.limit_s;
+  void end_if_due(JobContext& job) {
+    const PhotographySettings& wanted = brief_->settings.photography;
+    if (const auto newest = job.latest(target_.caught_up)) {
+      log_ = newest->log;
+    }
+    if (const auto tracked = job.latest(tracked_topic_)) {
+      tracked_s_ = tracked->seconds();
+    }
+    is_censored_ = tracked_s_ >= wanted.limit_s;
     if (!is_censored_ && log_.missed_in_row < wanted.lost_after_detections) {
       return;
     }
-    const bool enough = tracked_.seconds() >= wanted.success_s;
-    context_->finish(now, enough ? MissionStatus::succeeded : MissionStatus::failed,
-                     enough ? MissionFailure::none : MissionFailure::target_lost);
+    const bool enough = tracked_s_ >= wanted.success_s;
+    end_mission(job, mission_, enough ? MissionStatus::succeeded : MissionStatus::failed,
+                enough ? MissionFailure::none : MissionFailure::target_lost);
+    stage_ = Stage::done;
   }
 
-  MissionContext* context_{};
+  // Constant once the graph is built.
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
   VehicleTopics vehicle_{};
-  std::optional<Legs> legs_{};
-  Topic<PoseEstimate> pose_{};
+  MissionTopics mission_{};
+  LocalizationTopics localization_{};
   TargetTopics target_{};
+  Topic<TrackedTime> tracked_topic_{};
+
+  // Of the node `mission` alone.
+  std::optional<Legs> legs_{};
   TargetLog log_{};
-  PoseHistory history_{};
-  std::unique_ptr<TargetFollower> follower_;
-  TrackedTime tracked_{};
+  double tracked_s_{};
   Stage stage_{Stage::ready};
   bool is_censored_{};
 };

@@ -6,6 +6,7 @@
 
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/exploration/known_share.h"
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -21,18 +22,16 @@ constexpr double cell_m = 0.15;  // Of the estimate: as thin as walls are.
 
 class Mapping final : public Workload {
  public:
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    navigator_ = std::make_unique<Navigator>(context);
-    flight_ = std::make_unique<ExplorationFlight>(context, *navigator_);
-    known_ = std::make_unique<KnownShare>(context.brief.volume_W, cell_m);
-    const PerceptionTopics perception = add_perception(graph, vehicle, context);
-    add_navigation(graph, vehicle, perception, context, *navigator_);
-    flight_->add_nodes(graph, vehicle, perception);
+  void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
+    mission_ = parts.mission;
+    flight_ = std::make_unique<ExplorationFlight>(graph, parts);
+    known_ = std::make_unique<KnownShare>(parts.brief->site.volume_W, cell_m);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
+    spec.writes = {mission_.end.index};
     flight_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       step(job);
@@ -40,11 +39,9 @@ class Mapping final : public Workload {
     });
   }
 
-  [[nodiscard]] Status check(const FlightSettings&, const MissionBrief& brief) const override {
-    return check_volume(brief);
+  [[nodiscard]] Status check(const FlightSettings&, const Site& site) const override {
+    return check_volume(site);
   }
-
-  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"known_percent", known_percent_}, {"views", static_cast<double>(flight_->views())}};
@@ -52,36 +49,40 @@ class Mapping final : public Workload {
 
  private:
   void step(JobContext& job) {
-    if (context_->is_over()) {
+    if (is_done_) {
       return;
     }
-    estimate(job.now());
+    estimate(job);
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
-      flight_->go_home(job.now());
+      flight_->go_home(job);
     } else if (flight_->state() == ExplorationFlight::State::landed) {
-      context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
+      end_mission(job, mission_, MissionStatus::succeeded, MissionFailure::none);
+      is_done_ = true;
     }
   }
 
-  void estimate(MissionTime now) {
-    if (now < next_estimate_ || flight_->state() != ExplorationFlight::State::exploring) {
+  void estimate(JobContext& job) {
+    const auto revision = job.latest(flight_->perception().map);
+    if (!revision || job.now() < next_estimate_ ||
+        flight_->state() != ExplorationFlight::State::exploring) {
       return;
     }
-    next_estimate_ = now + estimating_period;
-    known_percent_ = known_->percent(context_->map());
-    context_->recorder.record(now, "known", {{"known_percent", known_percent_}});
-    if (known_percent_ >= context_->settings.explore.coverage_percent) {
-      flight_->go_home(now);
+    next_estimate_ = job.now() + estimating_period;
+    known_percent_ = known_->percent(*revision->map);
+    log(job, mission_, "known", {{"known_percent", known_percent_}});
+    if (known_percent_ >= brief_->settings.explore.coverage_percent) {
+      flight_->go_home(job);
     }
   }
 
-  MissionContext* context_{};
-  std::unique_ptr<Navigator> navigator_;
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
+  MissionTopics mission_{};
   std::unique_ptr<ExplorationFlight> flight_;
   std::unique_ptr<KnownShare> known_;
   MissionTime next_estimate_{};
   double known_percent_{};
+  bool is_done_{};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 // Package delivery, there and back: take off, fly to the goal, land, leave the payload, take off,
 // fly home, land. Dataflow as in MAVBench (MICRO 2018), figure of package delivery.
 
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
@@ -18,31 +19,32 @@ using namespace std::chrono_literals;
 
 class PackageDelivery final : public Workload {
  public:
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    navigator_ = std::make_unique<Navigator>(context);
-    perception_ = add_perception(graph, vehicle, context);
-    add_navigation(graph, vehicle, perception_, context, *navigator_);
+  void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
+    mission_ = parts.mission;
+    perception_ = add_perception(graph, parts);
+    guidance_.emplace(add_navigation(graph, parts, perception_).guidance);
+    legs_.emplace(parts.vehicle, parts.mission);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {perception_.pose.index};
-    legs_.emplace(context, vehicle);
+    spec.reads = {perception_.localization.pose.index};
+    spec.writes = {perception_.clear.index, mission_.end.index};
     legs_->declare(spec);
+    guidance_->declare(spec);
+    declare_log(spec, mission_);
     graph.node(std::move(spec), [this](JobContext& job) { return step(job); });
   }
 
   [[nodiscard]] bool flies_to_goal() const override { return true; }
-  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
  private:
   enum class Leg : std::uint8_t { out, back };
-  enum class Stage : std::uint8_t { ready, climbing, flying, landing };
+  enum class Stage : std::uint8_t { ready, climbing, flying, landing, done };
 
   Work step(JobContext& job) {
-    const auto pose = job.latest(perception_.pose);
-    if (pose && !context_->is_over()) {
+    if (const auto pose = job.latest(perception_.localization.pose)) {
       advance(job, *pose);
     }
     return {};
@@ -59,7 +61,7 @@ class PackageDelivery final : public Workload {
         }
         break;
       case Stage::flying:
-        if (navigator_->has_arrived() && navigator_->tracking_error().size_m < 0.1) {
+        if (has_arrived(job)) {
           land(job);
         }
         break;
@@ -68,55 +70,64 @@ class PackageDelivery final : public Workload {
           touched_down(job);
         }
         break;
+      case Stage::done:
+        break;
     }
   }
 
+  [[nodiscard]] bool has_arrived(JobContext& job) const {
+    const auto navigator = guidance_->state(job);
+    return navigator && navigator->has_arrived && navigator->tracking_error.size_m < 0.1;
+  }
+
   [[nodiscard]] Vec3 above(const Vec3& ground_W) const {
-    return ground_W + Vec3::UnitZ() * context_->brief.cruise_height_m;
+    return ground_W + Vec3::UnitZ() * brief_->site.cruise_height_m;
   }
 
   /// Where the leg begins.
   [[nodiscard]] const Vec3& site(Leg leg) const {
-    return leg == Leg::out ? context_->brief.start_W : context_->brief.goal_W;
+    return leg == Leg::out ? brief_->site.start_W : brief_->site.goal_W;
   }
 
   void take_off(JobContext& job, const PoseEstimate& pose) {
-    for (const Vec3& site_W : {context_->brief.start_W, context_->brief.goal_W}) {
-      declare_clear_over(*context_->kernels.mapper, site_W);
+    for (const Vec3& site_W : {brief_->site.start_W, brief_->site.goal_W}) {
+      job.publish(perception_.clear, clear_over(site_W));
     }
-    navigator_->hover_at(above(site(leg_)), yaw_of(pose.X_WB.linear().col(0)));
-    legs_->take_off(job, context_->brief.cruise_height_m);
+    guidance_->hover_at(job, above(site(leg_)), yaw_of(pose.X_WB.linear().col(0)));
+    legs_->take_off(job, brief_->site.cruise_height_m);
     stage_ = Stage::climbing;
   }
 
   void depart(JobContext& job) {
-    navigator_->set_goal(job.now(), above(site(leg_ == Leg::out ? Leg::back : Leg::out)));
-    context_->phase = MissionPhase::cruise;
+    guidance_->go_to(job, above(site(leg_ == Leg::out ? Leg::back : Leg::out)));
+    legs_->enter(job, MissionPhase::cruise);
     stage_ = Stage::flying;
-    context_->event(job.now(), leg_ == Leg::out ? "outbound" : "homebound");
+    log_event(job, mission_, leg_ == Leg::out ? "outbound" : "homebound");
   }
 
   void land(JobContext& job) {
-    navigator_->clear_goal();
+    guidance_->give_up_goal(job);
     legs_->land(job);
     stage_ = Stage::landing;
   }
 
   void touched_down(JobContext& job) {
     if (leg_ == Leg::back) {
-      context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
+      end_mission(job, mission_, MissionStatus::succeeded, MissionFailure::none);
+      stage_ = Stage::done;
       return;
     }
     legs_->release_payload(job);
-    context_->event(job.now(), "delivered");
+    log_event(job, mission_, "delivered");
     leg_ = Leg::back;
     stage_ = Stage::ready;
   }
 
-  MissionContext* context_{};
-  std::unique_ptr<Navigator> navigator_;
-  std::optional<Legs> legs_{};
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
+  MissionTopics mission_{};
   PerceptionTopics perception_{};
+  std::optional<Guidance> guidance_{};
+  std::optional<Legs> legs_{};
   Leg leg_{Leg::out};
   Stage stage_{Stage::ready};
 };

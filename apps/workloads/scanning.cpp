@@ -10,6 +10,7 @@
 
 #include "flyball/flight/exploration/ground_coverage.h"
 #include "flyball/flight/exploration/ground_pictures.h"
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
@@ -37,21 +38,20 @@ Error refused(const std::string& sentence) {
 
 class Scanning final : public Workload {
  public:
-  [[nodiscard]] Status check(const FlightSettings& settings,
-                             const MissionBrief& brief) const override {
+  [[nodiscard]] Status check(const FlightSettings& settings, const Site& site) const override {
     const ScanSettings& scan = settings.scan;
-    if (!brief.open_above_m) {
+    if (!site.open_above_m) {
       return refused("workload \"scanning\" flies without a map, above everything, and world \"" +
-                     brief.place + "\" names no such height; try: world farm");
+                     site.place + "\" names no such height; try: world farm");
     }
-    const double floor_m = *brief.open_above_m + clear_margin_m;
-    const double ceiling_m = brief.bounds_W.max.z() - brief.ground_z_m - clear_margin_m;
+    const double floor_m = *site.open_above_m + clear_margin_m;
+    const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m - clear_margin_m;
     if (scan.height_m < floor_m || scan.height_m > ceiling_m) {
       return refused("scan.height_m = " + metres(scan.height_m) + " must be at least " +
-                     metres(floor_m) + ", above what stands in world \"" + brief.place +
+                     metres(floor_m) + ", above what stands in world \"" + site.place +
                      "\", and at most " + metres(ceiling_m));
     }
-    const Vec3 size = brief.bounds_W.max - brief.bounds_W.min;
+    const Vec3 size = site.bounds_W.max - site.bounds_W.min;
     if (scan.length_m > size.x() || scan.width_m > size.y()) {
       return refused("scan.length_m x scan.width_m = " + metres(scan.length_m) + " x " +
                      metres(scan.width_m) + " must fit into the world's " + metres(size.x()) +
@@ -60,75 +60,94 @@ class Scanning final : public Workload {
     return Done{};
   }
 
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    legs_.emplace(context, vehicle);
-    area_W_ = scanned_area_W(context.brief, context.settings.scan);
-    seen_ = GroundCoverage{area_W_, scan_cell_m};
-    prepare_flight();
-    navigator_ = std::make_unique<Navigator>(context);
-    pose_ = add_localization(graph, vehicle, context);
-    picture_ = graph.topic<GroundPicture>("picture");
-    const auto topics = add_path_following(graph, vehicle, pose_, context, *navigator_);
-    add_coverage(graph, topics.plan);
-    add_pictures(graph);
-    add_mission(graph);
+  /// Without a map to be corrected by, a fix is wrong by what its receiver is: the tube around the
+  /// reference has room for three standard deviations.
+  void adapt(Brief& brief) const override {
+    brief.maps_obstacles = false;
+    brief.tube.at_rest_m += 3.0 * brief.settings.fix_error_m;
   }
 
-  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
+  void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
+    mission_ = parts.mission;
+    legs_.emplace(parts.vehicle, parts.mission);
+    area_W_ = scanned_area_W(brief_->site, brief_->settings.scan);
+    declared_ = declared_space(*parts.kernels.mapper);
+    const LocalizationTopics localization = add_localization(graph, parts);
+    pose_ = localization.pose;
+    picture_ = graph.topic<GroundPicture>("picture", 16);
+    lanes_ = graph.topic<Lanes>("lanes");
+    map_ = graph.topic<MapRevision>("map_revision");
+    const NavigationTopics topics = add_path_following(graph, parts, localization, declared_);
+    guidance_.emplace(topics.guidance);
+    add_coverage(graph, parts, topics.plan);
+    add_pictures(graph, topics.guidance.state);
+    add_mission(graph);
+  }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"area_believed_percent", seen_.covered_percent()}};
   }
 
  private:
-  enum class Stage : std::uint8_t { ready, climbing, flying, landing };
+  enum class Stage : std::uint8_t { ready, climbing, flying, landing, done };
   static constexpr double clear_margin_m = 1.5;  // Half a body, its tube, and the fix's error.
 
-  /// Without a map to be corrected by, a fix is wrong by what its receiver is: the tube around the
-  /// reference has room for three standard deviations.
-  void prepare_flight() {
-    context_->maps_obstacles = false;
-    context_->tube.at_rest_m += 3.0 * context_->settings.fix_error_m;
-    const Aabb& bounds_W = context_->brief.bounds_W;
-    const double floor_m =
-        context_->brief.ground_z_m + context_->brief.open_above_m.value_or(bounds_W.max.z());
-    Vec3 centre_W = 0.5 * (bounds_W.min + bounds_W.max);
-    centre_W.z() = 0.5 * (floor_m + bounds_W.max.z());
-    const double radius_m = 0.5 * (bounds_W.max - bounds_W.min).head<2>().norm();
-    context_->kernels.mapper->declare_clear(centre_W,
-                                            {radius_m, 0.5 * (bounds_W.max.z() - floor_m)});
+  /// Where the lanes lie along the path.
+  struct Lanes {
+    double out_m{};   ///< Before and
+    double back_m{};  ///< behind them.
+  };
+
+  /// All that is known to be free: what lies higher than anything stands.
+  [[nodiscard]] std::shared_ptr<const OccupancyView> declared_space(Mapper& mapper) const {
+    const Site& site = brief_->site;
+    const double ceiling_m = site.bounds_W.max.z();
+    const double floor_m = site.ground_z_m + site.open_above_m.value_or(ceiling_m);
+    Vec3 centre_W = 0.5 * (site.bounds_W.min + site.bounds_W.max);
+    centre_W.z() = 0.5 * (floor_m + ceiling_m);
+    const double radius_m = 0.5 * (site.bounds_W.max - site.bounds_W.min).head<2>().norm();
+    mapper.declare_clear(centre_W, {radius_m, 0.5 * (ceiling_m - floor_m)});
+    return mapper.revision();
   }
 
   /// The service that the navigator asks for plans.
-  void add_coverage(Graph& graph, const Service<PlanQuery, PlanAnswer>& plan) {
+  void add_coverage(Graph& graph,
+                    const FlightParts& parts,
+                    const Service<PlanQuery, PlanAnswer>& plan) {
     NodeSpec spec;
     spec.name = "coverage";
-    spec.cost = context_->settings.kernels.coverage;
+    spec.cost = brief_->settings.kernels.coverage;
     spec.trigger = OnMessage{plan.request.index};
     spec.priority = 15;
     spec.deadline = 10s;
-    spec.writes = {plan.response.index};
-    graph.node(std::move(spec), [this, plan](JobContext& job) {
+    spec.reads = {mission_.knobs.index};
+    spec.writes = {plan.response.index, lanes_.index};
+    graph.node(std::move(spec), [this, plan, planner = parts.kernels.coverage](JobContext& job) {
       const auto query = job.take(plan.request);
-      return query ? answer(job, plan, *query) : Work{};
+      const auto knobs = job.latest(mission_.knobs);
+      return query && knobs ? answer(job, plan, *query, *knobs, *planner) : Work{};
     });
   }
 
-  Work answer(JobContext& job, const Service<PlanQuery, PlanAnswer>& plan, const PlanQuery& query) {
-    const ScanSettings& scan = context_->settings.scan;
+  /// Run by the node `coverage`: touches nothing but the brief and the topics.
+  Work answer(JobContext& job,
+              const Service<PlanQuery, PlanAnswer>& plan,
+              const PlanQuery& query,
+              const KnobsInForce& knobs,
+              CoveragePlanner& planner) const {
+    const ScanSettings& scan = brief_->settings.scan;
     CoverageRequest request{area_W_.min, scan.length_m, scan.width_m,
                             scan.lanes,  query.start_W, query.goal_W};
     request.corner_W.z() = query.goal_W.z();
-    auto path = context_->kernels.coverage->cover(request);
+    auto path = planner.cover(request);
     PlanAnswer reply;
     reply.id = query.id;
     reply.start_direction_W = query.start_direction_W;
-    reply.body = context_->body_at(context_->knobs.value("mission.max_speed_m_s"));
+    reply.body = brief_->body_at(knobs.value("mission.max_speed_m_s"));
     Work work;
     if (path) {
-      out_m_ = path->out_m;
-      back_m_ = path->back_m;
+      job.publish(lanes_, Lanes{path->out_m, path->back_m});
       work = path->work;
       reply.waypoints_W = std::move(path->waypoints_W);
     } else {
@@ -139,55 +158,61 @@ class Scanning final : public Workload {
   }
 
   /// The camera stores its pictures by itself, which takes no time on board.
-  void add_pictures(Graph& graph) {
+  void add_pictures(Graph& graph, Topic<NavigatorState> navigator) {
     NodeSpec spec;
     spec.name = "pictures";
-    const Duration period = from_seconds(1.0 / context_->settings.scan.picture_rate_hz);
+    const Duration period = from_seconds(1.0 / brief_->settings.scan.picture_rate_hz);
     spec.trigger = OnPeriod{period, period};
     spec.priority = 5;
-    spec.reads = {pose_.index};
+    spec.reads = {pose_.index, navigator.index, lanes_.index, mission_.state.index};
     spec.writes = {picture_.index};
-    graph.node(std::move(spec), [this](JobContext& job) {
+    graph.node(std::move(spec), [this, navigator](JobContext& job) {
       const auto pose = job.latest(pose_);
-      if (pose && is_over_area()) {
-        take_picture(job, pose->X_WB);
+      const auto state = job.latest(navigator);
+      const auto lanes = job.latest(lanes_);
+      if (pose && state && lanes && is_in(job, mission_, MissionPhase::cruise) &&
+          is_over_area(*state, *lanes)) {
+        job.publish(picture_, picture(job.now(), pose->X_WB));
       }
       return Work{};
     });
   }
 
   /// From when the picture's edge reaches the first lane until it leaves the last one.
-  [[nodiscard]] bool is_over_area() const {
-    const PathFollower& follower = navigator_->follower();
-    if (stage_ != Stage::flying || !follower.has_path()) {
+  [[nodiscard]] bool is_over_area(const NavigatorState& navigator, const Lanes& lanes) const {
+    if (!navigator.has_path()) {
       return false;
     }
-    const Intrinsics camera = context_->settings.camera.intrinsics();
+    const Intrinsics camera = brief_->settings.camera.intrinsics();
     const double half_picture_m =
-        context_->settings.scan.height_m * 0.5 * camera.height_px / camera.focal_px;
-    const double left_m = follower.path().length_m() - follower.s_m();
-    return follower.s_m() + half_picture_m >= out_m_ && left_m + half_picture_m >= back_m_;
+        brief_->settings.scan.height_m * 0.5 * camera.height_px / camera.focal_px;
+    const double left_m = navigator.path->length_m() - navigator.s_m;
+    return navigator.s_m + half_picture_m >= lanes.out_m && left_m + half_picture_m >= lanes.back_m;
   }
 
-  void take_picture(JobContext& job, const Pose& X_WB) {
-    const auto footprint = footprint_of(downward_camera_pose(X_WB),
-                                        context_->settings.camera.intrinsics(), area_W_.min.z());
-    if (footprint) {
-      seen_.add(*footprint);
-    }
-    job.publish(picture_, GroundPicture{job.now()});
+  [[nodiscard]] GroundPicture picture(MissionTime taken, const Pose& X_WB) const {
+    return {taken, footprint_of(downward_camera_pose(X_WB), brief_->settings.camera.intrinsics(),
+                                area_W_.min.z())};
   }
 
   void add_mission(Graph& graph) {
+    seen_ = GroundCoverage{area_W_, scan_cell_m};
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {pose_.index};
+    spec.reads = {pose_.index, picture_.index};
+    spec.writes = {mission_.end.index, map_.index};
     legs_->declare(spec);
+    guidance_->declare(spec);
+    declare_log(spec, mission_);
     graph.node(std::move(spec), [this](JobContext& job) {
-      const auto pose = job.latest(pose_);
-      if (pose && !context_->is_over()) {
+      while (const auto picture = job.take(picture_)) {
+        if (picture->footprint) {
+          seen_.add(*picture->footprint);
+        }
+      }
+      if (const auto pose = job.latest(pose_)) {
         advance(job, *pose);
       }
       return Work{};
@@ -205,7 +230,7 @@ class Scanning final : public Workload {
         }
         break;
       case Stage::flying:
-        if (navigator_->has_arrived()) {
+        if (const auto navigator = guidance_->state(job); navigator && navigator->has_arrived) {
           land(job);
         }
         break;
@@ -214,54 +239,61 @@ class Scanning final : public Workload {
           end(job);
         }
         break;
+      case Stage::done:
+        break;
     }
   }
 
   [[nodiscard]] Vec3 above_start() const {
-    return context_->brief.start_W + Vec3::UnitZ() * context_->settings.scan.height_m;
+    return brief_->site.start_W + Vec3::UnitZ() * brief_->settings.scan.height_m;
   }
 
   void take_off(JobContext& job, const PoseEstimate& pose) {
-    context_->recorder.record(job.now(), "area",
-                              {{"x0_m", area_W_.min.x()},
-                               {"y0_m", area_W_.min.y()},
-                               {"x1_m", area_W_.max.x()},
-                               {"y1_m", area_W_.max.y()}});
-    navigator_->hover_at(above_start(), yaw_of(pose.X_WB.linear().col(0)));
-    legs_->take_off(job, context_->settings.scan.height_m);
+    log(job, mission_, "area",
+        {{"x0_m", area_W_.min.x()},
+         {"y0_m", area_W_.min.y()},
+         {"x1_m", area_W_.max.x()},
+         {"y1_m", area_W_.max.y()}});
+    job.publish(map_, MapRevision{1, job.now(), declared_->resolution_m(), declared_});
+    guidance_->hover_at(job, above_start(), yaw_of(pose.X_WB.linear().col(0)));
+    legs_->take_off(job, brief_->settings.scan.height_m);
     stage_ = Stage::climbing;
   }
 
   void depart(JobContext& job) {
-    navigator_->set_goal(job.now(), above_start());
-    context_->phase = MissionPhase::cruise;
+    guidance_->go_to(job, above_start());
+    legs_->enter(job, MissionPhase::cruise);
     stage_ = Stage::flying;
-    context_->event(job.now(), "scanning");
+    log_event(job, mission_, "scanning");
   }
 
   void land(JobContext& job) {
-    navigator_->clear_goal();
+    guidance_->give_up_goal(job);
     legs_->land(job);
     stage_ = Stage::landing;
   }
 
   void end(JobContext& job) {
-    if (seen_.covered_percent() < context_->settings.scan.coverage_percent) {
-      context_->finish(job.now(), MissionStatus::failed, MissionFailure::incomplete);
-    } else {
-      context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
-    }
+    const bool is_enough = seen_.covered_percent() >= brief_->settings.scan.coverage_percent;
+    end_mission(job, mission_, is_enough ? MissionStatus::succeeded : MissionStatus::failed,
+                is_enough ? MissionFailure::none : MissionFailure::incomplete);
+    stage_ = Stage::done;
   }
 
-  MissionContext* context_{};
-  std::unique_ptr<Navigator> navigator_;
-  std::optional<Legs> legs_{};
+  // Constant once the graph is built.
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
+  MissionTopics mission_{};
+  std::shared_ptr<const OccupancyView> declared_{};  ///< Owners: this, `smooth` and `follow`.
   Topic<PoseEstimate> pose_{};
   Topic<GroundPicture> picture_{};
+  Topic<Lanes> lanes_{};
+  Topic<MapRevision> map_{};
   Aabb area_W_{};
+
+  // Of the node `mission` alone.
+  std::optional<Guidance> guidance_{};
+  std::optional<Legs> legs_{};
   GroundCoverage seen_{};  ///< By the poses that the vehicle believes.
-  double out_m_{};         ///< Along the path, before and
-  double back_m_{};        ///< behind the lanes.
   Stage stage_{Stage::ready};
 };
 

@@ -5,6 +5,7 @@
 // 2018), figure of search and rescue.
 
 #include "flyball/flight/exploration/exploration_flight.h"
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/people/person_finding.h"
 #include "flyball/flight/people/person_search.h"
 #include "flyball/flight/workload.h"
@@ -19,34 +20,29 @@ using namespace std::chrono_literals;
 
 class SearchAndRescue final : public Workload {
  public:
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    navigator_ = std::make_unique<Navigator>(context);
-    flight_ = std::make_unique<ExplorationFlight>(context, *navigator_);
-    const PerceptionTopics perception = add_perception(graph, vehicle, context);
-    add_navigation(graph, vehicle, perception, context, *navigator_);
-    flight_->add_nodes(graph, vehicle, perception);
-    sightings_ = add_person_search(graph, vehicle, perception, context);
-    finding_ = std::make_unique<PersonFinding>(context.settings.search);
+  void build(Graph& graph, const FlightParts& parts) override {
+    mission_ = parts.mission;
+    flight_ = std::make_unique<ExplorationFlight>(graph, parts);
+    sightings_ = add_person_search(graph, parts, flight_->perception().localization);
+    finding_ = std::make_unique<PersonFinding>(parts.brief->settings.search);
     found_ = graph.topic<Finding>("finding");
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
+    spec.reads = {sightings_.index};
+    spec.writes = {found_.index, mission_.end.index};
     flight_->declare(spec);
-    spec.reads.push_back(sightings_.index);
-    spec.writes.push_back(found_.index);
     graph.node(std::move(spec), [this](JobContext& job) {
       step(job);
       return Work{};
     });
   }
 
-  [[nodiscard]] Status check(const FlightSettings&, const MissionBrief& brief) const override {
-    return check_volume(brief);
+  [[nodiscard]] Status check(const FlightSettings&, const Site& site) const override {
+    return check_volume(site);
   }
   [[nodiscard]] bool looks_for_people() const override { return true; }
-  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
 
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"views", static_cast<double>(flight_->views())}};
@@ -54,7 +50,7 @@ class SearchAndRescue final : public Workload {
 
  private:
   void step(JobContext& job) {
-    if (context_->is_over()) {
+    if (is_done_) {
       return;
     }
     while (const auto seen = job.take(sightings_)) {
@@ -62,28 +58,33 @@ class SearchAndRescue final : public Workload {
     }
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
-      context_->finish(job.now(), MissionStatus::failed, MissionFailure::not_found);
+      end(job, MissionStatus::failed, MissionFailure::not_found);
     } else if (flight_->state() == ExplorationFlight::State::landed) {
-      context_->finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
+      end(job, MissionStatus::succeeded, MissionFailure::none);
     }
+  }
+
+  void end(JobContext& job, MissionStatus status, MissionFailure failure) {
+    end_mission(job, mission_, status, failure);
+    is_done_ = true;
   }
 
   void look_at(JobContext& job, const Sightings& seen) {
     for (const Sighting& sighting : seen.people) {
       if (auto found = finding_->add(job.now(), sighting, seen.frame, seen.from_W)) {
-        context_->event(job.now(), "person found");
+        log_event(job, mission_, "person found");
         job.publish(found_, std::move(*found));
-        flight_->go_home(job.now());
+        flight_->go_home(job);
       }
     }
   }
 
-  MissionContext* context_{};
-  std::unique_ptr<Navigator> navigator_;
+  MissionTopics mission_{};
   std::unique_ptr<ExplorationFlight> flight_;
   std::unique_ptr<PersonFinding> finding_;
   Topic<Sightings> sightings_{};
   Topic<Finding> found_{};
+  bool is_done_{};
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 // that is asked of the computer is that the news is not too old. Graph of nodes as in package
 // delivery, so that it could depart at once.
 
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
 #include "flyball/flight/workload.h"
@@ -24,10 +25,9 @@ constexpr double least_height_m = 0.5;  // Below it, the ground's cells reach in
 
 class Watch final : public Workload {
  public:
-  [[nodiscard]] Status check(const FlightSettings& settings,
-                             const MissionBrief& brief) const override {
+  [[nodiscard]] Status check(const FlightSettings& settings, const Site& site) const override {
     const double height_m = settings.watch.height_m;
-    const double ceiling_m = brief.bounds_W.max.z() - brief.ground_z_m;
+    const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m;
     if (height_m == 0.0 || (height_m >= least_height_m && height_m <= ceiling_m)) {
       return Done{};
     }
@@ -35,39 +35,39 @@ class Watch final : public Workload {
     std::snprintf(text, sizeof text,
                   "watch.height_m = %g must be 0, to stand on the ground, or from %g to %g, the "
                   "ceiling of world \"%s\"",
-                  height_m, least_height_m, ceiling_m, brief.place.c_str());
+                  height_m, least_height_m, ceiling_m, site.place.c_str());
     return Error{ErrorCode::invalid_input, text};
   }
 
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    context_ = &context;
-    navigator_ = std::make_unique<Navigator>(context);
-    perception_ = add_perception(graph, vehicle, context);
-    add_navigation(graph, vehicle, perception_, context, *navigator_);
+  void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
+    mission_ = parts.mission;
+    perception_ = add_perception(graph, parts);
+    guidance_.emplace(add_navigation(graph, parts, perception_).guidance);
+    legs_.emplace(parts.vehicle, parts.mission);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.reads = {perception_.pose.index, perception_.map.index};
-    legs_.emplace(context, vehicle);
+    spec.reads = {perception_.localization.pose.index, perception_.map.index};
+    spec.writes = {mission_.end.index};
     legs_->declare(spec);
+    guidance_->declare(spec);
+    declare_log(spec, mission_);
     graph.node(std::move(spec), [this](JobContext& job) {
-      const auto pose = job.latest(perception_.pose);
-      if (pose && !context_->is_over()) {
+      if (const auto pose = job.latest(perception_.localization.pose)) {
         advance(job, *pose);
       }
       return Work{};
     });
   }
 
-  [[nodiscard]] const Navigator* navigator() const override { return navigator_.get(); }
-
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"longest_without_map_s", longest_s_}, {"maps_watched", static_cast<double>(maps_)}};
   }
 
  private:
-  enum class Stage : std::uint8_t { ready, climbing, watching, landing };
+  enum class Stage : std::uint8_t { ready, climbing, watching, landing, done };
 
   void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
@@ -76,7 +76,7 @@ class Watch final : public Workload {
         break;
       case Stage::climbing:
         if (legs_->are_done(job)) {
-          watch_from(job.now());
+          watch_from(job);
         }
         break;
       case Stage::watching:
@@ -84,30 +84,32 @@ class Watch final : public Workload {
         break;
       case Stage::landing:
         if (legs_->are_done(job)) {
-          end(job.now());
+          end(job);
         }
+        break;
+      case Stage::done:
         break;
     }
   }
 
-  [[nodiscard]] double height_m() const { return context_->settings.watch.height_m; }
+  [[nodiscard]] double height_m() const { return brief_->settings.watch.height_m; }
 
   void begin(JobContext& job, const PoseEstimate& pose) {
-    const Vec3 place_W = context_->brief.start_W + Vec3::UnitZ() * height_m();
-    navigator_->hover_at(place_W, yaw_of(pose.X_WB.linear().col(0)));
+    const Vec3 place_W = brief_->site.start_W + Vec3::UnitZ() * height_m();
+    guidance_->hover_at(job, place_W, yaw_of(pose.X_WB.linear().col(0)));
     if (height_m() == 0.0) {
-      watch_from(job.now());
+      watch_from(job);
       return;
     }
     legs_->take_off(job, height_m());
     stage_ = Stage::climbing;
   }
 
-  void watch_from(MissionTime now) {
-    context_->phase = MissionPhase::wait;
-    context_->event(now, "watching");
+  void watch_from(JobContext& job) {
+    legs_->enter(job, MissionPhase::wait);
+    log_event(job, mission_, "watching");
     stage_ = Stage::watching;
-    since_ = news_ = now;
+    since_ = news_ = job.now();
   }
 
   void watch(JobContext& job) {
@@ -118,27 +120,27 @@ class Watch final : public Workload {
       ++maps_;
     }
     longest_s_ = std::max(longest_s_, to_seconds(job.now() - news_));
-    if (to_seconds(job.now() - since_) < context_->settings.watch.time_s) {
+    if (to_seconds(job.now() - since_) < brief_->settings.watch.time_s) {
       return;
     }
     if (height_m() == 0.0) {
-      end(job.now());
+      end(job);
       return;
     }
     legs_->land(job);
     stage_ = Stage::landing;
   }
 
-  void end(MissionTime now) {
-    if (longest_s_ > context_->settings.watch.longest_s) {
-      context_->finish(now, MissionStatus::failed, MissionFailure::incomplete);
-    } else {
-      context_->finish(now, MissionStatus::succeeded, MissionFailure::none);
-    }
+  void end(JobContext& job) {
+    const bool is_late = longest_s_ > brief_->settings.watch.longest_s;
+    end_mission(job, mission_, is_late ? MissionStatus::failed : MissionStatus::succeeded,
+                is_late ? MissionFailure::incomplete : MissionFailure::none);
+    stage_ = Stage::done;
   }
 
-  MissionContext* context_{};
-  std::unique_ptr<Navigator> navigator_;
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
+  MissionTopics mission_{};
+  std::optional<Guidance> guidance_{};
   std::optional<Legs> legs_{};
   PerceptionTopics perception_{};
   Stage stage_{Stage::ready};

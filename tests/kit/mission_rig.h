@@ -2,14 +2,17 @@
 #pragma once
 
 /// @file
-/// A mission context around a dense map that tests fill by hand.
+/// What is known on board, around a dense map that tests fill by hand.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/flight_parts.h"
+#include "flyball/flight/navigation/situation.h"
 #include "flyball/scenario/knobs.h"
 #include "flyball/scenario/plugins.h"
 
 #include "grid_map.h"
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace flyball::kit {
 
@@ -21,16 +24,12 @@ class GridMapper final : public Mapper {
     return Work{};
   }
   void commit() override {}
-  void declare_clear(const Vec3& centre_W, const Cylinder&) override {
-    declared_W.push_back(centre_W);
-  }
+  void declare_clear(const Vec3&, const Cylinder&) override {}
   [[nodiscard]] const OccupancyView& view() const override { return map_; }
   [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
     return std::make_shared<const GridMap>(map_);
   }
   [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return {}; }
-
-  std::vector<Vec3> declared_W{};
 
  private:
   const GridMap& map_;
@@ -45,17 +44,15 @@ inline PlatformModel free_of_charge() {
 }
 
 struct MissionRig {
-  explicit MissionRig(const GridMap& map, Scenario chosen = one_core(), MissionBrief brief = {})
-      : scenario{std::move(chosen)} {
-    MissionEquipment equipment;
-    equipment.body = {0.325, 0.1};
-    equipment.knobs = KnobSettings{standard_knobs(scenario, platform).value()};
-    auto grid_mapper = std::make_unique<GridMapper>(map);
-    mapper = grid_mapper.get();
-    equipment.kernels.mapper = std::move(grid_mapper);
-    equipment.kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
-    context = std::make_unique<MissionContext>(flight_settings(scenario), platform, trace,
-                                               std::move(brief), std::move(equipment));
+  explicit MissionRig(const GridMap& map, Scenario chosen = one_core(), Site site = {})
+      : scenario{std::move(chosen)}, view{map} {
+    brief->settings = flight_settings(scenario);
+    brief->site = std::move(site);
+    brief->platform = platform;
+    brief->body = {0.325, 0.1};
+    set(KnobSettings{standard_knobs(scenario, *platform).value()});
+    kernels.mapper = std::make_shared<GridMapper>(map);
+    kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
   }
 
   static Scenario one_core() {
@@ -65,11 +62,29 @@ struct MissionRig {
     return scenario;
   }
 
+  /// A new snapshot of the knobs.
+  void set(const KnobSettings& settings) {
+    knobs = std::make_shared<const KnobsInForce>(knobs_at_start(settings));
+  }
+  /// The same with one knob turned. @return Whether it could be.
+  bool set(const std::string& knob, double value) {
+    KnobsInForce next = *knobs;
+    const bool is_set = next.knobs.set(knob, value).ok();
+    knobs = std::make_shared<const KnobsInForce>(std::move(next));
+    return is_set;
+  }
+  [[nodiscard]] Situation situation() const { return {*brief, *knobs, view}; }
+  [[nodiscard]] FlightParts parts(Graph& graph, const VehicleExtras& extras = {}) const {
+    return {brief, add_vehicle_topics(graph, extras), add_mission_topics(graph), kernels};
+  }
+
   Scenario scenario;
-  ModeledPlatform platform{free_of_charge()};
-  MemoryRecorder trace;
-  GridMapper* mapper{};  ///< The context's.
-  std::unique_ptr<MissionContext> context;
+  const GridMap& view;
+  std::shared_ptr<const ModeledPlatform> platform{
+      std::make_shared<const ModeledPlatform>(free_of_charge())};
+  std::shared_ptr<Brief> brief{std::make_shared<Brief>()};
+  std::shared_ptr<const KnobsInForce> knobs{};
+  MissionKernels kernels{};
 };
 
 /// A straight corridor along x, 40 m of it known free, then unknown.

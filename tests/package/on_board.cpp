@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include <flyball/flight/mission_context.h>
+#include <flyball/flight/vehicle_port.h>
 
 int main() {
   flyball::Graph graph{"on_board"};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
 // A workload of somebody else's, against installed headers: takes off, waits five seconds, lands.
 
 #include <cstdio>
@@ -15,39 +14,40 @@ using namespace flyball;
 using namespace std::chrono_literals;
 class LookAround final : public Workload {
  public:
-  void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) override {
-    navigator_.emplace(context);
-    legs_.emplace(context, vehicle);
-    const PerceptionTopics perception = add_perception(graph, vehicle, context);
-    add_navigation(graph, vehicle, perception, context, *navigator_);
+  void build(Graph& graph, const FlightParts& parts) override {
+    guidance_.emplace(add_navigation(graph, parts, add_perception(graph, parts)).guidance);
+    legs_.emplace(parts.vehicle, parts.mission);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
-    spec.priority = 35;
+    spec.writes = {parts.mission.end.index};
     legs_->declare(spec);
-    graph.node(std::move(spec), [this, &context](JobContext& job) {
-      if (context.phase == MissionPhase::wait) {
-        navigator_->hover_at(context.brief.start_W + Vec3{0.0, 0.0, 2.0}, 0.0);
+    guidance_->declare(spec);
+    graph.node(std::move(spec), [this, parts](JobContext& job) {
+      if (stage_ == 0) {
+        guidance_->hover_at(job, parts.brief->site.start_W + Vec3{0.0, 0.0, 2.0}, 0.0);
         legs_->take_off(job, 2.0);
-      } else if (context.phase == MissionPhase::take_off && legs_->are_done(job)) {
-        context.phase = MissionPhase::cruise;
-        up_ = job.now();
-      } else if (context.phase == MissionPhase::cruise && job.now() > up_ + 5s) {
+        stage_ = 1;
+      } else if (stage_ == 1 && legs_->are_done(job)) {
+        legs_->enter(job, MissionPhase::cruise);
+        land_at_ = job.now() + 5s;
+        stage_ = 2;
+      } else if (stage_ == 2 && job.now() >= land_at_) {
         legs_->land(job);
-      } else if (context.phase == MissionPhase::land && legs_->are_done(job)) {
-        context.finish(job.now(), MissionStatus::succeeded, MissionFailure::none);
+        stage_ = 3;
+      } else if (stage_ == 3 && legs_->are_done(job)) {
+        end_mission(job, parts.mission, MissionStatus::succeeded, MissionFailure::none);
       }
       return Work{};
     });
   }
-  const Navigator* navigator() const override { return &*navigator_; }
 
  private:
-  std::optional<Navigator> navigator_;
+  std::optional<Guidance> guidance_;
   std::optional<Legs> legs_;
-  MissionTime up_{};
+  int stage_{};
+  MissionTime land_at_{};
 };
-
 int main() {
   add_plugins([](Registry& registry) {
     registry.add<Workload>("look_around", [] { return std::make_unique<LookAround>(); });

@@ -16,68 +16,80 @@ constexpr double patience_s = 40.0;  // Standing on the way to a view, for whate
 
 }  // namespace
 
-ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from) {
-  const Intrinsics camera = context.settings.camera.intrinsics();
+ExploreRequest explore_request(const Brief& brief, const Viewpoint& from) {
+  const Intrinsics camera = brief.settings.camera.intrinsics();
   ExploreRequest request;
   request.from = from;
-  request.volume_W = context.brief.volume_W;
-  request.bounds_W = context.brief.bounds_W;
-  request.body = context.narrow_body();
-  request.settings = context.settings.explore;
+  request.volume_W = brief.site.volume_W;
+  request.bounds_W = brief.site.bounds_W;
+  request.body = brief.narrow_body();
+  request.settings = brief.settings.explore;
   request.field.horizontal_rad = 2.0 * std::atan(0.5 * camera.width_px / camera.focal_px);
   request.field.vertical_rad = 2.0 * std::atan(0.5 * camera.height_px / camera.focal_px);
   request.field.range_m = request.settings.gain_range_m;
   return request;
 }
 
-Status check_volume(const MissionBrief& brief) {
-  if ((brief.volume_W.max - brief.volume_W.min).minCoeff() <= 0.0) {
-    return Error{ErrorCode::invalid_input,
-                 "world \"" + brief.place +
-                     "\" has no volume to explore; set world.generator to \"office\""};
+Status check_volume(const Site& site) {
+  if ((site.volume_W.max - site.volume_W.min).minCoeff() <= 0.0) {
+    return Error{
+        ErrorCode::invalid_input,
+        "world \"" + site.place + "\" has no volume to explore; set world.generator to \"office\""};
   }
   return Done{};
 }
 
-ExplorationFlight::ExplorationFlight(MissionContext& context, Navigator& navigator)
-    : context_{context}, navigator_{navigator} {}
+ExplorationFlight::ExplorationFlight(Graph& graph, const FlightParts& parts)
+    : parts_{parts},
+      perception_{add_perception(graph, parts)},
+      guidance_{add_navigation(graph, parts, perception_).guidance},
+      legs_{parts.vehicle, parts.mission},
+      explore_{graph.service<ExploreQuery, ExploreAnswer>("explore")} {
+  add_explore(graph);
+}
 
-void ExplorationFlight::add_nodes(Graph& graph,
-                                  const VehicleTopics& vehicle,
-                                  const PerceptionTopics& perception) {
-  legs_.emplace(context_, vehicle);
-  perception_ = perception;
-  explore_ = graph.service<ExploreQuery, ExploreAnswer>("explore");
+void ExplorationFlight::add_explore(Graph& graph) {
   NodeSpec spec;
   spec.name = "explore";
-  spec.cost = context_.settings.kernels.explorer;
+  spec.cost = parts_.brief->settings.kernels.explorer;
   spec.trigger = OnMessage{explore_.request.index};
   spec.priority = 15;
   spec.deadline = 30s;
+  spec.reads = {perception_.map.index};
   spec.writes = {explore_.response.index};
-  graph.node(std::move(spec), [this](JobContext& job) {
-    const auto query = job.take(explore_.request);
-    if (!query) {
+  graph.node(std::move(spec), [service = explore_, map = perception_.map,
+                               explorer = parts_.kernels.explorer](JobContext& job) {
+    const auto query = job.take(service.request);
+    const auto revision = job.latest(map);
+    if (!query || !revision) {
       return Work{};
     }
-    ExploreStep step = context_.kernels.explorer->explore(query->request, context_.map());
+    ExploreStep step = explorer->explore(query->request, *revision->map);
     Work work = step.work;
-    job.publish(explore_.response, ExploreAnswer{query->id, std::move(step)});
+    job.publish(service.response, ExploreAnswer{query->id, std::move(step)});
     return work;
   });
 }
 
 void ExplorationFlight::declare(NodeSpec& spec) const {
-  for (const int topic : {perception_.pose.index, perception_.map.index, explore_.response.index}) {
+  for (const int topic :
+       {perception_.localization.pose.index, perception_.map.index, explore_.response.index}) {
     spec.reads.push_back(topic);
   }
-  legs_->declare(spec);
+  legs_.declare(spec);
+  guidance_.declare(spec);
+  declare_log(spec, parts_.mission);
   spec.writes.push_back(explore_.request.index);
+  spec.writes.push_back(perception_.clear.index);
+}
+
+Vec3 ExplorationFlight::above_start_W() const {
+  const Site& site = parts_.brief->site;
+  return site.start_W + Vec3::UnitZ() * site.cruise_height_m;
 }
 
 void ExplorationFlight::step(JobContext& job) {
-  const auto pose = job.latest(perception_.pose);
-  if (pose && !context_.is_over()) {
+  if (const auto pose = job.latest(perception_.localization.pose)) {
     advance(job, *pose);
   }
 }
@@ -88,8 +100,8 @@ void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
       take_off(job, pose);
       break;
     case Stage::climbing:
-      if (legs_->are_done(job)) {
-        context_.phase = MissionPhase::cruise;
+      if (legs_.are_done(job)) {
+        legs_.enter(job, MissionPhase::cruise);
         await_map(job.now());
       }
       break;
@@ -103,20 +115,18 @@ void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
       watch_flight(job);
       break;
     case Stage::turning:
-      watch_turn(job.now());
+      watch_turn(job);
       break;
     case Stage::landing:
-      state_ = legs_->are_done(job) ? State::landed : state_;
+      state_ = legs_.are_done(job) ? State::landed : state_;
       break;
   }
 }
 
 void ExplorationFlight::take_off(JobContext& job, const PoseEstimate& pose) {
-  declare_clear_over(*context_.kernels.mapper, context_.brief.start_W);
-  const double height_m = context_.brief.cruise_height_m;
-  navigator_.hover_at(context_.brief.start_W + Vec3::UnitZ() * height_m,
-                      yaw_of(pose.X_WB.linear().col(0)));
-  legs_->take_off(job, height_m);
+  job.publish(perception_.clear, clear_over(parts_.brief->site.start_W));
+  guidance_.hover_at(job, above_start_W(), yaw_of(pose.X_WB.linear().col(0)));
+  legs_.take_off(job, parts_.brief->site.cruise_height_m);
   stage_ = Stage::climbing;
   since_ = job.now();
 }
@@ -129,16 +139,16 @@ void ExplorationFlight::await_map(MissionTime now) {
 /// Asks for the next view as soon as a frame that was taken at rest is in the map.
 void ExplorationFlight::think(JobContext& job) {
   const auto revision = job.latest(perception_.map);
-  if (!revision || revision->captured < since_) {
+  const auto navigator = guidance_.state(job);
+  if (!revision || revision->captured < since_ || !navigator) {
     return;
   }
-  const PathFollower& follower = navigator_.follower();
   ExploreQuery query;
   query.id = ++asked_;
-  query.request = explore_request(context_, {follower.position_W(), follower.yaw_rad()});
+  query.request = explore_request(*parts_.brief, {navigator->position_W, navigator->yaw_rad});
   query.request.taken = taken_;
   query.request.unreachable_W = unreachable_W_;
-  query.request.seed = RandomStream{context_.settings.seed, "explorer", query.id}.next();
+  query.request.seed = RandomStream{parts_.brief->settings.seed, "explorer", query.id}.next();
   job.publish(explore_.request, std::move(query));
   stage_ = Stage::thinking;
   since_ = job.now();
@@ -150,31 +160,32 @@ void ExplorationFlight::take_answer(JobContext& job) {
     return;
   }
   const ExploreStep& step = answer->step;
-  context_.recorder.record(job.now(), "explore",
-                           {{"found", static_cast<std::int64_t>(step.next.has_value())},
-                            {"gain_m3", step.gain_m3},
-                            {"far", static_cast<std::int64_t>(step.is_far)},
-                            {"x_m", step.next ? step.next->p_W.x() : 0.0},
-                            {"y_m", step.next ? step.next->p_W.y() : 0.0},
-                            {"z_m", step.next ? step.next->p_W.z() : 0.0}});
+  log(job, parts_.mission, "explore",
+      {{"found", static_cast<std::int64_t>(step.next.has_value())},
+       {"gain_m3", step.gain_m3},
+       {"far", static_cast<std::int64_t>(step.is_far)},
+       {"x_m", step.next ? step.next->p_W.x() : 0.0},
+       {"y_m", step.next ? step.next->p_W.y() : 0.0},
+       {"z_m", step.next ? step.next->p_W.z() : 0.0}});
   if (!step.next) {
     state_ = State::exhausted;
     return;
   }
   view_ = *step.next;
-  navigator_.face(view_.yaw_rad);
-  context_.counters.planner_failures_in_row = 0;
-  navigator_.set_goal(job.now(), view_.p_W);
+  guidance_.go_to(job, view_.p_W, view_.yaw_rad);
   stage_ = Stage::flying;
   since_ = job.now();
 }
 
 void ExplorationFlight::watch_flight(JobContext& job) {
-  const PathFollower& follower = navigator_.follower();
+  const auto navigator = guidance_.state(job);
+  if (!navigator) {
+    return;
+  }
   const bool is_there =
-      (follower.position_W() - context_.goal_now_W).norm() < 0.3 && follower.stands_still();
-  if (is_there && navigator_.tracking_error().size_m < 0.1) {
-    navigator_.clear_goal();
+      (navigator->position_W - navigator->goal_W).norm() < 0.3 && navigator->stands_still;
+  if (is_there && navigator->tracking_error.size_m < 0.1) {
+    guidance_.give_up_goal(job);
     if (state_ == State::homing) {
       land(job);
     } else {
@@ -182,42 +193,42 @@ void ExplorationFlight::watch_flight(JobContext& job) {
     }
     return;
   }
-  if (follower.speed_m_s() > 0.05) {
+  if (navigator->speed_m_s > 0.05) {
     since_ = job.now();
   }
   const bool is_stuck =
       to_seconds(job.now() - since_) > patience_s ||
-      (follower.speed_m_s() == 0.0 && context_.counters.planner_failures_in_row >= most_failures);
+      (navigator->speed_m_s == 0.0 && navigator->planner_failures >= most_failures);
   if (is_stuck && state_ == State::exploring) {
-    give_up_view(job.now());
+    give_up_view(job);
   }
 }
 
-void ExplorationFlight::give_up_view(MissionTime now) {
-  context_.event(now, "view given up");
-  navigator_.clear_goal();
+void ExplorationFlight::give_up_view(JobContext& job) {
+  log_event(job, parts_.mission, "view given up");
+  guidance_.give_up_goal(job);
   unreachable_W_.push_back(view_.p_W);
-  await_map(now);
+  await_map(job.now());
 }
 
-void ExplorationFlight::watch_turn(MissionTime now) {
-  if (std::abs(wrap_angle(navigator_.follower().yaw_rad() - view_.yaw_rad)) < facing_rad) {
+void ExplorationFlight::watch_turn(JobContext& job) {
+  const auto navigator = guidance_.state(job);
+  if (navigator && std::abs(wrap_angle(navigator->yaw_rad - view_.yaw_rad)) < facing_rad) {
     taken_.push_back(view_);
-    await_map(now);
+    await_map(job.now());
   }
 }
 
-void ExplorationFlight::go_home(MissionTime now) {
+void ExplorationFlight::go_home(JobContext& job) {
   state_ = State::homing;
   stage_ = Stage::flying;
-  since_ = now;
-  navigator_.face(std::nullopt);
-  navigator_.set_goal(now, context_.brief.start_W + Vec3::UnitZ() * context_.brief.cruise_height_m);
-  context_.event(now, "homebound");
+  since_ = job.now();
+  guidance_.go_to(job, above_start_W());
+  log_event(job, parts_.mission, "homebound");
 }
 
 void ExplorationFlight::land(JobContext& job) {
-  legs_->land(job);
+  legs_.land(job);
   stage_ = Stage::landing;
   since_ = job.now();
 }

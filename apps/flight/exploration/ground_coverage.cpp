@@ -72,7 +72,7 @@ std::optional<Footprint> footprint_of(const Pose& X_WC,
   return footprint;
 }
 
-void record(const Footprint& footprint, MissionTime now, Recorder& recorder) {
+std::vector<Field> row_of(const Footprint& footprint) {
   constexpr std::array<const char*, 8> names{"x0_m", "y0_m", "x1_m", "y1_m",
                                              "x2_m", "y2_m", "x3_m", "y3_m"};
   std::vector<Field> row;
@@ -80,7 +80,7 @@ void record(const Footprint& footprint, MissionTime now, Recorder& recorder) {
     row.push_back({names[2 * i], footprint[i].x()});
     row.push_back({names[2 * i + 1], footprint[i].y()});
   }
-  recorder.record(now, "footprint", row);
+  return row;
 }
 
 GroundCoverage::GroundCoverage(const Aabb& area_W, double cell_m)

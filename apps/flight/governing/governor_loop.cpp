@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -16,69 +17,116 @@ namespace {
 constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
 constexpr double nearest_limit_m = 20.0;
+constexpr int govern_priority = 90;         // It takes no time on the modeled computer.
 constexpr double path_width_reach_m = 8.0;  // A little farther than the finest cells show.
 
 /// On the path, or its end.
-Vec3 place_ahead_W(const PathFollower& follower, double ahead_m) {
-  const Path& path = follower.path();
-  return path.at(std::min(follower.s_m() + ahead_m, path.length_m())).p_W;
+Vec3 place_ahead_W(const NavigatorState& navigator, double ahead_m) {
+  const Path& path = *navigator.path;
+  return path.at(std::min(navigator.s_m + ahead_m, path.length_m())).p_W;
+}
+
+double speed_limit_ahead(const NavigatorState& navigator,
+                         const KnobsInForce& knobs,
+                         const Site& site) {
+  double least = knobs.speed_limit_m_s(site, navigator.position_W);
+  if (navigator.has_path()) {
+    for (const double ahead_m : {4.0, 8.0, 12.0, 16.0, 20.0}) {
+      least = std::min(least, knobs.speed_limit_m_s(site, place_ahead_W(navigator, ahead_m)));
+    }
+  }
+  return least;
+}
+
+double density_ahead(const NavigatorState& navigator, const OccupancyView& map) {
+  double most = 0.0;
+  if (navigator.has_path()) {
+    for (const double ahead_m : {4.0, 8.0, 12.0}) {
+      const Vec3 p_W = place_ahead_W(navigator, ahead_m);
+      most = std::max(most, map.obstacle_density(p_W, density_radius_m, density_half_band_m));
+    }
+  }
+  return most;
 }
 
 }  // namespace
 
-GovernorLoop::GovernorLoop(MissionContext& context,
+GovernorInputs governor_inputs(const Graph& graph) {
+  return {graph.find<NavigatorState>("navigator"), graph.find<MapRevision>("map_revision")};
+}
+
+GovernorLoop::GovernorLoop(const FlightParts& parts,
+                           const KnobSettings& knobs,
                            PolicyGovernor& governor,
                            Board& board,
-                           const Navigator* navigator,
+                           const GovernorInputs& inputs,
                            ForesightSource* future)
-    : context_{context},
+    : parts_{parts},
+      knobs_{knobs_at_start(knobs)},
       governor_{governor},
       board_{board},
-      navigator_{navigator},
+      inputs_{inputs},
       future_{future},
-      asked_{board.read().granted} {}
+      asked_{board.read().granted} {
+  // Until there is a map, nothing is known to stand anywhere.
+  const GapScan scan;
+  seen_.nearest_obstacle_m = nearest_limit_m;
+  seen_.narrowest_gap_m = seen_.mean_gap_m = 2.0 * scan.aside_m;
+  seen_.gap_distance_m = scan.reach_m;
+}
 
-void GovernorLoop::tick(MissionTime now) {
+void GovernorLoop::tick(JobContext& job) {
+  const MissionTime now = job.now();
   seen_.now = now;
   observe_computer(now);
   const bool looks = now >= next_look_;
   if (looks) {
-    next_look_ = now + from_seconds(context_.settings.governor.period_s);
-    observe_surroundings();
+    next_look_ = now + from_seconds(parts_.brief->settings.governor.period_s);
+    look_around(job);
   }
-  if (looks && future_ != nullptr) {
-    governor_.foretell(future_->look(navigator_->follower()));
-  }
-  record(looks);
+  record(job, looks);
+  decide(job);
+  record_promises(job);
+  publish_knobs(job);
+}
+
+void GovernorLoop::decide(JobContext& job) {
   const HostTime asked = HostTime::clock::now();
   const Decision decision = governor_.decide(seen_);
   decision_host_us_.push_back(
       std::chrono::duration<double, std::micro>(HostTime::clock::now() - asked).count());
   if (choices_.is_new(governor_, decision)) {
-    context_.recorder.record(now, "choice", {{"what", choice_text(governor_, decision)}});
+    log(job, parts_.mission, "choice", {{"what", choice_text(governor_, decision)}});
   }
   if (const std::string_view said = governor_.remark(); !said.empty()) {
-    context_.event(now, "policy says: " + std::string{said});
+    log_event(job, parts_.mission, "policy says: " + std::string{said});
   }
-  record_promises(now);
-  apply(now, decision);
+  apply(job, decision);
   ++decisions_;
 }
 
-void GovernorLoop::record_promises(MissionTime now) {
+void GovernorLoop::publish_knobs(JobContext& job) {
+  if (has_new_knobs_) {
+    has_new_knobs_ = false;
+    ++knobs_.version;
+    job.publish(parts_.mission.knobs, knobs_);
+  }
+}
+
+void GovernorLoop::record_promises(JobContext& job) {
   const std::optional<PromiseCount> count = governor_.policy().promises();
   if (count && count->issued != promises_) {
     promises_ = count->issued;
-    context_.recorder.record(now, "promise",
-                             {{"issued", static_cast<std::int64_t>(count->issued)},
-                              {"late", static_cast<std::int64_t>(count->late)},
-                              {"factor", count->factor}});
+    log(job, parts_.mission, "promise",
+        {{"issued", static_cast<std::int64_t>(count->issued)},
+         {"late", static_cast<std::int64_t>(count->late)},
+         {"factor", count->factor}});
   }
 }
 
 /// Whole when it has looked around; else what has changed since, so that fast policies do not fill
 /// the record. Together they are every observation, bit for bit.
-void GovernorLoop::record(bool is_whole) {
+void GovernorLoop::record(JobContext& job, bool is_whole) {
   const auto& fields = observation_fields();
   told_.resize(fields.size());
   std::vector<Field> row;
@@ -91,74 +139,66 @@ void GovernorLoop::record(bool is_whole) {
     }
   }
   if (!row.empty()) {
-    context_.recorder.record(seen_.now, is_whole ? "observation" : "computer", row);
+    log(job, parts_.mission, is_whole ? "observation" : "computer", std::move(row));
   }
 }
 
-void GovernorLoop::observe_surroundings() {
-  seen_.phase = context_.phase;
-  seen_.planner_failures = static_cast<std::uint32_t>(context_.counters.planner_failures_in_row);
-  seen_.map_resolution_m = context_.map().resolution_m();
-  if (navigator_ == nullptr) {
-    return;
-  }
-  const PathFollower& follower = navigator_->follower();
-  const Vec3 p_W = follower.position_W();
-  seen_.speed_m_s = follower.speed_m_s();
-  seen_.speed_limit_m_s = speed_limit_ahead();
-  seen_.max_deceleration_m_s2 = context_.settings.mission.max_acceleration_m_s2;
-  seen_.known_free_m = follower.known_free_m();
-  seen_.tracking_error_m = navigator_->tracking_error().size_m;
-  seen_.distance_to_goal_m = (context_.goal_now_W - p_W).norm();
-  seen_.latency = navigator_->newest_latency();
-  seen_.latency_bound = follower.latency_bound();
-  seen_.map_revision = navigator_->map_revision();
-  seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator_->newest_capture() : Duration{};
-  seen_.obstacle_density =
-      context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m);
-  seen_.density_ahead = density_ahead();
-  observe_gaps();
-  seen_.nearest_obstacle_m =
-      context_.map().nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
+GovernorLoop::Surroundings GovernorLoop::newest(JobContext& job) const {
+  return {inputs_.navigator ? job.latest(*inputs_.navigator) : nullptr,
+          inputs_.map ? job.latest(*inputs_.map) : nullptr};
 }
 
-double GovernorLoop::speed_limit_ahead() const {
-  const PathFollower& follower = navigator_->follower();
-  double least = context_.speed_limit_m_s(follower.position_W());
-  if (follower.has_path()) {
-    for (const double ahead_m : {4.0, 8.0, 12.0, 16.0, 20.0}) {
-      least = std::min(least, context_.speed_limit_m_s(place_ahead_W(follower, ahead_m)));
+void GovernorLoop::look_around(JobContext& job) {
+  const auto state = job.latest(parts_.mission.state);
+  seen_.phase = state ? state->phase : MissionPhase::wait;
+  const auto [navigator, map] = newest(job);
+  if (navigator) {
+    observe_flight(*navigator);
+  }
+  if (map) {
+    seen_.map_resolution_m = map->map->resolution_m();
+  }
+  if (navigator && map) {
+    observe_map(*navigator, *map->map);
+    if (future_ != nullptr) {
+      governor_.foretell(future_->look(*navigator, {*parts_.brief, knobs_, *map->map}));
     }
   }
-  return least;
 }
 
-double GovernorLoop::density_ahead() const {
-  const PathFollower& follower = navigator_->follower();
-  double most = 0.0;
-  if (follower.has_path()) {
-    for (const double ahead_m : {4.0, 8.0, 12.0}) {
-      const Vec3 p_W = place_ahead_W(follower, ahead_m);
-      most = std::max(most,
-                      context_.map().obstacle_density(p_W, density_radius_m, density_half_band_m));
-    }
-  }
-  return most;
+void GovernorLoop::observe_flight(const NavigatorState& navigator) {
+  seen_.planner_failures = static_cast<std::uint32_t>(navigator.planner_failures);
+  seen_.speed_m_s = navigator.speed_m_s;
+  seen_.speed_limit_m_s = speed_limit_ahead(navigator, knobs_, parts_.brief->site);
+  seen_.max_deceleration_m_s2 = parts_.brief->settings.mission.max_acceleration_m_s2;
+  seen_.known_free_m = navigator.known_free_m;
+  seen_.tracking_error_m = navigator.tracking_error.size_m;
+  seen_.distance_to_goal_m = (navigator.goal_W - navigator.position_W).norm();
+  seen_.latency = navigator.map_latency;
+  seen_.latency_bound = navigator.latency_bound;
+  seen_.map_revision = navigator.map_revision;
+  seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator.map_captured : Duration{};
 }
 
-void GovernorLoop::observe_gaps() {
+void GovernorLoop::observe_map(const NavigatorState& navigator, const OccupancyView& map) {
+  const Vec3& p_W = navigator.position_W;
+  seen_.obstacle_density = map.obstacle_density(p_W, density_radius_m, density_half_band_m);
+  seen_.density_ahead = density_ahead(navigator, map);
+  observe_gaps(navigator, map);
+  seen_.nearest_obstacle_m = map.nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
+}
+
+void GovernorLoop::observe_gaps(const NavigatorState& navigator, const OccupancyView& map) {
   GapScan scan;
   scan.half_band_m = density_half_band_m;
-  scan.bounds_W = context_.brief.bounds_W;
-  const GapsAhead gaps =
-      gaps_ahead(context_.map(), navigator_->follower().position_W(), context_.goal_now_W, scan);
+  scan.bounds_W = parts_.brief->site.bounds_W;
+  const GapsAhead gaps = gaps_ahead(map, navigator.position_W, navigator.goal_W, scan);
   seen_.narrowest_gap_m = gaps.narrowest_m;
   seen_.gap_distance_m = gaps.narrowest_at_m;
   seen_.mean_gap_m = gaps.mean_m;
-  const PathFollower& follower = navigator_->follower();
-  if (follower.has_path()) {
-    const PathSpan ahead{&follower.path(), follower.s_m(), path_width_reach_m};
-    const PathWidth path = narrowest_on(context_.map(), ahead, density_half_band_m);
+  if (navigator.has_path()) {
+    const PathSpan ahead{navigator.path.get(), navigator.s_m, path_width_reach_m};
+    const PathWidth path = narrowest_on(map, ahead, density_half_band_m);
     if (path.width_m < seen_.narrowest_gap_m) {
       seen_.narrowest_gap_m = path.width_m;
       seen_.gap_distance_m = path.at_m;
@@ -176,11 +216,12 @@ void GovernorLoop::observe_computer(MissionTime now) {
   last_busy_core_s_ = board.busy_core_s;
   last_busiest_core_s_ = board.busiest_core_s;
   last_ = now;
-  seen_.deadline_misses = misses_;
-  misses_ = 0;
+  seen_.deadline_misses = static_cast<std::uint32_t>(board.deadline_misses - last_misses_);
+  last_misses_ = board.deadline_misses;
   seen_.queue_drops = static_cast<std::uint32_t>(board.drops - last_drops_);
   last_drops_ = board.drops;
-  context_.computer = board.granted;
+  has_new_knobs_ = has_new_knobs_ || knobs_.computer != board.granted;
+  knobs_.computer = board.granted;
   seen_.cores = board.granted.cores;
   seen_.frequency = board.granted.frequency;
   seen_.computer_power = board.computer_power;
@@ -192,22 +233,24 @@ void GovernorLoop::observe_computer(MissionTime now) {
 
 /// Once for each knob whose wished value this mission does not have: a mapper may know no cells of
 /// .8 m.
-void GovernorLoop::note_moved_wishes(MissionTime now) {
+void GovernorLoop::note_moved_wishes(JobContext& job) {
   for (const auto& wish : governor_.wished()) {
-    const KnobSpec* spec = context_.knobs.spec(wish.knob);
+    const KnobSpec* spec = knobs_.knobs.spec(wish.knob);
     if (spec == nullptr || spec->is_legal(wish.value) || !moved_.insert(spec->name).second) {
       continue;
     }
     char text[96];
     std::snprintf(text, sizeof text, "%s %g is not legal here, %g instead", spec->name.c_str(),
                   wish.value, spec->nearest(wish.value));
-    context_.event(now, text);
+    log_event(job, parts_.mission, text);
   }
 }
 
 /// Each step of the ladder, up or down, is an event; so is each other fault of the policy.
-void GovernorLoop::note_fallback(MissionTime now) {
-  context_.restraint = {governor_.bound_factor(), governor_.must_hover()};
+void GovernorLoop::note_fallback(JobContext& job) {
+  const FlightRestraint restraint{governor_.bound_factor(), governor_.must_hover()};
+  has_new_knobs_ = has_new_knobs_ || restraint != knobs_.restraint;
+  knobs_.restraint = restraint;
   const bool is_fault = governor_.last_fault() != PolicyFault::none;
   faults_ += is_fault ? 1 : 0;
   const Fallback fallback = governor_.fallback();
@@ -219,35 +262,61 @@ void GovernorLoop::note_fallback(MissionTime now) {
     trouble_ = why;
   }
   if (fallback != fallback_ || why != why_) {
-    context_.event(
-        now, "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
+    log_event(job, parts_.mission,
+              "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
   }
   fallback_ = fallback;
   why_ = why;
 }
 
-void GovernorLoop::apply(MissionTime now, const Decision& decision) {
-  note_moved_wishes(now);
+void GovernorLoop::apply(JobContext& job, const Decision& decision) {
+  note_moved_wishes(job);
   for (const auto& wish : decision) {
-    const double before = context_.knobs.value(wish.knob);
-    if (before == wish.value || !context_.knobs.set(wish.knob, wish.value)) {
+    const double before = knobs_.value(wish.knob);
+    if (before == wish.value || !knobs_.knobs.set(wish.knob, wish.value)) {
       continue;
     }
+    has_new_knobs_ = true;
     ++knob_changes_;
-    context_.recorder.record(now, "decision",
-                             {{"knob", std::string{wish.knob}},
-                              {"value", wish.value},
-                              {"before", before},
-                              {"reason", std::string{to_string(decision.reason)}}});
+    log(job, parts_.mission, "decision",
+        {{"knob", std::string{wish.knob}},
+         {"value", wish.value},
+         {"before", before},
+         {"reason", std::string{to_string(decision.reason)}}});
   }
-  note_fallback(now);
-  const OperatingPoint wished{static_cast<int>(context_.knobs.value("cpu.cores")),
-                              Hertz{context_.knobs.value("cpu.frequency_hz")}};
+  note_fallback(job);
+  const OperatingPoint wished{static_cast<int>(knobs_.value("cpu.cores")),
+                              Hertz{knobs_.value("cpu.frequency_hz")}};
   if (wished != asked_) {  // What is granted may be less.
     asked_ = wished;
     board_.request(wished);
-    context_.computer = board_.read().granted;
+    knobs_.computer = board_.read().granted;
+    has_new_knobs_ = true;
   }
+}
+
+void add_governor(Graph& graph,
+                  const FlightParts& parts,
+                  const GovernorInputs& inputs,
+                  Duration period,
+                  std::shared_ptr<GovernorLoop> loop) {
+  NodeSpec spec;
+  spec.name = "govern";
+  spec.trigger = OnPeriod{period, Duration{}};
+  spec.priority = govern_priority;
+  spec.reads = {parts.mission.state.index};
+  if (inputs.navigator) {
+    spec.reads.push_back(inputs.navigator->index);
+  }
+  if (inputs.map) {
+    spec.reads.push_back(inputs.map->index);
+  }
+  spec.writes = {parts.mission.knobs.index};
+  declare_log(spec, parts.mission);
+  graph.node(std::move(spec), [loop = std::move(loop)](JobContext& job) {
+    loop->tick(job);
+    return Work{};
+  });
 }
 
 }  // namespace flyball

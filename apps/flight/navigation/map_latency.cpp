@@ -16,19 +16,19 @@ constexpr std::size_t most_windows = 64;
 
 }  // namespace
 
-MapTerms terms_of(const MissionContext& context) {
-  return {context.knobs.value("map.resolution_m"), context.knobs.value("map.range_m"),
-          context.computer.frequency, context.computer.cores};
+MapTerms terms_of(const KnobsInForce& knobs) {
+  return {knobs.value("map.resolution_m"), knobs.value("map.range_m"), knobs.computer.frequency,
+          knobs.computer.cores};
 }
 
-FramePrice frame_price(const MissionContext& context) {
-  const DepthCameraSpec& camera = context.settings.camera;
+FramePrice frame_price(const Brief& brief) {
+  const DepthCameraSpec& camera = brief.settings.camera;
   const Intrinsics lens = camera.intrinsics();
   const double rays = static_cast<double>(camera.count) * lens.width_px * lens.height_px;
   const double tan_x = 0.5 * lens.width_px / lens.focal_px;
   const double tan_y = 0.5 * lens.height_px / lens.focal_px;
   const double volume_at_1_m3 = camera.count * 4.0 / 3.0 * tan_x * tan_y;
-  const std::string mapper = mapper_cost(context.settings.kernels);
+  const std::string mapper = mapper_cost(brief.settings.kernels);
   const auto fixed_work = [rays] {
     Work work;
     work.add("frame", 1.0);
@@ -37,15 +37,15 @@ FramePrice frame_price(const MissionContext& context) {
   };
   FramePrice price;
   price.least =
-      context.platform.job_time(mapper, fixed_work(), context.platform.frequencies().back());
-  price.of = [=, &platform = context.platform](const MapTerms& terms) {
+      brief.platform->job_time(mapper, fixed_work(), brief.platform->frequencies().back());
+  price.of = [=, platform = brief.platform](const MapTerms& terms) {
     const double range_m = terms.range_m;
     const double resolution_m = terms.resolution_m;
     Work work = fixed_work();
     work.add("traversals", 1.5 * rays * range_m / resolution_m);
     work.add("updates", volume_at_1_m3 * range_m * range_m * range_m /
                             (resolution_m * resolution_m * resolution_m));
-    return platform.job_time(mapper, work, terms.clock);
+    return platform->job_time(mapper, work, terms.clock);
   };
   return price;
 }

@@ -2,79 +2,110 @@
 // tested-in: mission
 #include "flyball/flight/navigation/navigation_nodes.h"
 
+#include "flyball/flight/navigation/follow_node.h"
 #include "flyball/flight/navigation/plan_with_tubes.h"
+#include "flyball/flight/navigation/sub_goal.h"
+
+#include <functional>
+#include <utility>
 
 namespace flyball {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto tick_period = 20ms;  // 50 Hz: the most that PX4 wants of off-board set-points.
+/// The newest map that a job may look at; null before the first one.
+using MapSource = std::function<std::shared_ptr<const OccupancyView>(JobContext&)>;
 
+/// Holds the committed path against each new map, and hands both on.
 void add_check(Graph& graph,
+               const FlightParts& parts,
                const PerceptionTopics& perception,
-               MissionContext& context,
-               Navigator& navigator) {
+               const NavigationTopics& topics) {
   NodeSpec spec;
   spec.name = "check";
-  spec.cost = context.settings.kernels.collision_check;
+  spec.cost = parts.brief->settings.kernels.collision_check;
   spec.trigger = OnMessage{perception.map.index};
   spec.priority = 25;
-  graph.node(std::move(spec), [perception, &context, &navigator](JobContext& job) {
+  spec.reads = {topics.guidance.state.index, parts.mission.knobs.index};
+  spec.writes = {topics.clearance->index};
+  graph.node(std::move(spec), [=, brief = parts.brief, knobs_topic = parts.mission.knobs,
+                               checker = parts.kernels.collision_check](JobContext& job) {
     Work work;
     const auto revision = job.latest(perception.map);
-    if (!revision) {
+    const auto knobs = job.latest(knobs_topic);
+    if (!revision || !knobs) {
       return work;
     }
-    navigator.map_published(job.now(), *revision);
-    const PathFollower& follower = navigator.follower();
-    if (!follower.has_path()) {
-      return work;
+    PathClearance clearance;
+    clearance.revision = *revision;
+    clearance.published = job.released();
+    const auto navigator = job.latest(topics.guidance.state);
+    if (navigator && navigator->has_path()) {
+      const Path& path = *navigator->path;
+      const PathSpan span{&path, navigator->s_m, knobs->value("map.range_m")};
+      clearance.path_number = navigator->path_number;
+      clearance.blocked_at_m =
+          checker->check(*revision->map, span, brief->narrow_body(), work).blocked_at_m;
+      clearance.free_until_m =
+          known_free_until_m(*revision->map, path, navigator->s_m, *brief, *knobs);
     }
-    const PathSpan span{&follower.path(), follower.s_m(), context.knobs.value("map.range_m")};
-    const PathCheck check =
-        context.kernels.collision_check->check(context.map(), span, context.narrow_body(), work);
-    job.at_end([&navigator, check, number = navigator.path_number()](MissionTime now) {
-      navigator.path_checked(now, check, number);
-    });
+    job.publish(*topics.clearance, std::move(clearance));
     return work;
   });
 }
 
-void add_plan(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
+/// The answer to one query, and what it cost.
+PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery query, Work& work) {
+  PlanAnswer answer;
+  answer.id = query.id;
+  answer.start_direction_W = query.start_direction_W;
+  answer.lead_in_W = query.lead_in_W;
+  if (query.known) {
+    answer.body = query.known->body;
+    answer.waypoints_W = joined_to(query.start_W, *query.known, situation.map);
+    return answer;
+  }
+  query.goal_W = sub_goal_W(situation, query.start_W, query.goal_W, query.failures);
+  Plan plan = plan_with_tubes(situation, planner, query, answer.body);
+  answer.failure = plan.failure;
+  answer.iterations = plan.work.count("iterations");
+  answer.waypoints_W = std::move(plan.waypoints_W);
+  work = plan.work;
+  return answer;
+}
+
+void add_plan(Graph& graph,
+              const FlightParts& parts,
+              const PerceptionTopics& perception,
+              const NavigationTopics& topics) {
   NodeSpec spec;
   spec.name = "plan";
-  spec.cost = context.settings.kernels.planner;
+  spec.cost = parts.brief->settings.kernels.planner;
   spec.trigger = OnMessage{topics.plan.request.index};
   spec.priority = 15;
   spec.deadline = 10s;
+  spec.reads = {perception.map.index, parts.mission.knobs.index};
   spec.writes = {topics.plan.response.index};
-  graph.node(std::move(spec), [topics, &context](JobContext& job) {
+  graph.node(std::move(spec), [=, brief = parts.brief, knobs_topic = parts.mission.knobs,
+                               planner = parts.kernels.planner](JobContext& job) {
+    Work work;
     const auto query = job.take(topics.plan.request);
-    if (!query) {
-      return Work{};
+    const auto revision = job.latest(perception.map);
+    const auto knobs = job.latest(knobs_topic);
+    if (query && revision && knobs) {
+      job.publish(topics.plan.response,
+                  planned({*brief, *knobs, *revision->map}, *planner, *query, work));
     }
-    PlanAnswer answer;
-    answer.id = query->id;
-    answer.start_direction_W = query->start_direction_W;
-    answer.lead_in_W = query->lead_in_W;
-    if (query->known) {
-      answer.body = query->known->body;
-      answer.waypoints_W = joined_to(query->start_W, *query->known, context.map());
-      job.publish(topics.plan.response, std::move(answer));
-      return Work{};
-    }
-    Plan plan = plan_with_tubes(context, *query, answer.body);
-    answer.failure = plan.failure;
-    answer.iterations = plan.work.count("iterations");
-    answer.waypoints_W = std::move(plan.waypoints_W);
-    job.publish(topics.plan.response, std::move(answer));
-    return plan.work;
+    return work;
   });
 }
 
 /// The plan as a trajectory, or why there is none.
-PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Work& work) {
+PlannedPath smoothed(const PlanAnswer& answer,
+                     const Situation& situation,
+                     Smoother& smoother,
+                     Work& work) {
   PlannedPath planned;
   planned.id = answer.id;
   planned.failure = answer.failure;
@@ -89,10 +120,10 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
     request.waypoints_W.insert(request.waypoints_W.begin(), *answer.lead_in_W);
   }
   request.start_velocity_W = answer.start_direction_W;
-  request.max_speed_m_s = context.knobs.value("mission.max_speed_m_s");
-  request.max_acceleration_m_s2 = 0.5 * context.settings.mission.max_acceleration_m_s2;
+  request.max_speed_m_s = situation.knobs.value("mission.max_speed_m_s");
+  request.max_acceleration_m_s2 = 0.5 * situation.brief.settings.mission.max_acceleration_m_s2;
   request.body = answer.body;
-  auto smooth = context.kernels.smoother->smooth(request, context.map());
+  auto smooth = smoother.smooth(request, situation.map);
   if (smooth) {
     planned.trajectory = std::move(smooth->trajectory);
     work = smooth->work;
@@ -103,57 +134,45 @@ PlannedPath smoothed(const PlanAnswer& answer, const MissionContext& context, Wo
   return planned;
 }
 
-void add_smooth(Graph& graph, const NavigationTopics& topics, MissionContext& context) {
-  NodeSpec spec;
-  spec.name = "smooth";
-  spec.cost = context.settings.kernels.smoother;
-  spec.trigger = OnMessage{topics.plan.response.index};
-  spec.priority = 15;
-  spec.writes = {topics.path.index};
-  graph.node(std::move(spec), [topics, &context](JobContext& job) {
-    const auto answer = job.take(topics.plan.response);
-    if (!answer) {
-      return Work{};
-    }
-    Work work;
-    PlannedPath planned = smoothed(*answer, context, work);
-    context.recorder.record(job.now(), "plan",
-                            {{"ok", static_cast<std::int64_t>(planned.failure.empty())},
-                             {"waypoints", static_cast<std::int64_t>(answer->waypoints_W.size())},
-                             {"iterations", answer->iterations},
-                             {"radius_m", answer->body.radius_m},
-                             {"failure", planned.failure}});
-    job.publish(topics.path, std::move(planned));
-    return work;
-  });
+void log_plan(JobContext& job,
+              const MissionTopics& mission,
+              const PlanAnswer& answer,
+              const PlannedPath& planned) {
+  log(job, mission, "plan",
+      {{"ok", static_cast<std::int64_t>(planned.failure.empty())},
+       {"waypoints", static_cast<std::int64_t>(answer.waypoints_W.size())},
+       {"iterations", answer.iterations},
+       {"radius_m", answer.body.radius_m},
+       {"failure", planned.failure}});
 }
 
-void add_follow(Graph& graph,
-                const VehicleTopics& vehicle,
-                Topic<PoseEstimate> pose_topic,
+/// @param reads_map  The topic that `map` reads; -1: none.
+void add_smooth(Graph& graph,
+                const FlightParts& parts,
                 const NavigationTopics& topics,
-                Navigator& navigator) {
+                const MapSource& newest_map,
+                int reads_map) {
   NodeSpec spec;
-  spec.name = "follow";
-  spec.cost = "track";
-  spec.trigger = OnPeriod{tick_period, tick_period};
-  spec.priority = 40;
-  spec.deadline = tick_period;
-  spec.on_miss = OnMiss::brake;
-  spec.reads = {pose_topic.index, topics.path.index};
-  spec.writes = {vehicle.setpoint.index, topics.plan.request.index};
-  graph.node(std::move(spec), [=, &navigator](JobContext& job) {
+  spec.name = "smooth";
+  spec.cost = parts.brief->settings.kernels.smoother;
+  spec.trigger = OnMessage{topics.plan.response.index};
+  spec.priority = 15;
+  spec.reads = {parts.mission.knobs.index};
+  if (reads_map >= 0) {
+    spec.reads.push_back(reads_map);
+  }
+  spec.writes = {topics.path.index};
+  declare_log(spec, parts.mission);
+  graph.node(std::move(spec), [=, brief = parts.brief, mission = parts.mission,
+                               smoother = parts.kernels.smoother](JobContext& job) {
     Work work;
-    work.add("ticks", 1.0);
-    const auto pose = job.latest(pose_topic);
-    if (const auto planned = job.take(topics.path)) {
-      navigator.path_planned(job.now(), *planned);
-    }
-    if (pose) {
-      job.publish(vehicle.setpoint, navigator.tick(job.now(), tick_period, *pose));
-    }
-    if (auto query = navigator.next_query(job.now())) {
-      job.publish(topics.plan.request, *query);
+    const auto answer = job.take(topics.plan.response);
+    const auto knobs = job.latest(mission.knobs);
+    const auto map = newest_map(job);
+    if (answer && knobs && map) {
+      PlannedPath planned = smoothed(*answer, {*brief, *knobs, *map}, *smoother, work);
+      log_plan(job, mission, *answer, planned);
+      job.publish(topics.path, std::move(planned));
     }
     return work;
   });
@@ -161,34 +180,44 @@ void add_follow(Graph& graph,
 
 NavigationTopics add_topics(Graph& graph) {
   NavigationTopics topics;
+  topics.guidance.command = graph.topic<GuidanceCommand>("guidance", 8);
+  topics.guidance.state = graph.topic<NavigatorState>("navigator");
   topics.plan = graph.service<PlanQuery, PlanAnswer>("plan");
   topics.path = graph.topic<PlannedPath>("path");
+  topics.map_use = graph.topic<MapUse>("map_use", 8);
   return topics;
 }
 
 }  // namespace
 
 NavigationTopics add_path_following(Graph& graph,
-                                    const VehicleTopics& vehicle,
-                                    Topic<PoseEstimate> pose,
-                                    MissionContext& context,
-                                    Navigator& navigator) {
+                                    const FlightParts& parts,
+                                    const LocalizationTopics& localization,
+                                    std::shared_ptr<const OccupancyView> declared) {
   const NavigationTopics topics = add_topics(graph);
-  add_smooth(graph, topics, context);
-  add_follow(graph, vehicle, pose, topics, navigator);
+  add_smooth(
+      graph, parts, topics, [declared](JobContext& /*job*/) { return declared; }, -1);
+  FollowNode follow{parts, localization, topics};
+  follow.declared = std::move(declared);
+  add_follow(graph, follow);
   return topics;
 }
 
 NavigationTopics add_navigation(Graph& graph,
-                                const VehicleTopics& vehicle,
-                                const PerceptionTopics& perception,
-                                MissionContext& context,
-                                Navigator& navigator) {
-  const NavigationTopics topics = add_topics(graph);
-  add_check(graph, perception, context, navigator);
-  add_plan(graph, topics, context);
-  add_smooth(graph, topics, context);
-  add_follow(graph, vehicle, perception.pose, topics, navigator);
+                                const FlightParts& parts,
+                                const PerceptionTopics& perception) {
+  NavigationTopics topics = add_topics(graph);
+  topics.clearance = graph.topic<PathClearance>("clearance");
+  const auto newest_map = [map = perception.map](JobContext& job) {
+    const auto revision = job.latest(map);
+    return revision ? revision->map : nullptr;
+  };
+  add_check(graph, parts, perception, topics);
+  add_plan(graph, parts, perception, topics);
+  add_smooth(graph, parts, topics, newest_map, perception.map.index);
+  FollowNode follow{parts, perception.localization, topics};
+  follow.clear = perception.clear;
+  add_follow(graph, follow);
   return topics;
 }
 

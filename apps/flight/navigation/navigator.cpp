@@ -2,7 +2,6 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "flyball/flight/navigation/step_aside.h"
-#include "flyball/flight/navigation/sub_goal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +26,32 @@ constexpr double rounding_m = 1e-6;
 
 }  // namespace
 
-Navigator::Navigator(MissionContext& context)
-    : context_{context}, follower_{context}, map_latency_{frame_price(context)} {}
+Navigator::Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTracker> path_tracker)
+    : brief_{std::move(brief)},
+      path_tracker_{std::move(path_tracker)},
+      follower_{brief_},
+      map_latency_{frame_price(*brief_)} {}
+
+void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs) {
+  knobs_ = std::move(knobs);
+  follower_.set_knobs(knobs_);
+  if (map_latency_.note_terms(now, terms_of(*knobs_))) {
+    follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
+  }
+}
+
+void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
+  obeyed_ = command.number;
+  if (const auto* hover = std::get_if<HoverAt>(&command.what)) {
+    hover_at(hover->p_W, hover->yaw_rad);
+  } else if (const auto* go = std::get_if<GoTo>(&command.what)) {
+    follower_.face(go->yaw_rad);
+    failures_ = 0;
+    set_goal(now, go->p_W);
+  } else {
+    clear_goal();
+  }
+}
 
 void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
@@ -38,8 +61,7 @@ void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
 }
 
 void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
-  goal_W_ = goal_W;
-  context_.goal_now_W = goal_W;
+  goal_W_ = last_goal_W_ = goal_W;
   without_path_since_ = now;
   pending_id_ = 0;
   known_.reset();
@@ -56,26 +78,33 @@ bool Navigator::has_arrived() const {
   return goal_W_ && follower_.is_at_end() && (follower_.position_W() - *goal_W_).norm() < arrival_m;
 }
 
-void Navigator::map_published(MissionTime now, const MapRevision& revision) {
-  (void)map_latency_.note_terms(now, terms_of(context_));
-  map_latency_.published(revision, now);
-  newest_latency_ = now - revision.captured;
+void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
+  const MapRevision& revision = clearance.revision;
+  (void)map_latency_.note_terms(now, terms_of(*knobs_));
+  map_latency_.published(revision, clearance.published);
+  map_ = revision.map;
+  newest_latency_ = clearance.published - revision.captured;
   map_revision_ = revision.number;
-  if (map_latency_.budget_use() > 1.0) {
-    ++context_.counters.bound_overruns;
-  }
-  context_.counters.budget_use.push_back(map_latency_.budget_use());
+  budget_use_ = map_latency_.budget_use();
   unused_capture_ = newest_capture_ = revision.captured;
-  follower_.map_published(revision);
+  follower_.map_captured(revision.captured);
   follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
-  follower_.refresh_known_free(context_.map());
 }
 
-void Navigator::path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number) {
-  if (path_number != path_number_) {
+void Navigator::refresh_known_free() {
+  if (map_) {
+    follower_.refresh_known_free(*map_);
+  }
+}
+
+void Navigator::path_checked(MissionTime now, const PathClearance& clearance) {
+  note_map(now, clearance);
+  if (clearance.path_number != path_number_) {  // Another path was checked than is flown now.
+    refresh_known_free();
     return;
   }
-  blocked_at_m_ = check.blocked_at_m;
+  follower_.set_known_free(clearance.free_until_m);
+  blocked_at_m_ = clearance.blocked_at_m;
   if (blocked_at_m_ && pending_id_ == 0) {
     want_plan(now, "path blocked");
   }
@@ -85,12 +114,12 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
   if (!wants_plan_) {
     wants_plan_ = true;
     not_before_ = std::max(now, not_before_);
-    context_.event(now, "plan wanted: " + why);
+    news_.events.push_back("plan wanted: " + why);
   }
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
-  if (!goal_W_ || pending_id_ != 0 || back_.is_active()) {
+  if (!goal_W_ || !map_ || pending_id_ != 0 || back_.is_active()) {
     return std::nullopt;
   }
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
@@ -102,15 +131,15 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   }
   asked_at_ = now;
   wants_plan_ = false;
-  ++context_.counters.replans;
+  ++replans_;
   return query();
 }
 
 // What has failed in large cells fails in them again, and takes its whole budget: where smaller
 // ones are on their way, the search waits for their first frame.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return context_.counters.planner_failures_in_row > 0 && now < not_before_ + finer_patience &&
-         context_.knobs.value("map.resolution_m") < context_.map().resolution_m() - rounding_m;
+  return failures_ > 0 && now < not_before_ + finer_patience &&
+         knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
 }
 
 PlanQuery Navigator::query() {
@@ -122,11 +151,10 @@ PlanQuery Navigator::query() {
   }
   joins_ = known_.has_value();
   query.known = std::exchange(known_, std::nullopt);
-  query.goal_W =
-      sub_goal_W(context_, query.start_W, *goal_W_, context_.counters.planner_failures_in_row);
+  query.goal_W = *goal_W_;
+  query.failures = failures_;
   // Where the narrow tube has found no way twice, a wide one will not.
-  query.may_be_tight = context_.speed_limit_m_s(query.start_W) <= 1.0 ||
-                       context_.counters.planner_failures_in_row > 1;
+  query.may_be_tight = situation().speed_limit_m_s(query.start_W) <= slow_m_s || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
   return query;
 }
@@ -134,7 +162,7 @@ PlanQuery Navigator::query() {
 // Early enough that the vehicle flies on, late enough that the next leg, half a horizon at least,
 // is longer than what is left.
 bool Navigator::is_leg_ending() const {
-  const double horizon_m = context_.settings.planner.horizon_m;
+  const double horizon_m = brief_->settings.planner.horizon_m;
   if (horizon_m <= 0.0 || !follower_.has_path()) {
     return false;
   }
@@ -180,15 +208,15 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     want_plan(now, "the way does not join: " + planned.failure);
     return;
   }
-  ++context_.counters.planner_failures_in_row;
+  ++failures_;
   if (planned.failure == "start blocked" && at_rest_since_) {
-    if (const auto aside_W = place_aside_W(context_, follower_.position_W())) {
+    if (const auto aside_W = place_aside_W(situation(), follower_.position_W())) {
       hover_at(*aside_W, follower_.yaw_rad());
     }
     trust_own_place();
   }
   // The governor looks at a failure first: its settings may be why.
-  const Duration look = from_seconds(context_.settings.governor.period_s);
+  const Duration look = from_seconds(brief_->settings.governor.period_s);
   not_before_ = now + (planned.map_moved_on ? look : std::max<Duration>(look, retry_after));
   want_plan(now, planned.failure);
 }
@@ -196,7 +224,7 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
 // What was found late is mostly a way around. It is worth its search where the metres more cost no
 // more time than another search might; in rooms they do.
 bool Navigator::is_worth_joining(const std::vector<Vec3>& way_W) const {
-  const double limit_m_s = context_.speed_limit_m_s(follower_.position_W());
+  const double limit_m_s = situation().speed_limit_m_s(follower_.position_W());
   const double search_s = std::max(lead_.lead_s(), searched_s_);
   return way_W.size() >= 2 && detour_m(way_W) <= search_s * limit_m_s;
 }
@@ -226,7 +254,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     plan_failed(now, planned);
     return;
   }
-  context_.counters.planner_failures_in_row = stalls_;
+  failures_ = stalls_;
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, splice_m_)) {
     plan_refused(now, planned);
@@ -235,32 +263,48 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   refusals_ = 0;
   blocked_at_m_.reset();
   ++path_number_;
-  follower_.refresh_known_free(context_.map());
+  refresh_known_free();
 }
 
 /// While the vehicle does not know where it is, no path is flown; afterwards, from where it then
 /// is.
-std::optional<Setpoint> Navigator::search_place(MissionTime now, const PoseEstimate& where) {
-  const bool cruises = context_.phase == MissionPhase::cruise;
-  if (cruises && context_.localization.is_lost()) {
-    is_searching_ = true;
-    return context_.localization.search(now, where.X_WB.translation().z());
-  }
+void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) {
   if (is_searching_ && goal_W_) {
     hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
     set_goal(now, *goal_W_);
   }
   is_searching_ = false;
-  return std::nullopt;
 }
 
-Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where) {
-  if (const auto search = search_place(now, where)) {
+void Navigator::tell_map_use(MissionTime now) {
+  if (unused_capture_) {
+    news_.map_use = MapUse{budget_use_, to_seconds(now - *unused_capture_)};
+    unused_capture_.reset();
+  }
+}
+
+void Navigator::note_rest(MissionTime now, double speed_m_s) {
+  const bool rests = speed_m_s <= rests_below_m_s;
+  at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};
+  if (stalls_ > 0 && speed_m_s > moves_above_m_s) {
+    failures_ = stalls_ = 0;
+  }
+  if (!rests || !goal_W_ || has_arrived()) {
+    without_path_since_ = now;
+  } else if (to_seconds(now - without_path_since_) > brief_->settings.mission.plan_time_limit_s) {
+    news_.gives_up = true;
+  }
+}
+
+Setpoint Navigator::tick(MissionTime now,
+                         Duration dt,
+                         const PoseEstimate& where,
+                         const std::optional<Setpoint>& search) {
+  if (search) {
+    is_searching_ = true;
     return *search;
   }
-  if (map_latency_.note_terms(now, terms_of(context_))) {
-    follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
-  }
+  resume_after_search(now, where);
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
   const PathReference reference = follower_.tick(now, dt, error_W);
@@ -269,20 +313,8 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
   } else if (follower_.has_path()) {
     back_.flew(follower_.position_W());
   }
-  const bool rests = reference.speed_m_s <= rests_below_m_s;
-  at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};
-  if (stalls_ > 0 && reference.speed_m_s > moves_above_m_s) {
-    context_.counters.planner_failures_in_row = stalls_ = 0;
-  }
-  if (!rests || !goal_W_ || has_arrived()) {
-    without_path_since_ = now;
-  } else if (to_seconds(now - without_path_since_) > context_.settings.mission.plan_time_limit_s) {
-    context_.finish(now, MissionStatus::failed, MissionFailure::no_plan);
-  }
-  if (unused_capture_) {
-    context_.counters.latency_s.push_back(to_seconds(now - *unused_capture_));
-    unused_capture_.reset();
-  }
+  note_rest(now, reference.speed_m_s);
+  tell_map_use(now);
   if (!follower_.has_path()) {
     Setpoint hover;
     hover.stamp = now;
@@ -290,7 +322,32 @@ Setpoint Navigator::tick(MissionTime now, Duration dt, const PoseEstimate& where
     hover.yaw_rad = follower_.yaw_rad();
     return hover;
   }
-  return context_.kernels.path_tracker->track(follower_.path(), reference, where, now);
+  return path_tracker_->track(follower_.path(), reference, where, now);
+}
+
+NavigatorState Navigator::state() const {
+  NavigatorState state;
+  state.obeyed = obeyed_;
+  state.has_goal = goal_W_.has_value();
+  state.goal_W = last_goal_W_;
+  state.has_arrived = has_arrived();
+  state.path_number = path_number_;
+  state.path = follower_.shared_path();
+  state.s_m = follower_.s_m();
+  state.position_W = follower_.position_W();
+  state.yaw_rad = follower_.yaw_rad();
+  state.speed_m_s = follower_.speed_m_s();
+  state.target_speed_m_s = follower_.target_speed_m_s();
+  state.stands_still = follower_.stands_still();
+  state.known_free_m = follower_.known_free_m();
+  state.latency_bound = follower_.latency_bound();
+  state.tracking_error = tracking_error_;
+  state.planner_failures = failures_;
+  state.replans = replans_;
+  state.map_revision = map_revision_;
+  state.map_latency = newest_latency_;
+  state.map_captured = newest_capture_;
+  return state;
 }
 
 }  // namespace flyball

@@ -14,7 +14,7 @@ constexpr auto stall_patience = 6s;  // Looking left and right has not helped: p
 // Noise, or part of an obstacle, may fill a cell that body or tube reach into. Yet the place is
 // free.
 void Navigator::trust_own_place() {
-  context_.kernels.mapper->declare_clear(follower_.position_W(), context_.narrow_body());
+  news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
 }
 
 // At first a plan from here may go elsewhere. When it does not, and the next one neither, what it
@@ -24,27 +24,27 @@ void Navigator::note_stall(MissionTime now) {
     return;
   }
   trust_own_place();
-  context_.counters.planner_failures_in_row = ++stalls_;
-  if (stalls_ < 2 || !steps_back(now)) {
+  failures_ = ++stalls_;
+  if (stalls_ < 2 || !steps_back()) {
     want_plan(now, "stalled before unknown space");
   }
 }
 
-bool Navigator::steps_back(MissionTime now) {
+bool Navigator::steps_back() {
   constexpr double ahead_m = 3.0;  // It looks there.
   const Path& path = follower_.path();
   const Vec3 ahead_W = path.at(follower_.s_m() + ahead_m).p_W - follower_.position_W();
-  const Intrinsics camera = context_.settings.camera.intrinsics();
-  const double away_m = blind_m(context_.map().resolution_m(), context_.narrow_body(),
+  const Intrinsics camera = brief_->settings.camera.intrinsics();
+  const double away_m = blind_m(map_->resolution_m(), brief_->narrow_body(),
                                 0.5 * camera.height_px / camera.focal_px);
-  const bool is_unseen = context_.maps_obstacles && !context_.restraint.must_hover;
+  const bool is_unseen = brief_->maps_obstacles && !knobs_->restraint.must_hover;
   if (!is_unseen || !back_.begin(away_m, yaw_of(ahead_W))) {
     return false;
   }
   follower_.hover_at(follower_.position_W(), follower_.yaw_rad());
   blocked_at_m_.reset();
   ++path_number_;
-  context_.event(now, "steps back to see what is before it");
+  news_.events.push_back("steps back to see what is before it");
   return true;
 }
 

@@ -9,8 +9,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The tube grows with speed, so a passage can be too narrow for cruise and wide enough for a crawl.
-// Three tiers of it: narrow passages, near obstacles, and the knob's largest speed.
 constexpr double middle_m_s = 4.0;
 // Half of what the guard may brake with; the rest is for curves and for the guard.
 constexpr double comfort_m_s2 = 3.0;
@@ -35,19 +33,42 @@ double eased(double value, double target, double dt_s) {
   return value + std::min(1.0, gain_1_s * dt_s) * (target - value);
 }
 
-GuardSettings guard_settings(const MissionContext& context) {
+GuardSettings guard_settings(const Brief& brief) {
   GuardSettings settings;
-  settings.max_deceleration_m_s2 = context.settings.mission.max_acceleration_m_s2;
+  settings.max_deceleration_m_s2 = brief.settings.mission.max_acceleration_m_s2;
   return settings;
 }
 
 }  // namespace
 
-PathFollower::PathFollower(const MissionContext& context)
-    : context_{context}, guard_{guard_settings(context)} {}
+TierDistances tier_speeds_m_s(const KnobsInForce& knobs) {
+  const double knob = knobs.value("mission.max_speed_m_s");
+  return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
+}
+
+TierDistances known_free_until_m(const OccupancyView& map,
+                                 const Path& path,
+                                 double s_m,
+                                 const Brief& brief,
+                                 const KnobsInForce& knobs) {
+  // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
+  constexpr double step_m = 0.075;
+  const double horizon_m =
+      brief.maps_obstacles ? knobs.value("map.range_m") + 2.0 : path.length_m();
+  const TierDistances speeds_m_s = tier_speeds_m_s(knobs);
+  TierDistances until_m{};
+  for (std::size_t tier = 0; tier < speed_tiers; ++tier) {
+    const Cylinder body = brief.body_at(speeds_m_s[tier]);
+    until_m[tier] = s_m + known_free_distance(map, {&path, s_m, horizon_m}, body, step_m);
+  }
+  return until_m;
+}
+
+PathFollower::PathFollower(std::shared_ptr<const Brief> brief)
+    : brief_{std::move(brief)}, guard_{guard_settings(*brief_)} {}
 
 void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
-  path_ = Path{};
+  path_ = std::make_shared<const Path>();
   hover_W_ = p_W;
   yaw_rad_ = yaw_rad;
   s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
@@ -59,43 +80,34 @@ SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) con
   SpeedProfileLimits limits;
   limits.lateral_m_s2 = comfort_m_s2;
   limits.longitudinal_m_s2 = std::min(braking_m_s2, guard_.settings().max_deceleration_m_s2);
-  return {path, limits, [this](const Vec3& p_W) { return context_.speed_limit_m_s(p_W); }};
+  return {path, limits, [this](const Vec3& p_W) { return speed_limit_at(p_W); }};
 }
 
 bool PathFollower::adopt(const Path& tail, double splice_m) {
   constexpr double rounding_m = 1e-6;
-  if (!path_.empty() && s_m_ > splice_m + rounding_m) {
+  if (has_path() && s_m_ > splice_m + rounding_m) {
     return false;
   }
-  Path path = path_.empty() ? tail : Path::joined(path_, s_m_, splice_m, tail);
+  Path path = has_path() ? Path::joined(*path_, s_m_, splice_m, tail) : tail;
   constexpr double slack_m_s = 0.1;
   if (profile_of(path, stopping_m_s2).at(0.0) + slack_m_s < speed_m_s_) {
     return false;
   }
   profile_ = profile_of(path, comfort_m_s2);
-  path_ = std::move(path);
+  path_ = std::make_shared<const Path>(std::move(path));
   s_m_ = 0.0;
-  stop_at_m_ = path_.length_m();
+  stop_at_m_ = path_->length_m();
   stalled_since_.reset();
   return true;
 }
 
 void PathFollower::commit_stop(double s_m) {
-  stop_at_m_ = std::clamp(s_m, s_m_, path_.length_m());
+  stop_at_m_ = std::clamp(s_m, s_m_, path_->length_m());
 }
 
 void PathFollower::refresh_known_free(const OccupancyView& map) {
-  if (!has_path()) {
-    return;
-  }
-  // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
-  constexpr double step_m = 0.075;
-  const double horizon_m =
-      context_.maps_obstacles ? context_.knobs.value("map.range_m") + 2.0 : path_.length_m();
-  const auto speeds = tier_speeds_m_s();
-  for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
-    const Cylinder body = context_.body_at(speeds[tier]);
-    free_until_m_[tier] = s_m_ + known_free_distance(map, {&path_, s_m_, horizon_m}, body, step_m);
+  if (has_path()) {
+    free_until_m_ = known_free_until_m(map, *path_, s_m_, *brief_, *knobs_);
   }
 }
 
@@ -110,37 +122,32 @@ double PathFollower::distance_since(MissionTime captured) const {
 // range, but something may have come there since. Without a map, what is declared clear stays so.
 double PathFollower::room_m(std::size_t tier) const {
   const double from_here_m = free_until_m_[tier] - s_m_;
-  if (!context_.maps_obstacles) {
+  if (!brief_->maps_obstacles) {
     return from_here_m;
   }
   const double in_sight_m =
-      context_.knobs.value("map.range_m") - context_.body_at(tier_speeds_m_s()[tier]).radius_m;
+      knobs_->value("map.range_m") - brief_->body_at(tier_speeds_m_s(*knobs_)[tier]).radius_m;
   return std::min(from_here_m + distance_since(newest_capture_), in_sight_m);
 }
 
 // Without a map there is none to wait for.
 double PathFollower::cruise_speed(std::size_t tier) const {
-  const double safe_m_s = context_.maps_obstacles
+  const double safe_m_s = brief_->maps_obstacles
                               ? guard_.cruise_speed(latency_bound(), room_m(tier))
                               : safe_speed(guard_.settings().max_deceleration_m_s2,
                                            to_seconds(guard_.reaction_time()), room_m(tier));
-  return std::min(tier_speeds_m_s()[tier], safe_m_s);
-}
-
-std::array<double, 3> PathFollower::tier_speeds_m_s() const {
-  const double knob = context_.knobs.value("mission.max_speed_m_s");
-  return {std::min(slow_m_s, knob), std::min(middle_m_s, knob), knob};
+  return std::min(tier_speeds_m_s(*knobs_)[tier], safe_m_s);
 }
 
 Duration PathFollower::latency_bound() const {
-  const double factor = context_.restraint.bound_factor;
+  const double factor = knobs_->restraint.bound_factor;
   const Duration bound =
       factor == 1.0 ? latency_bound_ : from_seconds(factor * to_seconds(latency_bound_));
   return std::min(bound, longest_latency_bound);
 }
 
 double PathFollower::safe_cruise() const {
-  if (context_.restraint.must_hover) {
+  if (knobs_->restraint.must_hover) {
     return 0.0;
   }
   double safe = 0.0;
@@ -161,7 +168,7 @@ double PathFollower::speed_limit() const {
 
 // A tier whose free space ends is left for the next slower one; the slowest is left for a stop.
 double PathFollower::braked_speed(double dt_s) const {
-  const auto speeds = tier_speeds_m_s();
+  const auto speeds = tier_speeds_m_s(*knobs_);
   const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
   for (std::size_t tier = 0; tier < speeds.size(); ++tier) {
     const double floor = tier == 0 ? 0.0 : speeds[tier - 1];
@@ -175,10 +182,10 @@ double PathFollower::braked_speed(double dt_s) const {
 // A vehicle that has fallen out of its tube is waited for: the reference slows down to a crawl.
 // Lagging along the path is no danger, and waiting for it would make both swing.
 double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
-  const Vec3 tangent_W = path_.at(s_m_).tangent_W;
+  const Vec3 tangent_W = path_->at(s_m_).tangent_W;
   const double along_m = error_W.dot(tangent_W);
   const double across_m = (error_W - along_m * tangent_W).norm();
-  const double tube_m = context_.tube.radius_m(speed_m_s_);
+  const double tube_m = brief_->tube.radius_m(speed_m_s_);
   constexpr double patience_m = 0.2;
   constexpr double lag_m = 0.5;
   const double out_m = std::max(across_m - tube_m, std::abs(along_m) - lag_m);
@@ -224,7 +231,7 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
 // it can be flown to: so the vehicle turns in place before it leaves its field of view.
 std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
-  Vec3 direction = path_.at(s_m_ + ahead_m).p_W - path_.at(s_m_).p_W;
+  Vec3 direction = path_->at(s_m_ + ahead_m).p_W - path_->at(s_m_).p_W;
   direction.z() = 0.0;
   if (direction.norm() <= 0.1) {
     return std::nullopt;
@@ -253,11 +260,11 @@ void PathFollower::turn(double dt_s, MissionTime now) {
 }
 
 Vec3 PathFollower::position_W() const {
-  return has_path() ? path_.at(s_m_).p_W : hover_W_;
+  return has_path() ? path_->at(s_m_).p_W : hover_W_;
 }
 
 TrackingError PathFollower::tracking_error(const Vec3& error_W) const {
-  const Vec3 tangent_W = has_path() ? path_.at(s_m_).tangent_W : Vec3{Vec3::Zero()};
+  const Vec3 tangent_W = has_path() ? path_->at(s_m_).tangent_W : Vec3{Vec3::Zero()};
   const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
   return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
 }
@@ -278,11 +285,11 @@ double PathFollower::planned_stop_m() const {
 }
 
 double PathFollower::farthest_stop_m() const {
-  return std::min(path_.length_m(), free_until_m_.back() - stop_margin_m);
+  return std::min(path_->length_m(), free_until_m_.back() - stop_margin_m);
 }
 
 bool PathFollower::is_at_end() const {
-  return has_path() && speed_m_s_ == 0.0 && path_.length_m() - s_m_ < 0.01;
+  return has_path() && speed_m_s_ == 0.0 && path_->length_m() - s_m_ < 0.01;
 }
 
 Duration PathFollower::stalled(MissionTime now) const {

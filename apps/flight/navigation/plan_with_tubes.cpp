@@ -30,11 +30,12 @@ constexpr double lost_in_motion = 0.37;
 
 class Search {
  public:
-  Search(MissionContext& context, const PlanQuery& query) : context_{context}, query_{query} {
+  Search(const Situation& situation, PathPlanner& planner, const PlanQuery& query)
+      : situation_{situation}, planner_{planner}, query_{query} {
     request_.start_W = query.start_W;
     request_.goal_W = query.goal_W;
-    request_.bounds_W = context.brief.bounds_W;
-    request_.seed = RandomStream{context.settings.seed, "planner", query.id}.next();
+    request_.bounds_W = situation.brief.site.bounds_W;
+    request_.seed = RandomStream{situation.brief.settings.seed, "planner", query.id}.next();
   }
 
   Plan plan() {
@@ -52,22 +53,22 @@ class Search {
   // no opening on the way lets through is not tried: before doors that would be a quarter of the
   // time.
   bool find_any() {
-    const int budget = static_cast<int>(context_.knobs.value("planner.budget"));
+    const int budget = static_cast<int>(situation_.knobs.value("planner.budget"));
     if (query_.may_be_tight) {
-      return try_with(context_.narrow_body(), budget);
+      return try_with(situation_.brief.narrow_body(), budget);
     }
     const double opening_m = narrowest_opening_m();
     const auto fits = [&](const Cylinder& body) {
       return 2.0 * body.radius_m <= opening_m + exact_to_m;
     };
     const int part = budget / 8;
-    const Cylinder wide = context_.body_at(context_.knobs.value("mission.max_speed_m_s"));
+    const Cylinder wide = situation_.brief.body_at(situation_.knobs.value("mission.max_speed_m_s"));
     const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
-    const bool tries_roomy = 2.0 * context_.map().resolution_m() <= room_m && fits(roomy);
+    const bool tries_roomy = 2.0 * situation_.map.resolution_m() <= room_m && fits(roomy);
     const bool tries_wide = fits(wide);
     const int tried = (tries_roomy ? part : 0) + (tries_wide ? part : 0);
     return (tries_roomy && try_with(roomy, part)) || (tries_wide && try_with(wide, part)) ||
-           try_with(context_.narrow_body(), budget - tried);
+           try_with(situation_.brief.narrow_body(), budget - tried);
   }
 
   [[nodiscard]] double narrowest_opening_m() const {
@@ -75,8 +76,8 @@ class Search {
     scan.reach_m = (request_.goal_W - request_.start_W).norm();
     scan.aside_m = aside_m;
     scan.half_band_m = half_band_m;
-    scan.bounds_W = context_.brief.bounds_W;
-    return gaps_ahead(context_.map(), request_.start_W, request_.goal_W, scan).narrowest_m;
+    scan.bounds_W = situation_.brief.site.bounds_W;
+    return gaps_ahead(situation_.map, request_.start_W, request_.goal_W, scan).narrowest_m;
   }
 
   void look_for_shorter() {
@@ -86,7 +87,7 @@ class Search {
       const double saved_m = worthwhile * (now_m - line_m);
       request_.shorter_than_m = now_m - saved_m;
       const int iterations = now_m > line_m + detour_m ? iterations_worth(saved_m) : 0;
-      if (iterations == 0 || !try_with(context_.narrow_body(), iterations)) {
+      if (iterations == 0 || !try_with(situation_.brief.narrow_body(), iterations)) {
         return;
       }
     }
@@ -94,8 +95,8 @@ class Search {
 
   /// No longer than the time that they may save.
   [[nodiscard]] int iterations_worth(double saved_m) const {
-    const double limit_m_s = std::min(context_.speed_limit_m_s(query_.start_W),
-                                      context_.knobs.value("mission.max_speed_m_s"));
+    const double limit_m_s = std::min(situation_.speed_limit_m_s(query_.start_W),
+                                      situation_.knobs.value("mission.max_speed_m_s"));
     const double lost = query_.start_direction_W.isZero() ? 1.0 : lost_in_motion;
     const double worth_s = finds_one * saved_m / limit_m_s / lost;
     return worth_s >= shorter_iterations * query_.iteration_s
@@ -107,7 +108,7 @@ class Search {
   bool try_with(const Cylinder& body, int iterations) {
     request_.body = body;
     request_.max_iterations = iterations;
-    Plan plan = context_.kernels.planner->plan(request_, context_.map());
+    Plan plan = planner_.plan(request_, situation_.map);
     for (const auto& item : plan.work.items()) {
       work_.add(item.name, item.count);
     }
@@ -119,7 +120,8 @@ class Search {
     return found;
   }
 
-  MissionContext& context_;
+  Situation situation_;
+  PathPlanner& planner_;
   const PlanQuery& query_;
   PlanRequest request_;
   Plan plan_;
@@ -129,8 +131,11 @@ class Search {
 
 }  // namespace
 
-Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body) {
-  Search search{context, query};
+Plan plan_with_tubes(const Situation& situation,
+                     PathPlanner& planner,
+                     const PlanQuery& query,
+                     Cylinder& body) {
+  Search search{situation, planner, query};
   Plan plan = search.plan();
   body = search.body();
   return plan;

@@ -15,9 +15,9 @@ constexpr double eighth_rad = 0.7853981633974483;
 
 }  // namespace
 
-std::optional<Vec3> place_aside_W(const MissionContext& context, const Vec3& here_W) {
+std::optional<Vec3> place_aside_W(const Situation& situation, const Vec3& here_W) {
   const auto is_blocked = [&](const Vec3& p_W) {
-    return context.map().body_state(p_W, context.narrow_body()) == CellState::occupied;
+    return situation.map.body_state(p_W, situation.brief.narrow_body()) == CellState::occupied;
   };
   if (!is_blocked(here_W)) {
     return std::nullopt;

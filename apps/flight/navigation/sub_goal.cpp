@@ -12,23 +12,20 @@ constexpr double half_band_m = 0.3;
 // What is unknown and nearer to an obstacle may be its inside: RoboRun's blocks are 4 m wide.
 constexpr double unknown_gap_m = 3.0;
 
-bool may_be_there(const MissionContext& context, const Vec3& p_W) {
-  if (!context.brief.bounds_W.contains(p_W)) {
+bool may_be_there(const Situation& situation, const Vec3& p_W) {
+  if (!situation.brief.site.bounds_W.contains(p_W)) {
     return false;
   }
-  const CellState state = context.map().body_state(p_W, context.narrow_body());
+  const CellState state = situation.map.body_state(p_W, situation.brief.narrow_body());
   return state == CellState::free ||
          (state == CellState::unknown &&
-          context.map().nearest_obstacle_m(p_W, unknown_gap_m, half_band_m) >= unknown_gap_m);
+          situation.map.nearest_obstacle_m(p_W, unknown_gap_m, half_band_m) >= unknown_gap_m);
 }
 
 }  // namespace
 
-Vec3 sub_goal_W(const MissionContext& context,
-                const Vec3& start_W,
-                const Vec3& goal_W,
-                int failures) {
-  const double horizon_m = context.settings.planner.horizon_m;
+Vec3 sub_goal_W(const Situation& situation, const Vec3& start_W, const Vec3& goal_W, int failures) {
+  const double horizon_m = situation.brief.settings.planner.horizon_m;
   const double distance_m = (goal_W - start_W).norm();
   if (horizon_m <= 0.0 || distance_m <= horizon_m) {
     return goal_W;
@@ -40,7 +37,7 @@ Vec3 sub_goal_W(const MissionContext& context,
     for (double on_m = horizon_m; on_m >= nearest_share * horizon_m; on_m -= step_m) {
       Vec3 p_W = start_W + on_m * ahead_W + aside * left_W;
       p_W.z() = goal_W.z();
-      if (may_be_there(context, p_W) && failures-- <= 0) {
+      if (may_be_there(situation, p_W) && failures-- <= 0) {
         return p_W;
       }
     }

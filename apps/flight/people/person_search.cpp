@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/people/person_search.h"
 
+#include "flyball/flight/perception/pose_history.h"
 #include "flyball/runtime/gimbal.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -53,35 +55,58 @@ std::vector<float> depths_near(const DepthImage& depth,
   return depths;
 }
 
-Sightings look(JobContext& job,
-               const VehicleTopics& vehicle,
-               const PoseHistory& history,
-               MissionContext& context,
-               Work& work) {
-  const auto frame = job.latest(vehicle.colour);
-  const auto depth = job.latest(vehicle.depth);
-  if (!frame || !depth || context.phase != MissionPhase::cruise) {
-    return {};
+/// Looks at the newest frame.
+class Detect {
+ public:
+  Detect(const FlightParts& parts, Topic<PoseEstimate> poses, Topic<Sightings> sightings)
+      : parts_{parts}, poses_topic_{poses}, sightings_{sightings} {}
+
+  Work operator()(JobContext& job) {
+    Work work;
+    poses_.take_from(job, poses_topic_);
+    const auto frame = job.latest(parts_.vehicle.colour);
+    const auto depth = job.latest(parts_.vehicle.depth);
+    const auto knobs = job.latest(parts_.mission.knobs);
+    if (!frame || !depth || !knobs || !is_in(job, parts_.mission, MissionPhase::cruise)) {
+      return work;
+    }
+    const auto pose = poses_.at(frame->captured);
+    const Duration apart = depth->captured - frame->captured;
+    if (!pose || apart > same_time || -apart > same_time) {
+      return work;
+    }
+    const auto people =
+        parts_.kernels.detector->detect(frame->image.value(), knobs->value("detector.scale"), work);
+    if (people) {
+      tell(job, *people, *frame, *depth, *pose);
+    } else {
+      log_event(job, parts_.mission, "not looked at: " + people.error().message);
+    }
+    return work;
   }
-  const auto pose = history.at(frame->captured);
-  const Duration apart = depth->captured - frame->captured;
-  if (!pose || apart > same_time || -apart > same_time) {
-    return {};
-  }
-  const auto people = context.kernels.detector->detect(frame->image.value(),
-                                                       context.knobs.value("detector.scale"), work);
-  if (!people) {
-    context.event(job.now(), "not looked at: " + people.error().message);
-    return {};
-  }
-  Sightings seen{*frame, pose->X_WB.translation(), {}};
-  for (const Detection& person : *people) {
-    if (const auto p_W = place_of(person.box, *frame, depth->image.value(), pose->X_WB)) {
-      seen.people.push_back({person.box, person.score, *p_W});
+
+ private:
+  void tell(JobContext& job,
+            const std::vector<Detection>& people,
+            const ColourFrame& frame,
+            const DepthFrame& depth,
+            const PoseEstimate& pose) {
+    Sightings seen{frame, pose.X_WB.translation(), {}};
+    for (const Detection& person : people) {
+      if (const auto p_W = place_of(person.box, frame, depth.image.value(), pose.X_WB)) {
+        seen.people.push_back({person.box, person.score, *p_W});
+      }
+    }
+    if (!seen.people.empty()) {
+      job.publish(sightings_, std::move(seen));
     }
   }
-  return seen;
-}
+
+  FlightParts parts_;
+  Topic<PoseEstimate> poses_topic_;
+  Topic<Sightings> sightings_;
+  PoseHistory poses_{};
+};
 
 }  // namespace
 
@@ -109,36 +134,21 @@ std::optional<Vec3> place_of(const ImageBox& box,
 }
 
 Topic<Sightings> add_person_search(Graph& graph,
-                                   const VehicleTopics& vehicle,
-                                   const PerceptionTopics& perception,
-                                   MissionContext& context) {
+                                   const FlightParts& parts,
+                                   const LocalizationTopics& localization) {
   const auto sightings = graph.topic<Sightings>("sightings", 8);
-  auto history = std::make_shared<PoseHistory>();  // Owners: the two nodes.
-  NodeSpec poses;
-  poses.name = "look_poses";
-  poses.trigger = OnMessage{perception.pose.index};
-  poses.priority = 30;
-  graph.node(std::move(poses), [perception, history](JobContext& job) {
-    if (const auto pose = job.latest(perception.pose)) {
-      history->add(*pose);
-    }
-    return Work{};
-  });
   NodeSpec spec;
   spec.name = "detect";
-  spec.cost = detector_cost(context.settings);
-  spec.trigger = OnMessage{vehicle.colour.index};
+  spec.cost = detector_cost(parts.brief->settings);
+  spec.trigger = OnMessage{parts.vehicle.colour.index};
   spec.priority = 10;
-  spec.reads = {vehicle.depth.index};
+  spec.reads = {parts.vehicle.depth.index, localization.poses.index, parts.mission.knobs.index,
+                parts.mission.state.index};
   spec.writes = {sightings.index};
-  graph.node(std::move(spec), [vehicle, sightings, history, &context](JobContext& job) {
-    Work work;
-    Sightings seen = look(job, vehicle, *history, context, work);
-    if (!seen.people.empty()) {
-      job.publish(sightings, std::move(seen));
-    }
-    return work;
-  });
+  declare_log(spec, parts.mission);
+  // Owner: this node alone.
+  auto detect = std::make_shared<Detect>(parts, localization.poses, sightings);
+  graph.node(std::move(spec), [detect](JobContext& job) { return (*detect)(job); });
   return sightings;
 }
 

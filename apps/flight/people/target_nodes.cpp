@@ -33,26 +33,26 @@ Result<std::optional<ImageBox>> track(Tracker& tracker, const ColourFrame& frame
   return tracker.update(frame.image.part(tracker.looks_at(frame.camera)), work);
 }
 
-void add_detect(Graph& graph,
-                const VehicleTopics& vehicle,
-                const TargetTopics& topics,
-                MissionContext& context) {
+void add_detect(Graph& graph, const FlightParts& parts, const TargetTopics& topics) {
   NodeSpec spec;
   spec.name = "detect";
-  spec.cost = detector_cost(context.settings);
-  spec.trigger = OnMessage{vehicle.colour.index};
+  spec.cost = detector_cost(parts.brief->settings);
+  spec.trigger = OnMessage{parts.vehicle.colour.index};
   spec.priority = 10;
+  spec.reads = {parts.mission.knobs.index, parts.mission.state.index};
   spec.writes = {topics.detections.index};
-  graph.node(std::move(spec), [vehicle, topics, &context](JobContext& job) {
+  declare_log(spec, parts.mission);
+  graph.node(std::move(spec), [topics, colour = parts.vehicle.colour, mission = parts.mission,
+                               detector = parts.kernels.detector](JobContext& job) {
     Work work;
-    const auto frame = job.latest(vehicle.colour);
-    if (!frame || context.phase != MissionPhase::cruise) {
+    const auto frame = job.latest(colour);
+    const auto knobs = job.latest(mission.knobs);
+    if (!frame || !knobs || !is_in(job, mission, MissionPhase::cruise)) {
       return work;
     }
-    auto people = context.kernels.detector->detect(frame->image.value(),
-                                                   context.knobs.value("detector.scale"), work);
+    auto people = detector->detect(frame->image.value(), knobs->value("detector.scale"), work);
     if (!people) {
-      context.event(job.now(), "not looked at: " + people.error().message);
+      log_event(job, mission, "not looked at: " + people.error().message);
       return work;
     }
     job.publish(topics.detections, Detections{*frame, std::move(*people)});
@@ -63,11 +63,8 @@ void add_detect(Graph& graph,
 /// Takes a detection through the frames that arrived while the detector ran, to the newest of them.
 class BufferedTracking {
  public:
-  BufferedTracking(const VehicleTopics& vehicle,
-                   const TargetTopics& topics,
-                   MissionContext& context,
-                   TargetLog& log)
-      : vehicle_{vehicle}, topics_{topics}, context_{context}, log_{log} {}
+  BufferedTracking(const FlightParts& parts, const TargetTopics& topics)
+      : parts_{parts}, topics_{topics} {}
 
   Work operator()(JobContext& job) {
     Work work;
@@ -75,18 +72,19 @@ class BufferedTracking {
     if (!seen) {
       return work;
     }
-    CaughtUp caught_up{seen->frame, chosen(job, *seen), 0};
+    CaughtUp caught_up{seen->frame, chosen(job, *seen), 0, {}};
     if (caught_up.box) {
       job.publish(topics_.sighting, Target{seen->frame, caught_up.box});
       begin(job, caught_up, work);
     }
     // Taken in any case: the next detection's frames are those that come from now on.
-    while (const auto frame = job.take(vehicle_.colour_buffer)) {
+    while (const auto frame = job.take(parts_.vehicle.colour_buffer)) {
       if (frame->sequence > seen->frame.sequence) {
         catch_up(job, *frame, caught_up, work);
       }
     }
     log_.buffered_frames += caught_up.frames_between;
+    caught_up.log = log_;
     job.publish(topics_.caught_up, std::move(caught_up));
     return work;
   }
@@ -95,24 +93,24 @@ class BufferedTracking {
   std::optional<ImageBox> chosen(JobContext& job, const Detections& seen) {
     const auto target = job.latest(topics_.target);
     const auto last = target ? target->box : std::nullopt;
-    const auto person = pick(plausible(seen, job.latest(topics_.pose).get(), context_), last,
+    const auto person = pick(plausible(seen, job.latest(topics_.pose).get(), *parts_.brief), last,
                              reach_share * seen.frame.camera.width_px);
     ++log_.looks;
     log_.detections += person ? 1 : 0;
     log_.missed_in_row = person ? 0 : log_.missed_in_row + 1;
-    context_.recorder.record(job.now(), "detection",
-                             {{"frame", static_cast<std::int64_t>(seen.frame.sequence)},
-                              {"people", static_cast<std::int64_t>(seen.people.size())},
-                              {"score", person ? person->score : 0.0},
-                              {"chosen", static_cast<std::int64_t>(person.has_value())}});
+    log(job, parts_.mission, "detection",
+        {{"frame", static_cast<std::int64_t>(seen.frame.sequence)},
+         {"people", static_cast<std::int64_t>(seen.people.size())},
+         {"score", person ? person->score : 0.0},
+         {"chosen", static_cast<std::int64_t>(person.has_value())}});
     return person ? std::optional{person->box} : std::nullopt;
   }
 
   void begin(JobContext& job, CaughtUp& caught_up, Work& work) {
     const Status begun =
-        begin_tracking(*context_.kernels.buffered_tracker, caught_up.frame, *caught_up.box, work);
+        begin_tracking(*parts_.kernels.buffered_tracker, caught_up.frame, *caught_up.box, work);
     if (!begun) {
-      context_.event(job.now(), "not tracked: " + begun.error().message);
+      log_event(job, parts_.mission, "not tracked: " + begun.error().message);
       caught_up.box = std::nullopt;
     }
   }
@@ -122,33 +120,29 @@ class BufferedTracking {
     if (!caught_up.box) {
       return;
     }
-    auto box = track(*context_.kernels.buffered_tracker, frame, work);
+    auto box = track(*parts_.kernels.buffered_tracker, frame, work);
     if (!box) {
-      context_.event(job.now(), "not tracked: " + box.error().message);
+      log_event(job, parts_.mission, "not tracked: " + box.error().message);
     }
     caught_up.box = box ? *box : std::nullopt;
     caught_up.frame = frame;
   }
 
-  VehicleTopics vehicle_;
+  FlightParts parts_;
   TargetTopics topics_;
-  MissionContext& context_;
-  TargetLog& log_;
+  TargetLog log_{};
 };
 
-void add_buffered(Graph& graph,
-                  const VehicleTopics& vehicle,
-                  const TargetTopics& topics,
-                  MissionContext& context,
-                  TargetLog& log) {
+void add_buffered(Graph& graph, const FlightParts& parts, const TargetTopics& topics) {
   NodeSpec spec;
   spec.name = "track_buffered";
-  spec.cost = context.settings.kernels.tracker + "_buffered";
+  spec.cost = parts.brief->settings.kernels.tracker + "_buffered";
   spec.trigger = OnMessage{topics.detections.index};
   spec.priority = 20;
-  spec.reads = {vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
+  spec.reads = {parts.vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
   spec.writes = {topics.sighting.index, topics.caught_up.index};
-  auto tracking = std::make_shared<BufferedTracking>(vehicle, topics, context, log);
+  declare_log(spec, parts.mission);
+  auto tracking = std::make_shared<BufferedTracking>(parts, topics);  // Owner: this node alone.
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
@@ -157,26 +151,24 @@ void add_buffered(Graph& graph,
 /// confirms: a tracker holds on to the tree behind which somebody went.
 class RealTimeTracking {
  public:
-  RealTimeTracking(const VehicleTopics& vehicle,
-                   const TargetTopics& topics,
-                   MissionContext& context,
-                   const TargetLog& log)
-      : vehicle_{vehicle}, topics_{topics}, context_{context}, log_{log} {}
+  RealTimeTracking(const FlightParts& parts, const TargetTopics& topics)
+      : parts_{parts}, topics_{topics} {}
 
   Work operator()(JobContext& job) {
     Work work;
-    const auto frame = job.latest(vehicle_.colour);
+    const auto frame = job.latest(parts_.vehicle.colour);
     if (!frame) {
       return work;
     }
     Target target{*frame, std::nullopt};
     const auto caught_up = job.take(topics_.caught_up);
+    missed_in_row_ = caught_up ? caught_up->log.missed_in_row : missed_in_row_;
     if (caught_up && caught_up->box) {
       is_following_ = begin_tracking(tracker(), caught_up->frame, *caught_up->box, work).ok();
       unseen_in_row_ = 0;
       target.box = is_following_ ? caught_up->box : std::nullopt;
     }
-    is_following_ = is_following_ && log_.missed_in_row < unconfirmed_most;
+    is_following_ = is_following_ && missed_in_row_ < unconfirmed_most;
     const bool is_newer = !caught_up || frame->sequence != caught_up->frame.sequence;
     if (is_following_ && is_newer) {
       const auto box = track(tracker(), *frame, work);
@@ -189,29 +181,24 @@ class RealTimeTracking {
   }
 
  private:
-  [[nodiscard]] Tracker& tracker() const { return *context_.kernels.real_time_tracker; }
+  [[nodiscard]] Tracker& tracker() const { return *parts_.kernels.real_time_tracker; }
 
-  VehicleTopics vehicle_;
+  FlightParts parts_;
   TargetTopics topics_;
-  MissionContext& context_;
-  const TargetLog& log_;
   bool is_following_{};
+  int missed_in_row_{};  ///< As the newest detection says.
   int unseen_in_row_{};
 };
 
-void add_real_time(Graph& graph,
-                   const VehicleTopics& vehicle,
-                   const TargetTopics& topics,
-                   MissionContext& context,
-                   const TargetLog& log) {
+void add_real_time(Graph& graph, const FlightParts& parts, const TargetTopics& topics) {
   NodeSpec spec;
   spec.name = "track_real_time";
-  spec.cost = context.settings.kernels.tracker + "_real_time";
-  spec.trigger = OnMessage{vehicle.colour.index};
+  spec.cost = parts.brief->settings.kernels.tracker + "_real_time";
+  spec.trigger = OnMessage{parts.vehicle.colour.index};
   spec.priority = 30;
   spec.reads = {topics.caught_up.index};
   spec.writes = {topics.target.index};
-  auto tracking = std::make_shared<RealTimeTracking>(vehicle, topics, context, log);
+  auto tracking = std::make_shared<RealTimeTracking>(parts, topics);  // Owner: this node alone.
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
@@ -235,12 +222,12 @@ std::optional<Detection> pick(const std::vector<Detection>& people,
 
 std::vector<Detection> plausible(const Detections& seen,
                                  const PoseEstimate* pose,
-                                 const MissionContext& context) {
+                                 const Brief& brief) {
   if (pose == nullptr) {
     return seen.people;
   }
-  const PersonGeometry geometry{context.settings.photography.person_height_m,
-                                pose->X_WB.translation().z() - context.brief.ground_z_m};
+  const PersonGeometry geometry{brief.settings.photography.person_height_m,
+                                pose->X_WB.translation().z() - brief.site.ground_z_m};
   std::vector<Detection> people;
   std::copy_if(seen.people.begin(), seen.people.end(), std::back_inserter(people),
                [&](const Detection& person) {
@@ -250,19 +237,17 @@ std::vector<Detection> plausible(const Detections& seen,
 }
 
 TargetTopics add_target(Graph& graph,
-                        const VehicleTopics& vehicle,
-                        Topic<PoseEstimate> pose,
-                        MissionContext& context,
-                        TargetLog& log) {
+                        const FlightParts& parts,
+                        const LocalizationTopics& localization) {
   TargetTopics topics;
-  topics.pose = pose;
+  topics.pose = localization.pose;
   topics.detections = graph.topic<Detections>("detections");
   topics.sighting = graph.topic<Target>("sighting");
   topics.caught_up = graph.topic<CaughtUp>("caught_up");
   topics.target = graph.topic<Target>("target");
-  add_detect(graph, vehicle, topics, context);
-  add_buffered(graph, vehicle, topics, context, log);
-  add_real_time(graph, vehicle, topics, context, log);
+  add_detect(graph, parts, topics);
+  add_buffered(graph, parts, topics);
+  add_real_time(graph, parts, topics);
   return topics;
 }
 

@@ -28,7 +28,6 @@ double look_aside(double since_s) {
 }  // namespace
 
 void LocalizationWatch::fixed(MissionTime now, const VisualFix& fix) {
-  has_fixes_ = true;
   if (!fix.tracked && !lost_since_) {
     lost_since_ = now;
     ++times_lost_;
@@ -79,13 +78,9 @@ std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height
   return setpoint;
 }
 
-std::map<std::string, double> LocalizationWatch::quality(MissionTime now) const {
-  std::map<std::string, double> values;
-  if (has_fixes_) {
-    values["localization_lost"] = times_lost_;
-    values["localization_lost_s"] = lost_s_ + (lost_since_ ? to_seconds(now - *lost_since_) : 0.0);
-  }
-  return values;
+LocalizationStatus LocalizationWatch::status(MissionTime now, double height_W_m) {
+  return {is_lost(), search(now, height_W_m), times_lost_,
+          lost_s_ + (lost_since_ ? to_seconds(now - *lost_since_) : 0.0)};
 }
 
 }  // namespace flyball

@@ -1,47 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/perception/perception_nodes.h"
 
-#include "flyball/flight/perception/visual_nodes.h"
+#include "flyball/flight/perception/pose_history.h"
 
-#include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace flyball {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr auto pose_memory = 3s;
-
-void add_localizer(Graph& graph,
-                   const VehicleTopics& vehicle,
-                   Topic<PoseEstimate> pose,
-                   MissionContext& context) {
-  NodeSpec spec;
-  spec.name = "localize";
-  spec.cost = "localizer";
-  spec.trigger = OnMessage{vehicle.navigation.index};
-  spec.priority = 30;
-  spec.deadline = 10ms;
-  spec.writes = {pose.index};
-  if (vehicle.true_pose) {
-    spec.reads = {vehicle.true_pose->index};
-  }
-  graph.node(std::move(spec), [vehicle, pose, &context](JobContext& job) {
-    Work work;
-    if (const auto sample = job.latest(vehicle.navigation)) {
-      if (const auto truth = vehicle.true_pose ? job.latest(*vehicle.true_pose) : nullptr) {
-        context.kernels.localizer->reveal(*truth);
-      }
-      const PoseEstimate estimate = context.kernels.localizer->estimate(*sample, work);
-      if (!context.localization.is_lost()) {
-        context.localization.passed(estimate);
-      }
-      job.publish(pose, estimate);
-    }
-    return work;
-  });
-}
 
 // The paper's deliveries ran ORB-SLAM2 beside the map even when ground truth steered; its load on
 // the cores is charged, its pose is not used.
@@ -60,108 +29,100 @@ void add_slam_load(Graph& graph, const VehicleTopics& vehicle) {
   });
 }
 
-void add_points(Graph& graph,
-                const VehicleTopics& vehicle,
-                Topic<PointCloudFrame> cloud,
-                MissionContext& context) {
+void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> cloud) {
   NodeSpec spec;
   spec.name = "points";
-  spec.cost = context.settings.kernels.point_cloud;
-  spec.trigger = OnMessage{vehicle.depth.index};
+  spec.cost = parts.brief->settings.kernels.point_cloud;
+  spec.trigger = OnMessage{parts.vehicle.depth.index};
   spec.priority = 20;
+  spec.reads = {parts.mission.knobs.index};
   spec.writes = {cloud.index};
   auto last = std::make_shared<std::optional<MissionTime>>();  // Owner: this node alone.
-  graph.node(std::move(spec), [vehicle, cloud, &context, last](JobContext& job) {
+  graph.node(std::move(spec), [depth = parts.vehicle.depth, knobs_topic = parts.mission.knobs,
+                               cloud, last, builder = parts.kernels.point_cloud](JobContext& job) {
     Work work;
-    const auto frame = job.latest(vehicle.depth);
+    const auto frame = job.latest(depth);
+    const auto knobs = job.latest(knobs_topic);
+    if (!frame || !knobs) {
+      return work;
+    }
     // A tenth of the interval as tolerance: a 20 Hz camera satisfies a 20 Hz knob.
-    const double interval_s = 0.9 / context.knobs.value("map.rate_hz");
-    if (!frame || (*last && to_seconds(frame->captured - **last) < interval_s)) {
+    const double interval_s = 0.9 / knobs->value("map.rate_hz");
+    if (*last && to_seconds(frame->captured - **last) < interval_s) {
       return work;
     }
     *last = frame->captured;
-    const double range_m = context.knobs.value("map.range_m");
-    job.publish(cloud, context.kernels.point_cloud->build(*frame, range_m, work));
+    job.publish(cloud, builder->build(*frame, knobs->value("map.range_m"), work));
     return work;
   });
 }
 
-void add_mapper(Graph& graph, const PerceptionTopics& topics, MissionContext& context) {
+/// Owns the mapper while the graph runs; others get revisions.
+class Map {
+ public:
+  Map(const FlightParts& parts, const PerceptionTopics& topics)
+      : brief_{parts.brief},
+        mission_{parts.mission},
+        topics_{topics},
+        mapper_{parts.kernels.mapper} {}
+
+  Work operator()(JobContext& job) {
+    poses_.take_from(job, topics_.localization.poses);
+    while (const auto clear = job.take(topics_.clear)) {
+      mapper_->declare_clear(clear->centre_W, clear->space);
+    }
+    const auto frame = job.latest(topics_.cloud);
+    const auto knobs = job.latest(mission_.knobs);
+    const auto pose = frame ? poses_.at(frame->captured) : std::nullopt;
+    const auto where = job.latest(topics_.localization.status);
+    if (!pose || !knobs || (where && where->is_lost)) {  // Seen from nobody knows where.
+      return Work{};
+    }
+    return insert(job, *frame, *pose, *knobs);
+  }
+
+ private:
+  Work insert(JobContext& job,
+              const PointCloudFrame& frame,
+              const PoseEstimate& pose,
+              const KnobsInForce& knobs) {
+    const MapperSettings settings{knobs.value("map.resolution_m"), knobs.value("map.range_m")};
+    const auto work =
+        mapper_->prepare_frame(frame, camera_pose(pose.X_WB, brief_->settings.camera), settings);
+    if (!work) {
+      log_event(job, mission_, "frame not mapped: " + work.error().message);
+      return Work{};
+    }
+    mapper_->commit();
+    job.publish(topics_.map,
+                MapRevision{++number_, frame.captured, settings.resolution_m, mapper_->revision()});
+    return *work;
+  }
+
+  std::shared_ptr<const Brief> brief_;  ///< Owners: all nodes.
+  MissionTopics mission_;
+  PerceptionTopics topics_;
+  std::shared_ptr<Mapper> mapper_;  ///< See MissionKernels.
+  PoseHistory poses_{};
+  std::uint64_t number_{};
+};
+
+void add_map(Graph& graph, const FlightParts& parts, const PerceptionTopics& topics) {
   NodeSpec spec;
   spec.name = "map";
-  spec.cost = mapper_cost(context.settings.kernels);
+  spec.cost = mapper_cost(parts.brief->settings.kernels);
   spec.trigger = OnMessage{topics.cloud.index};
   spec.priority = 10;
   spec.deadline = 5s;
-  spec.reads = {topics.pose.index};
+  spec.reads = {topics.localization.poses.index, topics.localization.status.index,
+                topics.clear.index, parts.mission.knobs.index};
   spec.writes = {topics.map.index};
-  auto revision = std::make_shared<std::uint64_t>(0);  // Owner: this node alone.
-  auto history = std::make_shared<PoseHistory>();
-  NodeSpec poses;
-  poses.name = "pose_history";
-  poses.trigger = OnMessage{topics.pose.index};
-  poses.priority = 30;
-  graph.node(std::move(poses), [topics, history](JobContext& job) {
-    if (const auto pose = job.latest(topics.pose)) {
-      history->add(*pose);
-    }
-    return Work{};
-  });
-  graph.node(std::move(spec), [topics, history, revision, &context](JobContext& job) {
-    const auto frame = job.latest(topics.cloud);
-    const auto pose = frame ? history->at(frame->captured) : std::nullopt;
-    if (!pose || context.localization.is_lost()) {  // Seen from nobody knows where.
-      return Work{};
-    }
-    const MapperSettings settings{context.knobs.value("map.resolution_m"),
-                                  context.knobs.value("map.range_m")};
-    const auto work = context.kernels.mapper->prepare_frame(
-        *frame, camera_pose(pose->X_WB, context.settings.camera), settings);
-    if (!work) {
-      context.event(job.now(), "frame not mapped: " + work.error().message);
-      return Work{};
-    }
-    job.at_end([&context](MissionTime) { context.kernels.mapper->commit(); });
-    job.publish(topics.map,
-                MapRevision{++*revision, frame->captured, job.now(), settings.resolution_m});
-    return *work;
-  });
+  declare_log(spec, parts.mission);
+  auto map = std::make_shared<Map>(parts, topics);  // Owner: this node alone.
+  graph.node(std::move(spec), [map](JobContext& job) { return (*map)(job); });
 }
 
 }  // namespace
-
-void PoseHistory::add(const PoseEstimate& pose) {
-  poses_.push_back(pose);
-  while (poses_.front().stamp + pose_memory < pose.stamp) {
-    poses_.pop_front();
-  }
-}
-
-std::optional<PoseEstimate> PoseHistory::at(MissionTime t) const {
-  if (poses_.empty()) {
-    return std::nullopt;
-  }
-  const auto after = std::lower_bound(
-      poses_.begin(), poses_.end(), t,
-      [](const PoseEstimate& pose, MissionTime time) { return pose.stamp < time; });
-  if (after == poses_.end()) {
-    return poses_.back();
-  }
-  if (after == poses_.begin() || after->stamp == t) {
-    return *after;
-  }
-  const PoseEstimate& a = *(after - 1);
-  const PoseEstimate& b = *after;
-  const double u = ratio(t - a.stamp, b.stamp - a.stamp);
-  PoseEstimate mixed = a;
-  mixed.stamp = t;
-  mixed.X_WB.translation() = (1.0 - u) * a.X_WB.translation() + u * b.X_WB.translation();
-  mixed.X_WB.linear() = Eigen::Quaterniond{a.X_WB.linear()}
-                            .slerp(u, Eigen::Quaterniond{b.X_WB.linear()})
-                            .toRotationMatrix();
-  mixed.v_WB = (1.0 - u) * a.v_WB + u * b.v_WB;
-  return mixed;
-}
 
 Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera) {
   const double yaw = yaw_of(X_WB.linear().col(0));
@@ -177,27 +138,17 @@ Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera) {
   return X_WC;
 }
 
-Topic<PoseEstimate> add_localization(Graph& graph,
-                                     const VehicleTopics& vehicle,
-                                     MissionContext& context) {
-  const auto pose = graph.topic<PoseEstimate>("pose");
-  add_localizer(graph, vehicle, pose, context);
-  add_sight(graph, context);
-  return pose;
-}
-
-PerceptionTopics add_perception(Graph& graph,
-                                const VehicleTopics& vehicle,
-                                MissionContext& context) {
+PerceptionTopics add_perception(Graph& graph, const FlightParts& parts) {
   PerceptionTopics topics;
-  topics.pose = add_localization(graph, vehicle, context);
+  topics.localization = add_localization(graph, parts);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
+  topics.clear = graph.topic<ClearSpace>("clear_space", 16);
   topics.map = graph.topic<MapRevision>("map_revision");
-  if (context.settings.kernels.slam_load && !context.has_rgb_camera) {
-    add_slam_load(graph, vehicle);
+  if (parts.brief->settings.kernels.slam_load && !parts.vehicle.view) {
+    add_slam_load(graph, parts.vehicle);
   }
-  add_points(graph, vehicle, topics.cloud, context);
-  add_mapper(graph, topics, context);
+  add_points(graph, parts, topics.cloud);
+  add_map(graph, parts, topics);
   return topics;
 }
 

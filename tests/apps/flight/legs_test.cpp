@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/legs.h"
 
+#include "flyball/flight/perception/clear_space.h"
 #include "flyball/runtime/virtual_executor.h"
 
 #include "grid_map.h"
@@ -18,13 +19,15 @@ class Legged : public testing::Test {
  protected:
   Legged() {
     vehicle = add_vehicle_topics(graph);
-    legs.emplace(*rig.context, vehicle);
+    mission = add_mission_topics(graph);
+    legs.emplace(vehicle, mission);
     NodeSpec spec;
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 100ms};
     legs->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
-      if (rig.context->phase == MissionPhase::wait) {
+      if (!has_taken_off) {
+        has_taken_off = true;
         legs->take_off(job, 1.5);
       } else if (!done_at && legs->are_done(job)) {
         done_at = job.now();
@@ -33,9 +36,11 @@ class Legged : public testing::Test {
     });
   }
   void run(bool says_done) {
-    VirtualExecutor executor{graph, rig.platform, queue, {1, Hertz{1e9}}};
+    VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
     executor.subscribe<FlightCommand>(vehicle.command,
                                       [this](const FlightCommand& what) { command = what; });
+    executor.subscribe<MissionState>(mission.state,
+                                     [this](const MissionState& state) { phase = state.phase; });
     executor.publish(vehicle.status, FlightStatus{true, says_done});
     queue.run([&] { return queue.now() >= MissionTime{2s}; });
   }
@@ -44,6 +49,9 @@ class Legged : public testing::Test {
   EventQueue queue;
   Graph graph{"legs"};
   VehicleTopics vehicle;
+  MissionTopics mission;
+  bool has_taken_off{};
+  MissionPhase phase{MissionPhase::wait};
   std::optional<Legs> legs;
   std::optional<FlightCommand> command;
   std::optional<MissionTime> done_at;
@@ -54,7 +62,7 @@ TEST_F(Legged, tell_the_flight_controller_and_hold_the_phase) {
   ASSERT_TRUE(command);
   EXPECT_EQ(command->kind, FlightCommand::Kind::take_off);
   EXPECT_EQ(command->height_m, 1.5);
-  EXPECT_EQ(rig.context->phase, MissionPhase::take_off);
+  EXPECT_EQ(phase, MissionPhase::take_off);
   EXPECT_FALSE(done_at) << "the flight controller has not said so";
 }
 
@@ -64,12 +72,11 @@ TEST_F(Legged, do_not_believe_a_status_from_before_the_command) {
   EXPECT_GE(*done_at, MissionTime{600ms});
 }
 
-TEST(DeclareClearOver, tells_the_mapper_of_the_cylinder_over_the_place) {
-  const kit::GridMap map = kit::corridor(10.0);
-  const kit::MissionRig rig{map};
-  declare_clear_over(*rig.mapper, {1.0, 2.0, 0.0});
-  ASSERT_EQ(rig.mapper->declared_W.size(), 1U);
-  EXPECT_EQ(rig.mapper->declared_W.front(), (Vec3{1.0, 2.0, 1.25}));
+TEST(ClearOver, is_the_cylinder_over_the_place) {
+  const ClearSpace clear = clear_over({1.0, 2.0, 0.0});
+  EXPECT_EQ(clear.centre_W, (Vec3{1.0, 2.0, 1.25}));
+  EXPECT_EQ(clear.space.radius_m, 1.0);
+  EXPECT_EQ(clear.space.half_height_m, 1.25);
 }
 
 }  // namespace

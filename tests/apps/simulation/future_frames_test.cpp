@@ -21,15 +21,13 @@ const std::vector<MapSetting> asked{
 
 /// Blocks between start and goal; nobody flies.
 struct Ground {
-  Ground() : setup{made()}, flown{scenario()} {
-    const World& world = setup.things.world;
-    MissionBrief brief;
-    brief.bounds_W = world.bounds_W;
-    brief.start_W = world.start_W;
-    brief.goal_W = world.goal_W;
-    context = std::make_unique<MissionContext>(flight_settings(flown), *setup.platform, trace,
-                                               brief, std::move(setup.equipment));
-    context->goal_now_W = world.goal_W + Vec3{0.0, 0.0, 1.5};
+  Ground() : setup{made()}, flown{scenario()}, bench{workbench_of(flown, setup)} {
+    navigator.position_W = start_W();
+    navigator.goal_W = setup.things.world.goal_W + Vec3{0.0, 0.0, 1.5};
+  }
+  /// What policies would be told here.
+  FutureFrames frames() const {
+    return {std::make_shared<const Brief>(bench.brief), setup.things.world, *setup.platform, asked};
   }
   static MissionSetup made() {
     auto setup = set_up(scenario());
@@ -48,22 +46,20 @@ struct Ground {
 
   MissionSetup setup;
   Scenario flown;
-  MemoryRecorder trace;
-  std::unique_ptr<MissionContext> context;
+  Workbench bench;
+  NavigatorState navigator{};
 };
 
 TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   Ground ground;
-  PathFollower follower{*ground.context};
-  follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
-  const Foresight& truth = frames.look(follower);
+  FutureFrames frames = ground.frames();
+  const Foresight& truth = frames.look(ground.navigator, ground.bench.situation());
   ASSERT_TRUE(truth.is_whole(asked.size()));
   EXPECT_EQ(truth.places.front().ahead_m, 0.0);
   EXPECT_EQ(truth.places.back().ahead_m, 60.0);
   // The same by hand: a frame from the start towards the goal.
   const Scenario& scenario = ground.flown;
-  const Vec3 ahead_W = ground.context->goal_now_W - ground.start_W();
+  const Vec3 ahead_W = ground.navigator.goal_W - ground.start_W();
   Pose X_WB = Pose::Identity();
   X_WB.translation() = ground.start_W();
   X_WB.linear() =
@@ -72,7 +68,7 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   const DepthCamera camera{ground.setup.things.world, scenario.camera, scenario.seed};
   const DepthFrame frame = camera.frame(X_WC, MissionTime{}, 0);
   Work points;
-  const auto cloud = ground.context->kernels.point_cloud->build(frame, 7.0, points);
+  const auto cloud = ground.bench.kernels.point_cloud->build(frame, 7.0, points);
   const auto mapper = make_kernel<Mapper>(scenario.kernels);
   const auto work = (*mapper)->prepare(cloud.cloud_C.value(), X_WC, {0.15, 7.0});
   ASSERT_TRUE(work.ok());
@@ -86,10 +82,8 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
 
 TEST(FutureFrames, take_longer_at_lower_clocks_and_less_long_with_less_range_and_larger_cells) {
   Ground ground;
-  PathFollower follower{*ground.context};
-  follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
-  const Foresight& truth = frames.look(follower);
+  FutureFrames frames = ground.frames();
+  const Foresight& truth = frames.look(ground.navigator, ground.bench.situation());
   for (std::size_t i = 0; i < truth.places.size(); ++i) {
     const double* row = &truth.frame_s[i * asked.size()];
     EXPECT_GT(row[1], 1.5 * row[0]) << i;
@@ -102,15 +96,14 @@ TEST(FutureFrames, take_longer_at_lower_clocks_and_less_long_with_less_range_and
 
 TEST(FutureFrames, are_taken_once_for_each_place_and_leave_no_trace_in_the_map) {
   Ground ground;
-  PathFollower follower{*ground.context};
-  follower.hover_at(ground.start_W(), 0.0);
-  FutureFrames frames{*ground.context, ground.setup.things.world, *ground.setup.platform, asked};
-  const std::vector<double> first_s = frames.look(follower).frame_s;
+  FutureFrames frames = ground.frames();
+  const std::vector<double> first_s =
+      frames.look(ground.navigator, ground.bench.situation()).frame_s;
   const std::size_t taken = frames.frames_taken();
   EXPECT_LE(taken, 16U);
-  EXPECT_EQ(frames.look(follower).frame_s, first_s);
+  EXPECT_EQ(frames.look(ground.navigator, ground.bench.situation()).frame_s, first_s);
   EXPECT_EQ(frames.frames_taken(), taken);
-  for (const MapLevel& level : ground.context->kernels.mapper->contents().levels) {
+  for (const MapLevel& level : ground.bench.kernels.mapper->contents().levels) {
     EXPECT_EQ(level.known_cells, 0U);
   }
 }

@@ -24,6 +24,7 @@ class Judged : public testing::Test {
   kit::MissionRig rig{map};
   EventQueue queue;
   Graph graph{"judged"};
+  MissionTopics topics{add_mission_topics(graph)};
 };
 
 class Sighted : public Judged {
@@ -45,8 +46,9 @@ class Sighted : public Judged {
   std::vector<Person> people;
   Topic<Sightings> sightings{graph.topic<Sightings>("sightings", 8)};
   Topic<Finding> finding{graph.topic<Finding>("finding")};
-  VirtualExecutor executor{graph, rig.platform, queue, {1, Hertz{1e9}}};
-  SightingJudge judge{*rig.context, people, executor, queue, sightings, finding};
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+  MissionLink link{rig.brief, graph, topics, executor, queue};
+  SightingJudge judge{link, people, executor, queue, sightings, finding};
 };
 
 TEST_F(Sighted, a_search_that_reports_nobody_has_found_nobody) {
@@ -68,10 +70,11 @@ TEST_F(Sighted, a_report_of_somebody_who_is_not_there_is_a_false_alarm) {
 
 TEST_F(Judged, a_scan_is_judged_by_where_the_camera_truly_was) {
   const auto pictures = graph.topic<GroundPicture>("picture");
-  VirtualExecutor executor{graph, rig.platform, queue, {1, Hertz{1e9}}};
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
   Pose X_WB = Pose::Identity();
   X_WB.translation().z() = 200.0;  // The whole area in one picture.
-  PictureJudge judge{*rig.context, executor, pictures, [&] { return X_WB; }};
+  MissionLink link{rig.brief, graph, topics, executor, queue};
+  PictureJudge judge{link, executor, pictures, [&] { return X_WB; }};
   EXPECT_EQ(judge.objection(), MissionFailure::incomplete);
   X_WB.translation().x() = 1000.0;
   executor.publish(pictures, GroundPicture{});
@@ -83,7 +86,7 @@ TEST_F(Judged, a_scan_is_judged_by_where_the_camera_truly_was) {
 
 TEST_F(Judged, a_pose_estimate_is_held_against_the_truth_of_its_own_time) {
   const auto pose = graph.topic<PoseEstimate>("pose");
-  VirtualExecutor executor{graph, rig.platform, queue, {1, Hertz{1e9}}};
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
   LocalizationJudge judge{executor, pose};
   EXPECT_TRUE(judge.figures().empty());
   for (int i = 0; i < 3; ++i) {

@@ -18,6 +18,7 @@ struct BoardReading {
   double busy_core_s{};     ///< Core-seconds of work since the start.
   double busiest_core_s{};  ///< The same of the core that worked most.
   std::uint64_t drops{};    ///< Messages and triggers since the start; see `Executor::drops`.
+  std::uint64_t deadline_misses{};  ///< Of jobs, since the start.
   Watts computer_power{};
   Watts rotor_power{};
   double battery_percent{};

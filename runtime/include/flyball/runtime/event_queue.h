@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -22,6 +23,10 @@ class EventQueue {
   [[nodiscard]] MissionTime now() const { return now_; }
   /// @pre `at` is not before `now()`.
   void schedule(MissionTime at, EventOrder order, Action action);
+  /// When the next event is due; empty when there is none.
+  [[nodiscard]] std::optional<MissionTime> next() const {
+    return events_.empty() ? std::nullopt : std::optional{events_.front().at};
+  }
   /// Runs the next event; false when there is none.
   bool step();
   /// Runs events until `done()` or none is left. `done` is asked after each event.

@@ -87,15 +87,11 @@ TEST(GroundCoverage, counts_as_overlap_what_comes_into_view_again_and_not_what_s
 }
 
 TEST(GroundCoverage, writes_the_corners_of_a_picture_into_the_record) {
-  MemoryRecorder trace;
-  record(square(1.0, 2.0, 3.0), MissionTime{}, trace);
-  ASSERT_EQ(trace.rows().size(), 1U);
-  const auto& row = trace.rows().front();
-  EXPECT_EQ(row.channel, "footprint");
-  ASSERT_EQ(row.fields.size(), 8U);
-  EXPECT_EQ(row.fields[4].name, "x2_m");
-  EXPECT_EQ(std::get<double>(row.fields[4].value), 4.0);
-  EXPECT_EQ(std::get<double>(row.fields[5].value), 5.0);
+  const std::vector<Field> row = row_of(square(1.0, 2.0, 3.0));
+  ASSERT_EQ(row.size(), 8U);
+  EXPECT_EQ(row[4].name, "x2_m");
+  EXPECT_EQ(std::get<double>(row[4].value), 4.0);
+  EXPECT_EQ(std::get<double>(row[5].value), 5.0);
 }
 
 }  // namespace

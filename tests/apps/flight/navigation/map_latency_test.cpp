@@ -53,7 +53,7 @@ struct Stream {
     }
   }
   void publish(MissionTime captured, double resolution_m) {
-    maps.published({++number, captured, now, resolution_m}, now);
+    maps.published({++number, captured, resolution_m, nullptr}, now);
   }
   /// The other terms come into force at once; the map that is being made belongs to neither.
   void turn_to(const MapTerms& terms) {
@@ -237,16 +237,17 @@ TEST(MapLatency, does_not_fill_the_memory_with_settings_that_never_come_back) {
 TEST(MapLatency, survives_a_computer_that_is_free) {
   MapLatency maps{{[](const MapTerms&) { return Duration::zero(); }, Duration::zero()}};
   maps.note_terms(MissionTime{1s}, fine);
-  maps.published({1, MissionTime{1s}, MissionTime{1010ms}, 0.15}, MissionTime{1010ms});
+  maps.published({1, MissionTime{1s}, 0.15, nullptr}, MissionTime{1010ms});
   EXPECT_NEAR(to_seconds(maps.latency_bound()), 0.011, 1e-6);
 }
 
 TEST(MapLatency, asks_for_the_clock_that_is_granted_not_for_the_one_that_was_wished) {
   const kit::GridMap map = kit::corridor(10.0);
   kit::MissionRig rig{map};
-  rig.context->computer = {2, Hertz{0.5e9}};
-  EXPECT_EQ(terms_of(*rig.context).clock.value(), 0.5e9);
-  EXPECT_EQ(terms_of(*rig.context).cores, 2);
+  KnobsInForce knobs = *rig.knobs;
+  knobs.computer = {2, Hertz{0.5e9}};
+  EXPECT_EQ(terms_of(knobs).clock.value(), 0.5e9);
+  EXPECT_EQ(terms_of(knobs).cores, 2);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using kit::Trip;
 TEST(NavigatorFailures, plans_anew_after_the_governors_next_look_when_only_the_map_has_moved_on) {
   for (const bool moved_on : {false, true}) {
     Trip trip;
-    trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+    trip.set_goal(Vec3{20, 0, 1.5});
     const auto query = trip.navigator.next_query(trip.now);
     ASSERT_TRUE(query.has_value());
     trip.navigator.path_planned(trip.now, {query->id, {}, "hits an occupied cell", moved_on});
@@ -28,16 +28,16 @@ TEST(NavigatorFailures, plans_anew_after_the_governors_next_look_when_only_the_m
 TEST(NavigatorFailures, waits_for_smaller_cells_after_a_plan_that_failed_in_large_ones) {
   for (const bool comes : {false, true}) {
     Trip trip;
-    trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+    trip.set_goal(Vec3{20, 0, 1.5});
     const auto query = trip.navigator.next_query(trip.now);
     ASSERT_TRUE(query.has_value());
     trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
-    const double cell_m = trip.rig.context->map().resolution_m();
-    ASSERT_TRUE(trip.rig.context->knobs.set("map.resolution_m", 0.5 * cell_m).ok());
+    const double cell_m = trip.map.resolution_m();
+    trip.turn("map.resolution_m", 0.5 * cell_m);
     trip.now += 2s;
     EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
     if (comes) {  // As the map does with its next frame.
-      ASSERT_TRUE(trip.rig.context->knobs.set("map.resolution_m", cell_m).ok());
+      trip.turn("map.resolution_m", cell_m);
     } else {
       trip.now += 2s;
     }

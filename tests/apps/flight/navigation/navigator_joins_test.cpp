@@ -45,8 +45,9 @@ TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
     PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
     const Vec3 aside_W = 0.5 * (late->start_W + late->goal_W) + Vec3{0, 60, 0};
     planned.way = {{late->start_W, aside_W, late->goal_W}, {0.4, 0.2}};
-    const double cost_s = detour_m(planned.way.waypoints_W) /
-                          trip.rig.context->speed_limit_m_s(trip.navigator.follower().position_W());
+    const double cost_s =
+        detour_m(planned.way.waypoints_W) /
+        trip.rig.situation().speed_limit_m_s(trip.navigator.follower().position_W());
     ASSERT_GT(cost_s, 6.0);
     ASSERT_LT(cost_s, 30.0);
     trip.navigator.path_planned(trip.now, planned);
@@ -66,7 +67,7 @@ TEST(NavigatorJoins, plans_anew_where_a_known_way_does_not_join_and_counts_no_fa
   const auto joined = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(joined->known.has_value());
   trip.navigator.path_planned(trip.now, {joined->id, {}, "edge 0 hits"});
-  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 0);
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0);
   const auto anew = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(anew.has_value());
   EXPECT_FALSE(anew->known.has_value());

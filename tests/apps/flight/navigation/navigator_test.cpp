@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/navigation/navigator.h"
 
+#include "flyball/flight/navigation/sub_goal.h"
+
 #include "navigator_trip.h"
 
 #include <gtest/gtest.h>
@@ -18,47 +20,39 @@ using kit::Trip;
 TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
   Trip trip;
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
-  trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+  trip.set_goal(Vec3{20, 0, 1.5});
   const auto query = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(query.has_value());
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());  // One at a time.
-  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
+  trip.answer(*query);
   trip.tick(2000);
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
 TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
-  const GridMap map = kit::corridor(60.0);
   Scenario scenario = kit::MissionRig::one_core();
   scenario.planner.horizon_m = 20.0;
-  MissionBrief brief;
-  brief.bounds_W = {Vec3{-2, -3, 0}, Vec3{60, 3, 3}};
-  kit::MissionRig rig{map, scenario, brief};
-  Navigator navigator{*rig.context};
-  navigator.hover_at(Vec3{0, 0, 1.5}, 0.0);
-  MissionTime now{1s};
-  navigator.set_goal(now, Vec3{50, 0, 1.5});
-  PoseEstimate where;
+  Site site;
+  site.bounds_W = {Vec3{-2, -3, 0}, Vec3{60, 3, 3}};
+  Trip trip{scenario, site};
+  trip.set_goal(Vec3{50, 0, 1.5});
   double least_m_s = 10.0;
   int plans = 0;
-  for (int i = 0; i < 3000 && !navigator.has_arrived(); ++i) {
-    if (const auto query = navigator.next_query(now)) {
+  for (int i = 0; i < 3000 && !trip.navigator.has_arrived(); ++i) {
+    if (auto query = trip.navigator.next_query(trip.now)) {
+      query->goal_W =  // As the node `plan` does.
+          sub_goal_W(trip.rig.situation(), query->start_W, query->goal_W, query->failures);
       EXPECT_LE((query->goal_W - query->start_W).norm(), 20.0 + 1e-9);
       ++plans;
-      navigator.path_planned(now, {query->id, straight(query->start_W, query->goal_W), ""});
+      trip.answer(*query);
     }
-    now += 20ms;
-    where.X_WB.translation() = navigator.follower().position_W();
-    if (i % 5 == 0) {
-      navigator.map_published(now, {static_cast<std::uint64_t>(i), now - 100ms, now, 0.15});
-    }
-    (void)navigator.tick(now, 20ms, where);
-    const double x_m = navigator.follower().position_W().x();
+    trip.tick(1);
+    const double x_m = trip.navigator.follower().position_W().x();
     if (x_m > 10.0 && x_m < 40.0) {
-      least_m_s = std::min(least_m_s, navigator.follower().speed_m_s());
+      least_m_s = std::min(least_m_s, trip.navigator.follower().speed_m_s());
     }
   }
-  EXPECT_TRUE(navigator.has_arrived());
+  EXPECT_TRUE(trip.navigator.has_arrived());
   EXPECT_GE(plans, 3);
   EXPECT_LE(plans, 8);
   EXPECT_GT(least_m_s, 1.0) << "it does not stop between two legs";
@@ -67,12 +61,12 @@ TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
 TEST(Navigator,
      plans_from_a_point_ahead_when_its_path_is_blocked_and_stops_there_if_no_answer_comes) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.answer(*first);
   trip.tick(100);
   const double x = trip.navigator.follower().position_W().x();
-  trip.navigator.path_checked(trip.now, {30.0, 25.0}, trip.navigator.path_number());
+  trip.block(25.0);
   const auto second = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(second.has_value());
   EXPECT_GT(second->start_W.x(), x);
@@ -88,7 +82,7 @@ TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
   Trip trip;
   const auto late = trip.fly_until_blocked();
   trip.tick(200);
-  trip.navigator.path_planned(trip.now, {late->id, straight(late->start_W, late->goal_W), ""});
+  trip.answer(*late);
   const auto again = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(again.has_value());
   EXPECT_NEAR(again->start_W.x(), trip.navigator.follower().position_W().x(), 0.02);
@@ -98,27 +92,27 @@ TEST(Navigator, plans_from_its_stop_after_a_plan_that_came_too_late) {
 TEST(Navigator, adopts_the_first_plan_where_it_stands_before_unknown_space) {
   Trip trip;
   trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.answer(*first);
   trip.tick(500);
   ASSERT_LT(trip.navigator.follower().speed_m_s(), 0.05);
   const double stands_at_m = trip.navigator.follower().position_W().x();
-  trip.navigator.path_checked(trip.now, {30.0, 5.0}, trip.navigator.path_number());
+  trip.block(5.0);
   const auto query = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(query.has_value());
   trip.map.fill({Vec3{5, -3, 0}, Vec3{5.15, 3, 3}}, CellState::free);
   trip.tick(100);
   EXPECT_NEAR(trip.navigator.follower().position_W().x(), stands_at_m, 0.01) << "it waits";
-  const auto number = trip.navigator.path_number();
-  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
-  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+  const auto number = trip.navigator.state().path_number;
+  trip.answer(*query);
+  EXPECT_EQ(trip.navigator.state().path_number, number + 1);
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "it was adopted";
 }
 
 /// Its path is blocked; the new one is longer by `detour_m`.
 void replan(Trip& trip, double detour_m) {
-  trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
+  trip.block(12.0);
   const auto query = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(query.has_value());
   trip.navigator.path_planned(trip.now,
@@ -127,24 +121,24 @@ void replan(Trip& trip, double detour_m) {
 
 TEST(Navigator, flies_a_longer_way_at_once) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{20, 0, 1.5});
+  trip.set_goal(Vec3{20, 0, 1.5});
   replan(trip, 0.0);
   trip.tick(50);
-  const auto number = trip.navigator.path_number();
+  const auto number = trip.navigator.state().path_number;
   replan(trip, 18.0);
-  EXPECT_EQ(trip.navigator.path_number(), number + 1);
+  EXPECT_EQ(trip.navigator.state().path_number, number + 1);
 }
 
 TEST(Navigator, flies_on_through_what_is_free_while_a_plan_around_something_far_ahead_is_made) {
   Trip trip;
-  ASSERT_TRUE(trip.rig.context->knobs.set("mission.max_speed_m_s", 4.0));
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.turn("mission.max_speed_m_s", 4.0);
+  trip.set_goal(Vec3{40, 0, 1.5});
   const auto first = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {first->id, straight(first->start_W, first->goal_W), ""});
+  trip.answer(*first);
   trip.tick(100);
   const double cruise_m_s = trip.navigator.follower().speed_m_s();
   const double x_m = trip.navigator.follower().position_W().x();
-  trip.navigator.path_checked(trip.now, {30.0, x_m + 12.0}, trip.navigator.path_number());
+  trip.block(x_m + 12.0);
   const auto query = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(query.has_value());
   trip.tick(50);  // A second, in which it would have come to rest.
@@ -157,10 +151,10 @@ TEST(Navigator, flies_on_through_what_is_free_while_a_plan_around_something_far_
 
 TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for_the_last) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   replan(trip, 0.0);
   trip.tick(100);
-  trip.navigator.path_checked(trip.now, {15.0, 12.0}, trip.navigator.path_number());
+  trip.block(12.0);
   const auto first = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(first.has_value());
   EXPECT_FALSE(first->lead_in_W.has_value());
@@ -181,29 +175,29 @@ TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for
 
 TEST(Navigator, calls_the_place_clear_where_it_rests_when_a_plan_cannot_begin_there) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   for (const char* why : {"no path", "start blocked"}) {
-    EXPECT_TRUE(trip.rig.mapper->declared_W.empty());
+    EXPECT_TRUE(trip.declared_W.empty());
     const auto query = trip.navigator.next_query(trip.now);
     ASSERT_TRUE(query.has_value());
     trip.tick(60);
     trip.navigator.path_planned(trip.now, {query->id, {}, why});
     trip.tick(60);
   }
-  ASSERT_EQ(trip.rig.mapper->declared_W.size(), 1U);
-  EXPECT_LT((trip.rig.mapper->declared_W[0] - Vec3{0, 0, 1.5}).norm(), 1e-9);
+  ASSERT_EQ(trip.declared_W.size(), 1U);
+  EXPECT_LT((trip.declared_W[0] - Vec3{0, 0, 1.5}).norm(), 1e-9);
 }
 
 TEST(Navigator, steps_out_of_what_reaches_into_its_tube_when_a_plan_cannot_begin_there) {
   Trip trip;
-  const double radius_m = trip.rig.context->narrow_body().radius_m;
+  const double radius_m = trip.rig.brief->narrow_body().radius_m;
   // The cell's border is a centimetre inside of the tube.
   const double inside_m = 0.01;
-  trip.navigator.hover_at(Vec3{0, 3.0 - 0.15 - radius_m + inside_m, 1.5}, 0.0);
+  trip.hover_at(Vec3{0, 3.0 - 0.15 - radius_m + inside_m, 1.5});
   trip.map.fill({Vec3{-2, 2.85, 0}, Vec3{60, 3, 3}}, CellState::occupied);
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   trip.tick(60);
-  const Cylinder body = trip.rig.context->narrow_body();
+  const Cylinder body = trip.rig.brief->narrow_body();
   const Vec3 before_W = trip.navigator.follower().position_W();
   ASSERT_EQ(trip.map.body_state(before_W, body), CellState::occupied);
   const auto query = trip.navigator.next_query(trip.now);
@@ -227,20 +221,20 @@ TEST(Navigator, counts_a_plan_that_led_nowhere_as_failed_until_it_moves) {
     trip.tick(ticks);
   };
   trip.map.fill({Vec3{-2, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   fly_for(400);  // 8 s
   fly_for(400);
-  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 1);
-  EXPECT_EQ(trip.rig.mapper->declared_W.size(), 1U);
+  EXPECT_EQ(trip.navigator.state().planner_failures, 1);
+  EXPECT_EQ(trip.declared_W.size(), 1U);
   trip.map.fill({Vec3{-2, -3, 0}, Vec3{60, 3, 3}}, CellState::free);
   fly_for(100);
-  EXPECT_EQ(trip.rig.context->counters.planner_failures_in_row, 0);
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0);
 }
 
 TEST(Navigator, goes_back_from_the_unknown_that_it_stands_too_near_to_see_and_then_plans_anew) {
   Trip trip;
   trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   double nearest_m = 0.0;
   int plans = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -262,10 +256,15 @@ TEST(Navigator, goes_back_from_the_unknown_that_it_stands_too_near_to_see_and_th
 
 TEST(Navigator, ignores_a_check_of_a_path_that_is_no_longer_flown) {
   Trip trip;
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
+  trip.set_goal(Vec3{40, 0, 1.5});
   const auto query = trip.navigator.next_query(trip.now);
-  trip.navigator.path_planned(trip.now, {query->id, straight(query->start_W, query->goal_W), ""});
-  trip.navigator.path_checked(trip.now, {3.0, 2.0}, trip.navigator.path_number() - 1);
+  trip.answer(*query);
+  PathClearance old;
+  old.revision = {99, trip.now, 0.15, std::make_shared<const kit::GridMap>(trip.map)};
+  old.published = trip.now;
+  old.path_number = trip.navigator.state().path_number - 1;
+  old.blocked_at_m = 2.0;
+  trip.navigator.path_checked(trip.now, old);
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
 }
 
@@ -273,25 +272,50 @@ TEST(Navigator, gives_up_with_no_plan_after_the_time_limit) {
   Scenario scenario = kit::MissionRig::one_core();
   scenario.mission.plan_time_limit_s = 5.0;
   Trip trip{scenario};
-  trip.navigator.set_goal(trip.now, Vec3{40, 0, 1.5});
-  for (int i = 0; i < 400 && !trip.rig.context->is_over(); ++i) {
+  trip.set_goal(Vec3{40, 0, 1.5});
+  for (int i = 0; i < 400 && !trip.gave_up; ++i) {
     if (const auto query = trip.navigator.next_query(trip.now)) {
       trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
     }
     trip.tick(1);
   }
-  EXPECT_EQ(trip.rig.context->failure(), MissionFailure::no_plan);
-  EXPECT_GT(trip.rig.context->counters.planner_failures_in_row, 3);
+  EXPECT_TRUE(trip.gave_up);
+  EXPECT_GT(trip.navigator.state().planner_failures, 3);
 }
 
-TEST(Navigator, bounds_latency_by_the_worst_of_late_and_counts_what_exceeds_it) {
+TEST(Navigator, bounds_latency_by_the_worst_of_late_and_tells_what_exceeds_it) {
   Trip trip;
   trip.tick(30);
-  const std::uint64_t before = trip.rig.context->counters.bound_overruns;
-  EXPECT_LE(before, 1U) << "the first map, since this computer's price is none";
-  trip.navigator.map_published(trip.now, {99, trip.now - 900ms, trip.now, 0.15});
-  EXPECT_EQ(trip.rig.context->counters.bound_overruns, before + 1);
+  const int before = trip.late_maps;
+  EXPECT_LE(before, 1) << "the first map, since this computer's price is none";
+  trip.publish_map(900ms);
+  (void)trip.navigator.tick(trip.now, 20ms, trip.where);
+  const NavigatorNews news = trip.navigator.news();
+  ASSERT_TRUE(news.map_use);
+  EXPECT_GT(news.map_use->budget_use, 1.0);
+  EXPECT_NEAR(news.map_use->sensor_to_command_s, 0.9, 1e-9);
   EXPECT_GE(trip.navigator.follower().latency_bound(), 990ms);
+}
+
+TEST(Navigator, tells_which_command_it_has_heard_and_forgets_failures_at_a_new_goal) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  EXPECT_EQ(trip.navigator.state().obeyed, trip.commands);
+  const auto query = trip.navigator.next_query(trip.now);
+  trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
+  EXPECT_EQ(trip.navigator.state().planner_failures, 1);
+  trip.set_goal(Vec3{30, 0, 1.5});
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0);
+  EXPECT_EQ(trip.navigator.state().goal_W, (Vec3{30, 0, 1.5}));
+}
+
+TEST(Navigator, asks_for_no_plan_before_it_has_a_map) {
+  const kit::GridMap map = kit::corridor(60.0);
+  const kit::MissionRig rig{map};
+  Navigator navigator{rig.brief, rig.kernels.path_tracker};
+  navigator.set_knobs(MissionTime{}, rig.knobs);
+  navigator.obey(MissionTime{}, {1, GoTo{Vec3{40, 0, 1.5}, {}}});
+  EXPECT_FALSE(navigator.next_query(MissionTime{1s}).has_value());
 }
 
 }  // namespace

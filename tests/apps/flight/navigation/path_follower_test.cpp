@@ -13,7 +13,8 @@ using kit::GridMap;
 
 struct Ride {
   explicit Ride(double known_to_m, const Scenario& scenario = kit::MissionRig::one_core())
-      : map{kit::corridor(known_to_m)}, rig{map, scenario}, follower{*rig.context} {
+      : map{kit::corridor(known_to_m)}, rig{map, scenario}, follower{rig.brief} {
+    follower.set_knobs(rig.knobs);
     follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
     follower.set_latency_bound(200ms);
     EXPECT_TRUE(follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0));
@@ -22,7 +23,7 @@ struct Ride {
   void tick(int n) {
     for (int i = 0; i < n; ++i) {
       now += 20ms;
-      follower.map_published({1, now, now, 0.15});
+      follower.map_captured(now);
       follower.refresh_known_free(map);
       follower.tick(now, 20ms, Vec3::Zero());
     }
@@ -143,8 +144,8 @@ TEST(PathFollower, refuses_a_corner_that_it_could_not_brake_for) {
 TEST(PathFollower, does_not_trust_free_space_beyond_what_the_newest_frame_can_see) {
   Ride ride{60.0};
   ride.tick(200);
-  const double body_m = ride.rig.context->body_at(10.0).radius_m;
-  const double range_m = ride.rig.context->knobs.value("map.range_m");
+  const double body_m = ride.rig.brief->body_at(10.0).radius_m;
+  const double range_m = ride.rig.knobs->value("map.range_m");
   const double delta_s = 0.2 + to_seconds(ride.follower.guard().reaction_time());
   EXPECT_NEAR(ride.follower.speed_m_s(), safe_speed(6.0, delta_s, range_m - body_m), 0.05);
 }
@@ -152,8 +153,9 @@ TEST(PathFollower, does_not_trust_free_space_beyond_what_the_newest_frame_can_se
 TEST(PathFollower, believes_declared_space_to_any_distance_where_there_is_no_map) {
   GridMap map = kit::corridor(45.0);
   kit::MissionRig rig{map};
-  rig.context->maps_obstacles = false;
-  PathFollower follower{*rig.context};
+  rig.brief->maps_obstacles = false;
+  PathFollower follower{rig.brief};
+  follower.set_knobs(rig.knobs);
   follower.hover_at(Vec3{0, 0, 1.5}, 0.0);
   ASSERT_TRUE(follower.adopt(Path::polyline({Vec3{0, 0, 1.5}, Vec3{50, 0, 1.5}}), 0.0));
   follower.refresh_known_free(map);  // Once: nothing is published that would change it.
@@ -172,7 +174,8 @@ TEST(PathFollower, believes_declared_space_to_any_distance_where_there_is_no_map
 TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
   GridMap map = kit::corridor(60.0);
   kit::MissionRig rig{map};
-  PathFollower follower{*rig.context};
+  PathFollower follower{rig.brief};
+  follower.set_knobs(rig.knobs);
   follower.hover_at(Vec3{10, 0, 1.5}, 0.0);
   ASSERT_TRUE(follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0));
   MissionTime now{};

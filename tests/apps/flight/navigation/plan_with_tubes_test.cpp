@@ -29,20 +29,14 @@ class CountingPlanner final : public PathPlanner {
 
 struct Planning {
   explicit Planning(const kit::GridMap& map) : rig{map} {
-    rig.context->kernels.planner = all_plugins().make<PathPlanner>("rrt_connect");
     fly_within({Vec3{-2.5, -2.5, 1.0}, Vec3{8.5, 2.5, 1.6}});
     query.id = 1;
     query.start_W = Vec3{0, 0, 1.3};
     query.goal_W = Vec3{6, 1, 1.3};
   }
-  void fly_within(const Aabb& bounds_W) {
-    MissionBrief brief;
-    brief.bounds_W = bounds_W;
-    MissionEquipment equipment{rig.context->body, rig.context->knobs,
-                               std::move(rig.context->kernels)};
-    rig.context = std::make_unique<MissionContext>(flight_settings(rig.scenario), rig.platform,
-                                                   rig.trace, brief, std::move(equipment));
-  }
+  void fly_within(const Aabb& bounds_W) { rig.brief->site.bounds_W = bounds_W; }
+  Plan plan(Cylinder& body) { return plan_with_tubes(rig.situation(), *planner, query, body); }
+  std::unique_ptr<PathPlanner> planner{all_plugins().make<PathPlanner>("rrt_connect")};
   kit::MissionRig rig;
   PlanQuery query{};
 };
@@ -54,20 +48,19 @@ TEST(PlanWithTubes, keeps_as_much_room_to_obstacles_as_there_is) {
     const kit::GridMap map = room_with_gap(gaps_m[i]);
     Planning planning{map};
     Cylinder body;
-    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    const Plan plan = planning.plan(body);
     EXPECT_TRUE(plan.failure.empty()) << plan.failure;
     const double cruise_m_s = planning.rig.scenario.mission.max_speed_m_s;
-    EXPECT_DOUBLE_EQ(body.radius_m,
-                     planning.rig.context->body_at(cruise_m_s).radius_m + rooms_m[i]);
+    EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.brief->body_at(cruise_m_s).radius_m + rooms_m[i]);
   }
 }
 
 TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_way) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
-  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 1600).ok());
+  ASSERT_TRUE(planning.rig.set("planner.budget", 1600));
   Cylinder body;
-  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  const Plan plan = planning.plan(body);
   EXPECT_TRUE(plan.waypoints_W.empty());
   EXPECT_LE(plan.work.count("iterations"), 1600.0);
 }
@@ -76,9 +69,9 @@ TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
   const kit::GridMap map = room_with_gap(0.75);  // The middle tube's body measures .77 m.
   Planning planning{map};
   Cylinder body;
-  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  const Plan plan = planning.plan(body);
   EXPECT_TRUE(plan.failure.empty()) << plan.failure;
-  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
+  EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.brief->body_at(1.0).radius_m);
   EXPECT_GT(plan.work.count("iterations"), 0.0);
 }
 
@@ -87,10 +80,10 @@ TEST(PlanWithTubes, spends_nothing_on_tubes_that_cannot_pass) {
   const auto iterations = [](double gap_m) {
     const kit::GridMap map = room_with_gap(gap_m);
     Planning planning{map};
-    planning.rig.context->kernels.planner = std::make_unique<CountingPlanner>();
+    planning.planner = std::make_unique<CountingPlanner>();
     planning.query.goal_W.y() = 0.0;  // Square to the wall, as lines are that look for openings.
     Cylinder body;
-    return plan_with_tubes(*planning.rig.context, planning.query, body).work.count("tubes");
+    return planning.plan(body).work.count("tubes");
   };
   EXPECT_EQ(iterations(4.5), 3.0);
   EXPECT_EQ(iterations(0.45), 1.0);
@@ -106,9 +99,9 @@ TEST(PlanWithTubes, prefers_a_door_to_a_detour) {
   for (std::uint64_t id = 1; id <= 10; ++id) {
     planning.query.id = id;
     Cylinder body;
-    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    const Plan plan = planning.plan(body);
     EXPECT_LT(length_m(plan.waypoints_W), 8.0) << id;
-    EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.context->body_at(1.0).radius_m);
+    EXPECT_DOUBLE_EQ(body.radius_m, planning.rig.brief->body_at(1.0).radius_m);
   }
 }
 
@@ -121,7 +114,7 @@ TEST(PlanWithTubes, looks_for_a_shorter_way_no_longer_than_that_may_save) {
   const auto iterations = [&](double iteration_s) {
     planning.query.iteration_s = iteration_s;
     Cylinder body;
-    const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+    const Plan plan = planning.plan(body);
     EXPECT_TRUE(plan.failure.empty()) << plan.failure;
     return plan.work.count("iterations");
   };
@@ -134,9 +127,9 @@ TEST(PlanWithTubes, looks_for_a_shorter_way_no_longer_than_that_may_save) {
 TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
-  ASSERT_TRUE(planning.rig.context->knobs.set("planner.budget", 2000).ok());
+  ASSERT_TRUE(planning.rig.set("planner.budget", 2000));
   Cylinder body;
-  const Plan plan = plan_with_tubes(*planning.rig.context, planning.query, body);
+  const Plan plan = planning.plan(body);
   EXPECT_TRUE(plan.waypoints_W.empty());
   EXPECT_FALSE(plan.failure.empty());
 }

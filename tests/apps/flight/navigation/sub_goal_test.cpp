@@ -20,10 +20,10 @@ struct Strip {
   [[nodiscard]] Vec3 place(double horizon_m, int failures = 0) const {
     Scenario scenario = kit::MissionRig::one_core();
     scenario.planner.horizon_m = horizon_m;
-    MissionBrief brief;
-    brief.bounds_W = {Vec3{-10.0, -15.0, 1.0}, Vec3{210.0, 15.0, 2.0}};
-    const kit::MissionRig rig{map, scenario, brief};
-    return sub_goal_W(*rig.context, start_W, goal_W, failures);
+    Site site;
+    site.bounds_W = {Vec3{-10.0, -15.0, 1.0}, Vec3{210.0, 15.0, 2.0}};
+    const kit::MissionRig rig{map, scenario, site};
+    return sub_goal_W(rig.situation(), start_W, goal_W, failures);
   }
   GridMap map;
 };

@@ -34,11 +34,11 @@ TEST(Plausible, leaves_out_whatever_has_not_the_size_of_a_person_where_it_stands
   // In the middle, 8.6 m ahead of a camera 4.5 m up, a person is 69 pixels tall.
   seen.people = {{{180, 109, 24, 69}, 0.5}, {{170, 44, 60, 200}, 0.9}, {{185, 129, 8, 30}, 0.8}};
   PoseEstimate pose;
-  pose.X_WB.translation().z() = rig.context->brief.ground_z_m + 4.5;
-  const auto people = plausible(seen, &pose, *rig.context);
+  pose.X_WB.translation().z() = rig.brief->site.ground_z_m + 4.5;
+  const auto people = plausible(seen, &pose, *rig.brief);
   ASSERT_EQ(people.size(), 1U);
   EXPECT_EQ(people.front().score, 0.5);
-  EXPECT_EQ(plausible(seen, nullptr, *rig.context).size(), 3U) << "no height is known yet";
+  EXPECT_EQ(plausible(seen, nullptr, *rig.brief).size(), 3U) << "no height is known yet";
 }
 
 /// Finds one person in each frame up to a last one, where the frame's first byte says.
@@ -105,27 +105,32 @@ ColourFrame frame_at(MissionTime now, std::uint64_t sequence, int& rendered) {
 class TargetGraph : public testing::Test {
  protected:
   TargetGraph() {
-    auto& kernels = rig.context->kernels;
-    kernels.detector = std::make_unique<ByteDetector>();
-    kernels.buffered_tracker = std::make_unique<ByteTracker>(buffered);
-    kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time);
-    rig.context->phase = MissionPhase::cruise;
-    vehicle = add_vehicle_topics(graph, {true, false});
-    pose = graph.topic<PoseEstimate>("pose");
-    topics = add_target(graph, vehicle, pose, *rig.context, log);
+    rig.kernels.detector = std::make_shared<ByteDetector>();
+    rig.kernels.buffered_tracker = std::make_shared<ByteTracker>(buffered);
+    rig.kernels.real_time_tracker = std::make_shared<ByteTracker>(real_time);
   }
 
   void fly(Duration time) {
+    VehicleExtras extras;
+    extras.colour_camera = true;
+    const FlightParts parts = rig.parts(graph, extras);
+    LocalizationTopics localization;
+    localization.pose = graph.topic<PoseEstimate>("pose");
+    const TargetTopics topics = add_target(graph, parts, localization);
     VirtualExecutor executor{graph, platform, queue, {2, Hertz{1e9}}};
     executor.subscribe<Target>(topics.target,
                                [this](const Target& target) { targets.push_back(target); });
     executor.subscribe<Target>(topics.sighting,
                                [this](const Target& seen) { sightings.push_back(seen); });
+    executor.subscribe<CaughtUp>(topics.caught_up,
+                                 [this](const CaughtUp& what) { log = what.log; });
+    executor.publish(parts.mission.knobs, *rig.knobs);
+    executor.publish(parts.mission.state, MissionState{MissionPhase::cruise});
     std::uint64_t sequence = 0;
     queue.every(MissionTime{50ms}, 50ms, EventOrder::sensor, [&] {
       const ColourFrame frame = frame_at(queue.now(), sequence++, rendered);
-      executor.publish(vehicle.colour, frame);
-      executor.publish(vehicle.colour_buffer, frame);
+      executor.publish(parts.vehicle.colour, frame);
+      executor.publish(parts.vehicle.colour_buffer, frame);
     });
     queue.run([&] { return queue.now() >= MissionTime{time}; });
   }
@@ -142,9 +147,6 @@ class TargetGraph : public testing::Test {
   ModeledPlatform platform{slow_detection()};
   EventQueue queue;
   Graph graph{"target"};
-  VehicleTopics vehicle;
-  Topic<PoseEstimate> pose;
-  TargetTopics topics;
   TargetLog log;
   std::vector<std::uint64_t> buffered;
   std::vector<std::uint64_t> real_time;
@@ -176,7 +178,7 @@ TEST_F(TargetGraph, hands_the_newest_buffered_frame_on_to_the_real_time_tracker)
 }
 
 TEST_F(TargetGraph, says_whom_the_detector_saw_also_when_no_tracker_holds_them) {
-  rig.context->kernels.buffered_tracker = std::make_unique<ByteTracker>(buffered, true);
+  rig.kernels.buffered_tracker = std::make_shared<ByteTracker>(buffered, true);
   fly(1000ms);
   ASSERT_FALSE(targets.empty());
   EXPECT_FALSE(targets.back().box.has_value());
@@ -186,14 +188,14 @@ TEST_F(TargetGraph, says_whom_the_detector_saw_also_when_no_tracker_holds_them) 
 }
 
 TEST_F(TargetGraph, gives_up_what_was_not_seen_for_a_second) {
-  rig.context->kernels.real_time_tracker = std::make_unique<ByteTracker>(real_time, true);
-  rig.context->kernels.detector = std::make_unique<ByteDetector>(0);
+  rig.kernels.real_time_tracker = std::make_shared<ByteTracker>(real_time, true);
+  rig.kernels.detector = std::make_shared<ByteDetector>(0);
   fly(3000ms);
   EXPECT_EQ(real_time.size(), 1U + 20U) << "once begun, twenty times not seen";
 }
 
 TEST_F(TargetGraph, gives_up_what_the_detector_does_not_confirm) {
-  rig.context->kernels.detector = std::make_unique<ByteDetector>(0);
+  rig.kernels.detector = std::make_shared<ByteDetector>(0);
   fly(3500ms);
   // The first look ends at 370 ms, the sixth after it at 2290 ms.
   ASSERT_FALSE(targets.empty());

@@ -39,9 +39,10 @@ TEST(LocalizationWatch, is_lost_from_the_first_frame_without_a_pose_to_the_next_
   EXPECT_TRUE(watch.is_lost());
   watch.fixed(at(13.0), fix(true));
   EXPECT_FALSE(watch.is_lost());
-  const auto quality = watch.quality(at(20.0));
-  EXPECT_EQ(quality.at("localization_lost"), 1.0);
-  EXPECT_NEAR(quality.at("localization_lost_s"), 3.0, 1e-9);
+  const LocalizationStatus status = watch.status(at(20.0), 2.0);
+  EXPECT_FALSE(status.is_lost || status.search);
+  EXPECT_EQ(status.times_lost, 1);
+  EXPECT_NEAR(status.lost_s, 3.0, 1e-9);
 }
 
 TEST(LocalizationWatch, stops_then_looks_to_both_sides_then_flies_back) {
@@ -86,10 +87,13 @@ TEST(LocalizationWatch, gives_up_when_all_was_in_vain) {
   EXPECT_FALSE(LocalizationWatch{}.has_given_up(at(1000.0)));
 }
 
-TEST(LocalizationWatch, says_nothing_of_a_localizer_that_looks_at_no_images) {
-  LocalizationWatch watch;
-  watch.passed(pose_at(1.0));
-  EXPECT_TRUE(watch.quality(at(1.0)).empty());
+TEST(LocalizationWatch, asks_to_search_while_it_is_lost) {
+  LocalizationWatch watch = lost_after(6.0);
+  const LocalizationStatus status = watch.status(at(11.0), 2.0);
+  EXPECT_TRUE(status.is_lost);
+  ASSERT_TRUE(status.search);
+  EXPECT_NEAR(status.search->p_WB.x(), 6.0, 0.2);
+  EXPECT_NEAR(status.lost_s, 1.0, 1e-9);
 }
 
 }  // namespace

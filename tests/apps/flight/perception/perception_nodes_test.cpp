@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/perception/perception_nodes.h"
 
+#include "flyball/flight/perception/pose_history.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>

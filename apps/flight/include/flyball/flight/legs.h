@@ -4,23 +4,25 @@
 /// @file
 /// What every mission begins and ends with: take-off, the wait until it is done, landing.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/mission_topics.h"
+#include "flyball/flight/vehicle_port.h"
 
 namespace flyball {
 
 /// Take-off and landing are manoeuvres of the flight controller, upright, inside cylinders that the
-/// brief declares clear. They hold the mission's phase, too.
+/// site declares clear. The mission's node owns one of these; it publishes the mission's phase.
 class Legs {
  public:
-  /// `context` outlives the legs.
-  Legs(MissionContext& context, const VehicleTopics& vehicle)
-      : context_{&context}, vehicle_{vehicle} {}
+  Legs(const VehicleTopics& vehicle, const MissionTopics& mission)
+      : vehicle_{vehicle}, mission_{mission} {}
 
   /// What the node that calls the members below has to declare.
   void declare(NodeSpec& spec) const;
   void take_off(JobContext& job, double height_m);
   void land(JobContext& job);
   void release_payload(JobContext& job);
+  /// A phase that is no manoeuvre.
+  void enter(JobContext& job, MissionPhase phase) { job.publish(mission_.state, {phase}); }
   /// Whether the last take-off or landing has ended. A status that was sent before the flight
   /// controller heard of it does not count.
   [[nodiscard]] bool are_done(JobContext& job) const;
@@ -28,13 +30,9 @@ class Legs {
  private:
   void command(JobContext& job, MissionPhase phase, const FlightCommand& command);
 
-  MissionContext* context_;
   VehicleTopics vehicle_;
+  MissionTopics mission_;
   MissionTime settled_{};
 };
-
-/// Tells the mapper of the cylinder over a place on the ground where a vehicle may take off and
-/// land: 1 m in radius, 2.5 m high.
-void declare_clear_over(Mapper& mapper, const Vec3& ground_W);
 
 }  // namespace flyball

@@ -14,10 +14,9 @@
 namespace flyball {
 
 struct FlightSettings;
-class MissionContext;  // see apps/flight/mission_context.h, navigator.h
-struct MissionBrief;
-struct VehicleTopics;
-class Navigator;
+struct Brief;
+struct FlightParts;
+struct Site;
 
 class Workload {
  public:
@@ -30,20 +29,21 @@ class Workload {
   ///
   /// @error `invalid_input`: one sentence with the key, its value and the way out.
   [[nodiscard]] virtual Status check([[maybe_unused]] const FlightSettings& settings,
-                                     [[maybe_unused]] const MissionBrief& brief) const {
+                                     [[maybe_unused]] const Site& site) const {
     return Done{};
   }
-  /// Adds its nodes to a graph that has the vehicle's topics. `context` outlives the workload, and
-  /// the workload outlives the graph's jobs.
-  virtual void build(Graph& graph, const VehicleTopics& vehicle, MissionContext& context) = 0;
+  /// What this workload knows better than the settings, before the brief becomes constant: a wider
+  /// tube, or that it flies without a map.
+  virtual void adapt([[maybe_unused]] Brief& brief) const {}
+  /// Adds its nodes to a graph that has the topics of `parts`. The workload outlives the graph's
+  /// jobs.
+  virtual void build(Graph& graph, const FlightParts& parts) = 0;
   /// Whether the workload needs a colour camera, a detector and trackers. If not, no colour image
   /// is rendered and no detector is needed.
   [[nodiscard]] virtual bool looks_for_people() const { return false; }
   /// Whether the world's goal is a place of this mission.
   [[nodiscard]] virtual bool flies_to_goal() const { return false; }
-  /// The navigator, for the observation and the record; null when the workload flies without one.
-  [[nodiscard]] virtual const Navigator* navigator() const = 0;
-  /// Figures at the end of the mission that the vehicle itself believes; the unit is the name's
+  /// Figures, when the graph has stopped, that the vehicle itself believes; the unit is the name's
   /// ending. What is true, a referee says.
   [[nodiscard]] virtual std::map<std::string, double> quality() const { return {}; }
 };

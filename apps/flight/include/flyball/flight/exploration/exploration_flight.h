@@ -7,6 +7,7 @@
 
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
+#include "flyball/flight/perception/perception_nodes.h"
 
 #include <cstdint>
 #include <optional>
@@ -25,10 +26,10 @@ struct ExploreAnswer {
 
 /// The request to the explorer from a viewpoint, with field of view, body and limits of the
 /// mission.
-[[nodiscard]] ExploreRequest explore_request(const MissionContext& context, const Viewpoint& from);
+[[nodiscard]] ExploreRequest explore_request(const Brief& brief, const Viewpoint& from);
 
 /// @error `invalid_input`: the world has no volume to explore.
-[[nodiscard]] Status check_volume(const MissionBrief& brief);
+[[nodiscard]] Status check_volume(const Site& site);
 
 class ExplorationFlight {
  public:
@@ -39,17 +40,17 @@ class ExplorationFlight {
     landed,
   };
 
-  ExplorationFlight(MissionContext& context, Navigator& navigator);
+  /// Adds the node `explore` and all nodes of perception and navigation.
+  ExplorationFlight(Graph& graph, const FlightParts& parts);
 
-  /// Adds the node `explore`.
-  void add_nodes(Graph& graph, const VehicleTopics& vehicle, const PerceptionTopics& perception);
   /// Adds to the spec of the mission's node which topics it reads and writes.
   void declare(NodeSpec& spec) const;
   /// Advances the flight by one step; called by the mission's node.
   void step(JobContext& job);
   /// The mission is done with exploring: flies home and lands.
-  void go_home(MissionTime now);
+  void go_home(JobContext& job);
 
+  [[nodiscard]] const PerceptionTopics& perception() const { return perception_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] int views() const { return static_cast<int>(taken_.size()); }
 
@@ -62,14 +63,17 @@ class ExplorationFlight {
   void think(JobContext& job);
   void take_answer(JobContext& job);
   void watch_flight(JobContext& job);
-  void watch_turn(MissionTime now);
-  void give_up_view(MissionTime now);
+  void watch_turn(JobContext& job);
+  void give_up_view(JobContext& job);
   void land(JobContext& job);
 
-  MissionContext& context_;
-  Navigator& navigator_;
-  std::optional<Legs> legs_{};
-  PerceptionTopics perception_{};
+  void add_explore(Graph& graph);
+  [[nodiscard]] Vec3 above_start_W() const;
+
+  FlightParts parts_;
+  PerceptionTopics perception_;
+  Guidance guidance_;
+  Legs legs_;
   Service<ExploreQuery, ExploreAnswer> explore_{};
   State state_{State::exploring};
   Stage stage_{Stage::ready};

@@ -27,8 +27,8 @@ using Footprint = std::array<Vec3, 4>;
                                                     const Intrinsics& camera,
                                                     double ground_z_m);
 
-/// Records one row of channel `footprint`: x0_m, y0_m, x1_m, ... of its corners.
-void record(const Footprint& footprint, MissionTime now, Recorder& recorder);
+/// Fields of a row of the log: x0_m, y0_m, x1_m, ... of its corners.
+[[nodiscard]] std::vector<Field> row_of(const Footprint& footprint);
 
 /// Square cells over a rectangle of the ground. A cell is seen when its centre is in a footprint.
 /// The ground counts as level, so what stands on it (a tree, a crop) hides nothing.

@@ -4,14 +4,20 @@
 /// @file
 /// The outer loop: observe, decide, apply, record.
 
+#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/governing/choice_text.h"
-#include "flyball/flight/navigation/navigator.h"
+#include "flyball/flight/navigation/guidance.h"
+#include "flyball/flight/navigation/situation.h"
+#include "flyball/flight/perception/map_revision.h"
 #include "flyball/governors/foresight.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
 
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace flyball {
 
@@ -26,26 +32,33 @@ class ForesightSource {
 
   /// Along the path and, beyond its end, straight to the goal. The result stays valid until the
   /// next call.
-  [[nodiscard]] virtual const Foresight& look(const PathFollower& follower) = 0;
+  [[nodiscard]] virtual const Foresight& look(const NavigatorState& navigator,
+                                              const Situation& situation) = 0;
 };
 
+/// What the governor looks at; without a navigator or a map it sees the computer alone.
+struct GovernorInputs {
+  std::optional<Topic<NavigatorState>> navigator{};
+  std::optional<Topic<MapRevision>> map{};
+};
+
+/// The topics `navigator` and `map_revision` of a graph, where it has them.
+[[nodiscard]] GovernorInputs governor_inputs(const Graph& graph);
+
+/// Belongs to the node `govern` while the graph runs; what it counted may be asked afterwards.
 class GovernorLoop {
  public:
-  /// All arguments outlive the loop; `navigator` and `future` may be null.
-  GovernorLoop(MissionContext& context,
+  /// Governor, board and `future` outlive the loop; `future` may be null.
+  GovernorLoop(const FlightParts& parts,
+               const KnobSettings& knobs,
                PolicyGovernor& governor,
                Board& board,
-               const Navigator* navigator,
+               const GovernorInputs& inputs,
                ForesightSource* future);
 
-  /// Makes one decision at `now`. The surroundings are observed once in each `governor.period_s`,
-  /// the computer every time.
-  void tick(MissionTime now);
-  /// A deadline was missed; the next observation carries the count.
-  void count_miss() {
-    ++misses_;
-    ++all_misses_;
-  }
+  /// Makes one decision. The surroundings are observed once in each `governor.period_s`, the
+  /// computer every time.
+  void tick(JobContext& job);
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
   /// Host time of each decision; nothing in the mission depends on it.
   [[nodiscard]] const std::vector<double>& decision_host_us() const { return decision_host_us_; }
@@ -53,27 +66,37 @@ class GovernorLoop {
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
   /// Why the policy failed the first time; empty when it never did.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
-  [[nodiscard]] std::uint64_t misses() const { return all_misses_; }
+  [[nodiscard]] std::uint64_t misses() const { return last_misses_; }
   [[nodiscard]] std::vector<LevelPromises> promise_levels() const {
     return governor_.policy().promise_levels();
   }
 
  private:
-  void observe_surroundings();
-  [[nodiscard]] double speed_limit_ahead() const;
-  [[nodiscard]] double density_ahead() const;
-  void observe_gaps();
+  /// Of the newest messages; empty while there is no map or no navigator.
+  struct Surroundings {
+    std::shared_ptr<const NavigatorState> navigator{};
+    std::shared_ptr<const MapRevision> map{};
+  };
+  [[nodiscard]] Surroundings newest(JobContext& job) const;
+  void look_around(JobContext& job);
+  void observe_flight(const NavigatorState& navigator);
+  void observe_map(const NavigatorState& navigator, const OccupancyView& map);
+  void observe_gaps(const NavigatorState& navigator, const OccupancyView& map);
   void observe_computer(MissionTime now);
-  void record(bool is_whole);
-  void record_promises(MissionTime now);
-  void apply(MissionTime now, const Decision& decision);
-  void note_moved_wishes(MissionTime now);
-  void note_fallback(MissionTime now);
+  void decide(JobContext& job);
+  void publish_knobs(JobContext& job);
+  void record(JobContext& job, bool is_whole);
+  void record_promises(JobContext& job);
+  void apply(JobContext& job, const Decision& decision);
+  void note_moved_wishes(JobContext& job);
+  void note_fallback(JobContext& job);
 
-  MissionContext& context_;
+  FlightParts parts_;
+  KnobsInForce knobs_;
+  bool has_new_knobs_{true};
   PolicyGovernor& governor_;
   Board& board_;
-  const Navigator* navigator_;
+  GovernorInputs inputs_;
   ForesightSource* future_;
   OperatingPoint asked_;
   Observation seen_{};
@@ -84,8 +107,7 @@ class GovernorLoop {
   double last_busy_core_s_{};
   double last_busiest_core_s_{};
   std::uint64_t last_drops_{};
-  std::uint32_t misses_{};
-  std::uint64_t all_misses_{};
+  std::uint64_t last_misses_{};
   std::uint64_t decisions_{};
   std::uint64_t knob_changes_{};
   std::vector<double> decision_host_us_{};
@@ -96,5 +118,12 @@ class GovernorLoop {
   std::string why_{};              ///< Reason of the last fallback that was recorded.
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };
+
+/// Adds the node `govern`, which ticks the loop. Owners: the node, and who asks it for its counts.
+void add_governor(Graph& graph,
+                  const FlightParts& parts,
+                  const GovernorInputs& inputs,
+                  Duration period,
+                  std::shared_ptr<GovernorLoop> loop);
 
 }  // namespace flyball

@@ -4,7 +4,8 @@
 /// @file
 /// The bound on how long a map takes, from the settings in force and from what was measured.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/mission_topics.h"
+#include "flyball/flight/perception/map_revision.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/time.h"
@@ -32,7 +33,7 @@ struct MapTerms {
 };
 
 /// Of the knobs, and of the clock and cores that the platform grants.
-[[nodiscard]] MapTerms terms_of(const MissionContext& context);
+[[nodiscard]] MapTerms terms_of(const KnobsInForce& knobs);
 
 /// What a frame costs, before one has been measured.
 struct FramePrice {
@@ -43,7 +44,7 @@ struct FramePrice {
 /// What a frame takes in the mapper by the platform's own price list: the frustum's volume over the
 /// cell's bounds the updates, the rays' length over its edge the traversals. The least one has the
 /// same rays, which end at once, and the highest clock.
-[[nodiscard]] FramePrice frame_price(const MissionContext& context);
+[[nodiscard]] FramePrice frame_price(const Brief& brief);
 
 /// Times as multiples of the platform's price of a frame, each with the settings that it was
 /// measured at: the last 20 of each cell size, range and number of cores.

@@ -5,83 +5,73 @@
 /// Flies the vehicle to a goal through the known map: requests plans, splices them into the
 /// committed path, and keeps the bound on latency from which the speed limit follows.
 
-#include "flyball/flight/navigation/known_way.h"
+#include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/map_latency.h"
+#include "flyball/flight/navigation/path_clearance.h"
 #include "flyball/flight/navigation/path_follower.h"
 #include "flyball/flight/navigation/plan_lead.h"
+#include "flyball/flight/navigation/plan_service.h"
+#include "flyball/flight/navigation/situation.h"
 #include "flyball/flight/navigation/step_back.h"
+#include "flyball/flight/perception/clear_space.h"
+#include "flyball/kernels/path_tracker.h"
 
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace flyball {
 
-struct PlanQuery {
-  std::uint64_t id{};
-  Vec3 start_W{Vec3::Zero()};
-  Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
-  /// The trajectory begins here instead, leads straight to `start_W`, and turns there as sharply as
-  /// the room allows.
-  std::optional<Vec3> lead_in_W{};
-  Vec3 goal_W{Vec3::Zero()};
-  bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
-  double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
-  /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
-  std::optional<KnownWay> known{};
+/// What the navigator has to say beside its set-point and its query.
+struct NavigatorNews {
+  std::vector<std::string> events{};
+  std::vector<ClearSpace> clear{};
+  std::optional<MapUse> map_use{};
+  bool gives_up{};  ///< It has stood without a path for too long.
 };
 
-struct PlanAnswer {
-  std::uint64_t id{};
-  std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
-  Vec3 start_direction_W{Vec3::Zero()};
-  std::optional<Vec3> lead_in_W{};
-  Cylinder body{};  ///< The body, with its tube, that the path was planned for.
-  std::string failure{};
-  double iterations{};
-};
-
-struct PlannedPath {
-  std::uint64_t id{};
-  Trajectory trajectory{};
-  std::string failure{};
-  bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
-  KnownWay way{};       ///< The path that the trajectory follows.
-  double iterations{};  ///< Iterations that the search took.
-};
-
+/// One node owns it; all that it knows comes by messages, and all that it says goes by messages.
 class Navigator {
  public:
-  explicit Navigator(MissionContext& context);
+  Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTracker> path_tracker);
 
+  /// The knobs in force from now on; to be called before anything else.
+  void set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs);
+  /// Where nothing maps obstacles: the space that is declared free.
+  void set_declared_map(std::shared_ptr<const OccupancyView> map) { map_ = std::move(map); }
+  void obey(MissionTime now, const GuidanceCommand& command);
+  /// A map has been published, and the path was held against it.
+  void path_checked(MissionTime now, const PathClearance& clearance);
+  void path_planned(MissionTime now, const PlannedPath& planned);
+  /// The plan to request now, if any.
+  [[nodiscard]] std::optional<PlanQuery> next_query(MissionTime now);
+  /// Set-point for the flight controller.
+  /// @param search  While the localizer is lost: what it asks for instead.
+  [[nodiscard]] Setpoint tick(MissionTime now,
+                              Duration dt,
+                              const PoseEstimate& where,
+                              const std::optional<Setpoint>& search = {});
+  [[nodiscard]] NavigatorState state() const;
+  /// What has come up since the last call.
+  [[nodiscard]] NavigatorNews news() { return std::exchange(news_, {}); }
+
+  [[nodiscard]] const PathFollower& follower() const { return follower_; }
+  [[nodiscard]] bool has_arrived() const;
+
+ private:
   void hover_at(const Vec3& p_W, double yaw_rad);
   void set_goal(MissionTime now, const Vec3& goal_W);
   void clear_goal();
-  /// At the place where the vehicle stops, the camera turns to this heading.
-  void face(std::optional<double> yaw_rad) { follower_.face(yaw_rad); }
-  [[nodiscard]] bool has_arrived() const;
-
-  /// A map was published: updates the known-free distance and the latency bound, and whether the
-  /// path is still free.
-  void map_published(MissionTime now, const MapRevision& revision);
-  void path_checked(MissionTime now, const PathCheck& check, std::uint64_t path_number);
-  [[nodiscard]] std::uint64_t path_number() const { return path_number_; }
-  /// The plan to request now, if any.
-  [[nodiscard]] std::optional<PlanQuery> next_query(MissionTime now);
-  void path_planned(MissionTime now, const PlannedPath& planned);
-
-  /// Set-point for the flight controller.
-  [[nodiscard]] Setpoint tick(MissionTime now, Duration dt, const PoseEstimate& where);
-  [[nodiscard]] const PathFollower& follower() const { return follower_; }
-  [[nodiscard]] Duration newest_latency() const { return newest_latency_; }
-  [[nodiscard]] MissionTime newest_capture() const { return newest_capture_; }
-  [[nodiscard]] std::uint64_t map_revision() const { return map_revision_; }
-  [[nodiscard]] const TrackingError& tracking_error() const { return tracking_error_; }
-
- private:
+  void refresh_known_free();
+  void note_map(MissionTime now, const PathClearance& clearance);
+  void note_rest(MissionTime now, double speed_m_s);
+  void tell_map_use(MissionTime now);
+  [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
   [[nodiscard]] bool is_leg_ending() const;
-  [[nodiscard]] std::optional<Setpoint> search_place(MissionTime now, const PoseEstimate& where);
+  void resume_after_search(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
   void note_stall(MissionTime now);
-  [[nodiscard]] bool steps_back(MissionTime now);
+  [[nodiscard]] bool steps_back();
   void go_back(MissionTime now, Duration dt, double error_m);
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& way_W) const;
@@ -92,9 +82,15 @@ class Navigator {
   void start_from_path(PlanQuery& query);
   void want_plan(MissionTime now, const std::string& why);
 
-  MissionContext& context_;
+  std::shared_ptr<const Brief> brief_;           ///< Owners: all nodes.
+  std::shared_ptr<PathTracker> path_tracker_;    ///< See MissionKernels.
+  std::shared_ptr<const KnobsInForce> knobs_{};  ///< Owners: whoever reads this snapshot.
+  std::shared_ptr<const OccupancyView> map_{};   ///< The newest one. Owners: its readers.
   PathFollower follower_;
+  NavigatorNews news_{};
+  std::uint64_t obeyed_{};
   std::optional<Vec3> goal_W_{};
+  Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
   double splice_m_{};
@@ -102,7 +98,9 @@ class Navigator {
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
   std::optional<KnownWay> known_{};  ///< The path of the last of these plans.
   bool joins_{};                     ///< The pending plan is that path, joined from elsewhere.
-  int stalls_{};  ///< Plans in a row that led nowhere: they count as failed ones.
+  int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
+  int failures_{};  ///< Plans in a row that have failed.
+  int replans_{};
   StepBack back_{};
   MissionTime asked_at_{};
   PlanLead lead_{};
@@ -114,6 +112,7 @@ class Navigator {
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
   MapLatency map_latency_;
+  double budget_use_{};  ///< Of the newest map.
   Duration newest_latency_{};
   std::uint64_t map_revision_{};
   MissionTime newest_capture_{};

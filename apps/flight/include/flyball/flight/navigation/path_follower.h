@@ -4,13 +4,16 @@
 /// @file
 /// Moves the reference along the committed path, as fast as map, latency and guard allow.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/mission_topics.h"
 #include "flyball/flight/navigation/speed_profile.h"
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/guard.h"
 
 #include <array>
 #include <deque>
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace flyball {
 
@@ -25,12 +28,33 @@ struct TrackingError {
   double height_m{};  ///< Upwards.
 };
 
+/// The tube around the path grows with speed, so a passage can be too narrow for cruise and wide
+/// enough for a crawl. Three tiers of speed: narrow passages, near obstacles, and the knob's
+/// largest.
+inline constexpr std::size_t speed_tiers = 3;
+using TierDistances = std::array<double, speed_tiers>;
+
+/// The largest speed of each tier [m/s], slowest first.
+[[nodiscard]] TierDistances tier_speeds_m_s(const KnobsInForce& knobs);
+
+/// Arc length up to which a path is known to be free for the body's tube at each tier's speed.
+/// @param s_m  Where the search begins, as far as the map's range and a little.
+[[nodiscard]] TierDistances known_free_until_m(const OccupancyView& map,
+                                               const Path& path,
+                                               double s_m,
+                                               const Brief& brief,
+                                               const KnobsInForce& knobs);
+
 /// Known-free distance is used in two ways that must not be mixed, so that latency counts only
 /// once. The cruise set-point measures it from the capture pose of the newest frame and reacts
 /// within delta (eq. 2). The guard measures it from the present place and reacts within t_b.
 class PathFollower {
  public:
-  explicit PathFollower(const MissionContext& context);
+  /// Until `set_knobs` it knows no knobs and must not be asked to move.
+  explicit PathFollower(std::shared_ptr<const Brief> brief);
+
+  /// The snapshot in force from now on.
+  void set_knobs(std::shared_ptr<const KnobsInForce> knobs) { knobs_ = std::move(knobs); }
 
   /// Hovers at a place; forgets the path.
   void hover_at(const Vec3& p_W, double yaw_rad);
@@ -46,9 +70,12 @@ class PathFollower {
   /// At the path's end, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
-  /// Measures the known-free distance again. Call it after each change of map or path.
+  /// Measures the known-free distance again, after the path has changed.
   void refresh_known_free(const OccupancyView& map);
-  void map_published(const MapRevision& revision) { newest_capture_ = revision.captured; }
+  /// The known-free distances of this path, as somebody else has measured them in a newer map.
+  void set_known_free(const TierDistances& free_until_m) { free_until_m_ = free_until_m; }
+  /// A map with frames up to this time is the newest one.
+  void map_captured(MissionTime captured) { newest_capture_ = captured; }
   /// Bound on the latency from sensor to published map, plus the interval between maps: delta
   /// without t_b. Until it is
   /// set, the vehicle does not move through space that has to be mapped.
@@ -57,8 +84,10 @@ class PathFollower {
   /// Moves the reference by `dt`. @param error_W  From the reference to the vehicle.
   PathReference tick(MissionTime now, Duration dt, const Vec3& error_W);
 
-  [[nodiscard]] bool has_path() const { return !path_.empty(); }
-  [[nodiscard]] const Path& path() const { return path_; }
+  [[nodiscard]] bool has_path() const { return !path_->empty(); }
+  [[nodiscard]] const Path& path() const { return *path_; }
+  /// The same path, for readers that keep it; it never changes.
+  [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
   [[nodiscard]] double s_m() const { return s_m_; }
   [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
   /// Arc length along all paths so far.
@@ -90,7 +119,6 @@ class PathFollower {
 
  private:
   void turn_towards(double yaw_rad, double dt_s);
-  [[nodiscard]] std::array<double, 3> tier_speeds_m_s() const;
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
   [[nodiscard]] double room_m(std::size_t tier) const;
   [[nodiscard]] double cruise_speed(std::size_t tier) const;
@@ -105,9 +133,14 @@ class PathFollower {
   [[nodiscard]] std::optional<double> wanted_yaw_rad(MissionTime now);
   [[nodiscard]] double distance_since(MissionTime captured) const;
 
-  const MissionContext& context_;
+  [[nodiscard]] double speed_limit_at(const Vec3& p_W) const {
+    return knobs_->speed_limit_m_s(brief_->site, p_W);
+  }
+
+  std::shared_ptr<const Brief> brief_;           ///< Owners: all nodes.
+  std::shared_ptr<const KnobsInForce> knobs_{};  ///< Owners: whoever reads this snapshot.
   Guard guard_;
-  Path path_{};
+  std::shared_ptr<const Path> path_{std::make_shared<const Path>()};  ///< Owners: its readers.
   SpeedProfile profile_{};
   Vec3 hover_W_{Vec3::Zero()};
   double s_m_{};
@@ -115,9 +148,7 @@ class PathFollower {
   double target_m_s_{};
   double yaw_rad_{};
   double stop_at_m_{};
-  /// Arc length up to which the path is known to be free for the body's tube at each of three
-  /// speeds (see the .cpp), slowest first.
-  std::array<double, 3> free_until_m_{};
+  TierDistances free_until_m_{};
   double travelled_m_{};
   Duration latency_bound_{};
   MissionTime newest_capture_{};

@@ -5,7 +5,9 @@
 /// One plan takes several searches: how wide may the vehicle's tube be, and does a narrower tube
 /// save a detour?
 
-#include "flyball/flight/navigation/navigator.h"
+#include "flyball/flight/navigation/plan_service.h"
+#include "flyball/flight/navigation/situation.h"
+#include "flyball/kernels/path_planner.h"
 
 namespace flyball {
 
@@ -16,6 +18,9 @@ namespace flyball {
 ///
 /// @param body  Out: the body, with its tube, that the plan was found for.
 /// @return      The plan; its work is that of all searches.
-[[nodiscard]] Plan plan_with_tubes(MissionContext& context, const PlanQuery& query, Cylinder& body);
+[[nodiscard]] Plan plan_with_tubes(const Situation& situation,
+                                   PathPlanner& planner,
+                                   const PlanQuery& query,
+                                   Cylinder& body);
 
 }  // namespace flyball

@@ -4,7 +4,7 @@
 /// @file
 /// Frees a vehicle that has come to rest so close to an occupied cell that its tube overlaps it.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/navigation/situation.h"
 
 #include <optional>
 
@@ -13,6 +13,6 @@ namespace flyball {
 /// The nearest place, at most some centimetres away, where the body in its narrowest tube overlaps
 /// no occupied cell. Empty when it overlaps none at `here_W`, or when there is no such place. The
 /// vehicle must move, because the cell stays occupied and no plan could ever begin here.
-[[nodiscard]] std::optional<Vec3> place_aside_W(const MissionContext& context, const Vec3& here_W);
+[[nodiscard]] std::optional<Vec3> place_aside_W(const Situation& situation, const Vec3& here_W);
 
 }  // namespace flyball

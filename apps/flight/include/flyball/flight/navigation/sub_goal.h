@@ -4,7 +4,7 @@
 /// @file
 /// The place that a plan leads to when the goal is too far away for one plan.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/navigation/situation.h"
 
 namespace flyball {
 
@@ -14,7 +14,7 @@ namespace flyball {
 ///
 /// @param failures  Plans that failed in a row: each one moves on to the next candidate, because a
 ///                  place that looks free may be walled in.
-[[nodiscard]] Vec3 sub_goal_W(const MissionContext& context,
+[[nodiscard]] Vec3 sub_goal_W(const Situation& situation,
                               const Vec3& start_W,
                               const Vec3& goal_W,
                               int failures);

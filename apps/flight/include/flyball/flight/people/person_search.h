@@ -35,8 +35,7 @@ struct Sightings {
 
 /// Adds the node `detect`. A detection that has no place is left out.
 [[nodiscard]] Topic<Sightings> add_person_search(Graph& graph,
-                                                 const VehicleTopics& vehicle,
-                                                 const PerceptionTopics& perception,
-                                                 MissionContext& context);
+                                                 const FlightParts& parts,
+                                                 const LocalizationTopics& localization);
 
 }  // namespace flyball

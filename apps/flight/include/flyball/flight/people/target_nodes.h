@@ -6,7 +6,11 @@
 /// section IV). A detector searches whole frames and is slow. A buffered tracker follows its
 /// detection through the frames that came meanwhile, and a real-time tracker goes on from there.
 
-#include "flyball/flight/mission_context.h"
+#include "flyball/flight/flight_parts.h"
+#include "flyball/flight/perception/localization_nodes.h"
+
+#include <optional>
+#include <vector>
 
 namespace flyball {
 
@@ -16,11 +20,20 @@ struct Detections {
   std::vector<Detection> people{};
 };
 
+/// Counts that decide the end of the mission, and figures of quality.
+struct TargetLog {
+  int detections{};     ///< Frames in which the person was detected.
+  int missed_in_row{};  ///< Newest detections in a row without the person.
+  std::uint64_t looks{};
+  std::uint64_t buffered_frames{};
+};
+
 /// A detection that the buffered tracker has followed to the newest frame of its buffer.
 struct CaughtUp {
   ColourFrame frame{};
   std::optional<ImageBox> box{};   ///< Empty: nobody was detected, or the tracker lost them.
   std::uint64_t frames_between{};  ///< From the detector's frame to this one.
+  TargetLog log{};
 };
 
 /// Where the person is in the newest frame that was tracked.
@@ -37,14 +50,6 @@ struct TargetTopics {
   Topic<Target> target;
 };
 
-/// Counts that decide the end of the mission, and figures of quality.
-struct TargetLog {
-  int detections{};     ///< Frames in which the person was detected.
-  int missed_in_row{};  ///< Newest detections in a row without the person.
-  std::uint64_t looks{};
-  std::uint64_t buffered_frames{};
-};
-
 /// Chooses the followed person among the detections: the one nearest to the last box, if it is
 /// within `reach_px`; without a last box the one with the highest score. Empty when there is none.
 [[nodiscard]] std::optional<Detection> pick(const std::vector<Detection>& people,
@@ -55,13 +60,11 @@ struct TargetLog {
 /// height of the camera is not known yet.
 [[nodiscard]] std::vector<Detection> plausible(const Detections& seen,
                                                const PoseEstimate* pose,
-                                               const MissionContext& context);
+                                               const Brief& brief);
 
-/// Adds the nodes `detect`, `track_buffered` and `track_real_time`. `log` outlives the graph.
-TargetTopics add_target(Graph& graph,
-                        const VehicleTopics& vehicle,
-                        Topic<PoseEstimate> pose,
-                        MissionContext& context,
-                        TargetLog& log);
+/// Adds the nodes `detect`, `track_buffered` and `track_real_time`.
+[[nodiscard]] TargetTopics add_target(Graph& graph,
+                                      const FlightParts& parts,
+                                      const LocalizationTopics& localization);
 
 }  // namespace flyball

@@ -5,13 +5,12 @@
 /// Whether the localizer still knows where the vehicle is, and what the vehicle does when it is
 /// lost.
 
+#include "flyball/flight/perception/localization_nodes.h"
 #include "flyball/kernels/visual_frame.h"
 #include "flyball/runtime/messages.h"
 
 #include <deque>
-#include <map>
 #include <optional>
-#include <string>
 
 namespace flyball {
 
@@ -32,8 +31,8 @@ class LocalizationWatch {
   /// search began, because the vehicle may have climbed by then.
   [[nodiscard]] std::optional<Setpoint> search(MissionTime now, double height_W_m);
 
-  /// `localization_lost` (times), `localization_lost_s`; without images none.
-  [[nodiscard]] std::map<std::string, double> quality(MissionTime now) const;
+  /// What the others are told.
+  [[nodiscard]] LocalizationStatus status(MissionTime now, double height_W_m);
 
  private:
   /// The estimate from so many metres of track ago, or the oldest one that is remembered.
@@ -42,7 +41,6 @@ class LocalizationWatch {
   std::deque<PoseEstimate> trail_{};  ///< A decimetre apart, newest last.
   std::optional<MissionTime> lost_since_{};
   std::optional<double> search_height_W_m_{};
-  bool has_fixes_{};
   int times_lost_{};
   double lost_s_{};
 };

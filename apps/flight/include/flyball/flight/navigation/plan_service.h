@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The messages between the navigator and what plans for it.
+
+#include "flyball/flight/navigation/known_way.h"
+#include "flyball/runtime/trajectory.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+struct PlanQuery {
+  std::uint64_t id{};
+  Vec3 start_W{Vec3::Zero()};
+  Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
+  /// The trajectory begins here instead, leads straight to `start_W`, and turns there as sharply as
+  /// the room allows.
+  std::optional<Vec3> lead_in_W{};
+  Vec3 goal_W{Vec3::Zero()};
+  int failures{};        ///< Plans in a row that have failed.
+  bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
+  double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
+  /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
+  std::optional<KnownWay> known{};
+};
+
+struct PlanAnswer {
+  std::uint64_t id{};
+  std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
+  Vec3 start_direction_W{Vec3::Zero()};
+  std::optional<Vec3> lead_in_W{};
+  Cylinder body{};  ///< The body, with its tube, that the path was planned for.
+  std::string failure{};
+  double iterations{};
+};
+
+struct PlannedPath {
+  std::uint64_t id{};
+  Trajectory trajectory{};
+  std::string failure{};
+  bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
+  KnownWay way{};       ///< The path that the trajectory follows.
+  double iterations{};  ///< Iterations that the search took.
+};
+
+}  // namespace flyball

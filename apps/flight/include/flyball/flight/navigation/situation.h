@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a computation of navigation goes by.
+
+#include "flyball/flight/brief.h"
+#include "flyball/flight/mission_topics.h"
+#include "flyball/runtime/occupancy.h"
+
+namespace flyball {
+
+/// All of it outlives the call that it is handed to.
+struct Situation {
+  const Brief& brief;
+  const KnobsInForce& knobs;
+  const OccupancyView& map;
+
+  [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const {
+    return knobs.speed_limit_m_s(brief.site, p_W);
+  }
+};
+
+}  // namespace flyball

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// A published map.
+
+#include "flyball/runtime/occupancy.h"
+#include "flyball/runtime/time.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace flyball {
+
+struct MapRevision {
+  std::uint64_t number{};
+  MissionTime captured{};  ///< Of the newest frame in it.
+  double resolution_m{};
+  /// Never changes. Owners: the message, and readers that go on with this revision while newer ones
+  /// come.
+  std::shared_ptr<const OccupancyView> map{};
+};
+
+}  // namespace flyball

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: legs
+#include "flyball/flight/perception/clear_space.h"
+
+namespace flyball {
+
+ClearSpace clear_over(const Vec3& ground_W) {
+  constexpr double radius_m = 1.0;
+  constexpr double height_m = 2.5;
+  return {ground_W + Vec3::UnitZ() * (0.5 * height_m), {radius_m, 0.5 * height_m}};
+}
+
+}  // namespace flyball

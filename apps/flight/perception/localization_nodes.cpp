@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: perception_nodes
+#include "flyball/flight/perception/localization_nodes.h"
+
+#include "flyball/flight/perception/localization_watch.h"
+
+#include <memory>
+#include <utility>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t longest_job = 1000;  // Poses: ten seconds.
+
+using Fixes = std::optional<Topic<VisualFix>>;
+
+/// Fixes of the camera, if there are any, correct what the navigation samples say.
+class Localize {
+ public:
+  Localize(const FlightParts& parts, const LocalizationTopics& topics, Fixes fixes)
+      : vehicle_{parts.vehicle},
+        mission_{parts.mission},
+        topics_{topics},
+        fixes_{fixes},
+        localizer_{parts.kernels.localizer} {}
+
+  Work operator()(JobContext& job) {
+    Work work;
+    while (const auto fix = fixes_ ? job.take(*fixes_) : nullptr) {
+      correct(job, *fix);
+    }
+    if (const auto sample = job.latest(vehicle_.navigation)) {
+      estimate(job, *sample, work);
+    }
+    return work;
+  }
+
+ private:
+  void correct(JobContext& job, const VisualFix& fix) {
+    const bool was_lost = watch_.is_lost();
+    watch_.fixed(job.now(), fix);
+    if (was_lost != watch_.is_lost()) {
+      log_event(job, mission_, was_lost ? "localized again" : "localization lost");
+    }
+    localizer_->correct(fix);
+    if (watch_.has_given_up(job.now())) {
+      end_mission(job, mission_, MissionStatus::failed, MissionFailure::localization_lost);
+    }
+  }
+
+  void estimate(JobContext& job, const NavigationSample& sample, Work& work) {
+    if (const auto truth = vehicle_.true_pose ? job.latest(*vehicle_.true_pose) : nullptr) {
+      localizer_->reveal(*truth);
+    }
+    const PoseEstimate pose = localizer_->estimate(sample, work);
+    if (!watch_.is_lost()) {
+      watch_.passed(pose);
+    }
+    if (fixes_) {
+      job.publish(topics_.status, watch_.status(job.now(), pose.X_WB.translation().z()));
+    }
+    job.publish(topics_.pose, pose);
+    job.publish(topics_.poses, pose);
+  }
+
+  VehicleTopics vehicle_;
+  MissionTopics mission_;
+  LocalizationTopics topics_;
+  Fixes fixes_;
+  std::shared_ptr<Localizer> localizer_;  ///< See MissionKernels.
+  LocalizationWatch watch_{};
+};
+
+void add_localize(Graph& graph,
+                  const FlightParts& parts,
+                  const LocalizationTopics& topics,
+                  Fixes fixes) {
+  NodeSpec spec;
+  spec.name = "localize";
+  spec.cost = "localizer";
+  spec.trigger = OnMessage{parts.vehicle.navigation.index};
+  spec.priority = 30;
+  spec.deadline = 10ms;
+  spec.writes = {topics.pose.index, topics.poses.index};
+  if (parts.vehicle.true_pose) {
+    spec.reads.push_back(parts.vehicle.true_pose->index);
+  }
+  if (fixes) {
+    spec.reads.push_back(fixes->index);
+    spec.writes.insert(spec.writes.end(), {topics.status.index, parts.mission.end.index});
+    declare_log(spec, parts.mission);
+  }
+  auto localize = std::make_shared<Localize>(parts, topics, fixes);  // Owner: this node alone.
+  graph.node(std::move(spec), [localize](JobContext& job) { return (*localize)(job); });
+}
+
+void add_see(Graph& graph, const FlightParts& parts, Topic<View> view, Topic<VisualFix> fix) {
+  NodeSpec spec;
+  spec.name = "see";
+  spec.cost = frame_cost(parts.brief->settings.kernels.localizer);
+  spec.trigger = OnMessage{view.index};
+  // Before points and map: where nobody knows the pose, a map is worth nothing.
+  spec.priority = 28;
+  spec.writes = {fix.index};
+  if (parts.vehicle.imu) {
+    spec.reads.push_back(parts.vehicle.imu->index);
+  }
+  declare_log(spec, parts.mission);
+  graph.node(std::move(spec), [view, fix, imu = parts.vehicle.imu, mission = parts.mission,
+                               localizer = parts.kernels.localizer](JobContext& job) {
+    Work work;
+    const auto seen = job.latest(view);
+    while (const auto felt = imu ? job.take(*imu) : nullptr) {
+      localizer->feel(*felt);
+    }
+    if (!seen) {
+      return work;
+    }
+    const auto found = localizer->see(visual_frame(*seen), work);
+    if (found) {
+      job.publish(fix, *found);
+    } else {
+      log_event(job, mission, "frame not localized: " + found.error().message);
+    }
+    return work;
+  });
+}
+
+}  // namespace
+
+LocalizationTopics add_localization(Graph& graph, const FlightParts& parts) {
+  LocalizationTopics topics;
+  topics.pose = graph.topic<PoseEstimate>("pose");
+  topics.poses = graph.topic<PoseEstimate>("poses", longest_job);
+  topics.status = graph.topic<LocalizationStatus>("localization");
+  Fixes fixes;
+  if (parts.vehicle.view) {
+    fixes = graph.topic<VisualFix>("fix", 8);
+    add_see(graph, parts, *parts.vehicle.view, *fixes);
+  }
+  add_localize(graph, parts, topics, fixes);
+  return topics;
+}
+
+}  // namespace flyball

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: perception_nodes
+#include "flyball/flight/perception/pose_history.h"
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto pose_memory = 3s;
+
+}  // namespace
+
+void PoseHistory::add(const PoseEstimate& pose) {
+  poses_.push_back(pose);
+  while (poses_.front().stamp + pose_memory < pose.stamp) {
+    poses_.pop_front();
+  }
+}
+
+void PoseHistory::take_from(JobContext& job, Topic<PoseEstimate> poses) {
+  while (const auto pose = job.take(poses)) {
+    add(*pose);
+  }
+}
+
+std::optional<PoseEstimate> PoseHistory::at(MissionTime t) const {
+  if (poses_.empty()) {
+    return std::nullopt;
+  }
+  const auto after = std::lower_bound(
+      poses_.begin(), poses_.end(), t,
+      [](const PoseEstimate& pose, MissionTime time) { return pose.stamp < time; });
+  if (after == poses_.end()) {
+    return poses_.back();
+  }
+  if (after == poses_.begin() || after->stamp == t) {
+    return *after;
+  }
+  const PoseEstimate& a = *(after - 1);
+  const PoseEstimate& b = *after;
+  const double u = ratio(t - a.stamp, b.stamp - a.stamp);
+  PoseEstimate mixed = a;
+  mixed.stamp = t;
+  mixed.X_WB.translation() = (1.0 - u) * a.X_WB.translation() + u * b.X_WB.translation();
+  mixed.X_WB.linear() = Eigen::Quaterniond{a.X_WB.linear()}
+                            .slerp(u, Eigen::Quaterniond{b.X_WB.linear()})
+                            .toRotationMatrix();
+  mixed.v_WB = (1.0 - u) * a.v_WB + u * b.v_WB;
+  return mixed;
+}
+
+}  // namespace flyball
