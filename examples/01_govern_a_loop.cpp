@@ -82,7 +82,8 @@ std::unique_ptr<flyball::PolicyGovernor> make_governor(const flyball::KnobSettin
     return nullptr;
   }
   const auto parameters = flyball::Parameters::resolve("density", policy->parameters(), {});
-  const auto started = policy->start(std::get<flyball::Parameters>(parameters), knobs);
+  // Of the computer nothing is known: `{}` does for a policy that does not reckon with its power.
+  const auto started = policy->start(std::get<flyball::Parameters>(parameters), knobs, {});
   if (!started) {
     std::printf("wrong: %s\n", started.error().message.c_str());
     return nullptr;

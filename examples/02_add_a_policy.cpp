@@ -23,7 +23,8 @@ class NearSharp final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& /*board*/) override {
     if (knobs.spec(knob) == nullptr) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             "policy \"near_sharp\" needs the knob map.resolution_m"};
@@ -75,7 +76,7 @@ int main() {
   auto policy = make();
   const auto knobs = flyball::conformance_knobs();
   const auto parameters = flyball::Parameters::resolve("near_sharp", policy->parameters(), {});
-  const auto started = policy->start(std::get<flyball::Parameters>(parameters), knobs);
+  const auto started = policy->start(std::get<flyball::Parameters>(parameters), knobs, {});
   if (!started) {
     std::printf("wrong: %s\n", started.error().message.c_str());
     return 1;

@@ -19,7 +19,8 @@ class Cycle final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& /*board*/) override {
     fine_m_ = given.number("fine_m");
     coarse_m_ = given.number("coarse_m");
     period_s_ = given.number("period_s");

@@ -9,6 +9,7 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
+#include "flyball/governors/required_power.h"
 #include "flyball/governors/resting.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/governors/waiting_share.h"
@@ -35,12 +36,17 @@ class EnergyClock final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& board) override {
     if (flyball::Status status =
             flyball::require_knobs("policy \"energy_clock\"", knobs,
                                    {"map.resolution_m", "map.range_m", "cpu.frequency_hz"});
         !status) {
       return status;
+    }
+    const auto power = flyball::required_power("policy \"energy_clock\"", board);
+    if (!power) {
+      return power.error();
     }
     const flyball::KnobSpec& cells = *knobs.spec("map.resolution_m");
     cells_m_ = cells.legal;
@@ -52,7 +58,7 @@ class EnergyClock final : public flyball::Policy {
     range_m_ = knobs.value("map.range_m");
     const auto levels = flyball::levels_between(cells_m_, given.number("fine_latency_s"),
                                                 given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make({}, levels, {range_m_}, knobs);
+    auto search = flyball::EnergySearch::make({}, levels, {range_m_}, knobs, *power);
     if (!search) {
       return flyball::Error{search.error().code,
                             "policy \"energy_clock\": " + search.error().message};

@@ -18,7 +18,8 @@ class Fixed final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& /*board*/) override {
     const auto wish = flyball::fixed_settings("policy \"fixed\"", given, knobs);
     if (!wish) {
       return wish.error();

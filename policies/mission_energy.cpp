@@ -8,6 +8,7 @@
 #include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
+#include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
@@ -36,13 +37,18 @@ class MissionEnergy final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& board) override {
     deceleration_m_s2_ = given.number("deceleration_m_s2");
     const std::string self = "policy \"mission_energy\"";
     if (flyball::Status status = flyball::require_knobs(
             self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
         !status) {
       return status;
+    }
+    const auto power = flyball::required_power(self, board);
+    if (!power) {
+      return power.error();
     }
     auto way = flyball::MissionWay::make(self, given, knobs);
     if (!way) {
@@ -54,7 +60,7 @@ class MissionEnergy final : public flyball::Policy {
     }
     const auto levels =
         way->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(*settings, levels, way->ranges_m(), knobs);
+    auto search = flyball::EnergySearch::make(*settings, levels, way->ranges_m(), knobs, *power);
     if (!search) {
       return refused(search.error().message);
     }

@@ -10,6 +10,7 @@
 #include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
+#include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
@@ -37,12 +38,17 @@ class Reference final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& board) override {
     const std::string self = "policy \"reference\"";
     if (flyball::Status status = flyball::require_knobs(
             self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
         !status) {
       return status;
+    }
+    const auto power = flyball::required_power(self, board);
+    if (!power) {
+      return power.error();
     }
     auto way = flyball::MissionWay::make(self, given, knobs);
     if (!way) {
@@ -52,7 +58,7 @@ class Reference final : public flyball::Policy {
     settings.spacing_m = way->spacing_m();
     const auto levels =
         way->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(settings, levels, way->ranges_m(), knobs);
+    auto search = flyball::EnergySearch::make(settings, levels, way->ranges_m(), knobs, *power);
     if (!search) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             self + ": " + search.error().message};

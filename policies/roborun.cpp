@@ -76,7 +76,8 @@ class Roborun final : public flyball::Policy {
   }
 
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::KnobSettings& knobs) override {
+                        const flyball::KnobSettings& knobs,
+                        const flyball::BoardModel& /*board*/) override {
     if (flyball::Status status =
             flyball::require_knobs("policy \"roborun\"", knobs,
                                    {"map.resolution_m", "map.range_m", "mission.max_speed_m_s"});

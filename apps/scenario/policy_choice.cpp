@@ -25,23 +25,25 @@ Preset combination_of(const std::string& name) {
 
 Result<std::unique_ptr<Policy>> start_one(const std::string& name,
                                           std::uint64_t seed,
-                                          const KnobSettings& knobs) {
+                                          const KnobSettings& knobs,
+                                          const BoardModel& board) {
   const auto choice = choose_policy(name, seed);
   if (!choice) {
     return choice.error();
   }
-  return choice->started(knobs);
+  return choice->started(knobs, board);
 }
 
 /// One half of a combination.
 Result<std::unique_ptr<Policy>> start_half(const std::string& name,
                                            std::uint64_t seed,
-                                           const KnobSettings& knobs) {
+                                           const KnobSettings& knobs,
+                                           const BoardModel& board) {
   if (combination_of(name).is_combination()) {
     return Error{ErrorCode::invalid_input,
                  "policy \"" + name + "\" is a combination itself; name one policy"};
   }
-  return start_one(name, seed, knobs);
+  return start_one(name, seed, knobs, board);
 }
 
 /// The library that one policy comes from; empty: none.
@@ -82,16 +84,17 @@ Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed) 
 Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
                                              std::uint64_t seed,
                                              Duration application_period,
-                                             const KnobSettings& knobs) {
+                                             const KnobSettings& knobs,
+                                             const BoardModel& board) {
   const Preset both = combination_of(name);
   if (!both.is_combination()) {
-    return start_one(name, seed, knobs);
+    return start_one(name, seed, knobs, board);
   }
-  auto application = start_half(both.application, seed, knobs);
+  auto application = start_half(both.application, seed, knobs, board);
   if (!application) {
     return application.error();
   }
-  auto clock = start_half(both.clock, seed, knobs);
+  auto clock = start_half(both.clock, seed, knobs, board);
   if (!clock) {
     return clock.error();
   }

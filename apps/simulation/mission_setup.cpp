@@ -72,9 +72,10 @@ Result<MissionKernels> make_kernels(const Scenario& scenario) {
 }
 
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
-                                                      const KnobSettings& knobs) {
+                                                      const KnobSettings& knobs,
+                                                      const BoardModel& board) {
   auto policy = start_policy(scenario.governor.policy, scenario.seed,
-                             from_seconds(scenario.governor.period_s), knobs);
+                             from_seconds(scenario.governor.period_s), knobs, board);
   if (!policy) {
     return policy.error();
   }
@@ -111,7 +112,8 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   if (!setup) {
     return setup;
   }
-  auto governor = make_governor(scenario, setup->equipment.knobs);
+  auto governor =
+      make_governor(scenario, setup->equipment.knobs, board_model_of(setup->platform->model()));
   if (!governor) {
     return governor.error();
   }

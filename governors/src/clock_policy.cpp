@@ -60,7 +60,9 @@ std::vector<ParameterSpec> ClockPolicy::parameters() const {
   return specs;
 }
 
-Status ClockPolicy::start(const Parameters& given, const KnobSettings& knobs) {
+Status ClockPolicy::start(const Parameters& given,
+                          const KnobSettings& knobs,
+                          const BoardModel& /*board*/) {
   const std::string owner = "policy \"" + name_ + "\"";
   const KnobSpec* spec = knobs.spec(knob);
   if (spec == nullptr || spec->legal.empty()) {

@@ -24,7 +24,9 @@ CombinedPolicy::CombinedPolicy(std::unique_ptr<Policy> application,
                  to_seconds(application_period_));
 }
 
-Status CombinedPolicy::start(const Parameters& /*given*/, const KnobSettings& /*knobs*/) {
+Status CombinedPolicy::start(const Parameters& /*given*/,
+                             const KnobSettings& /*knobs*/,
+                             const BoardModel& /*board*/) {
   return Done{};
 }
 

@@ -30,7 +30,8 @@ bool is_positive(double x) {
 Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
                                         const std::vector<SearchLevel>& levels,
                                         const std::vector<double>& ranges_m,
-                                        const KnobSettings& knobs) {
+                                        const KnobSettings& knobs,
+                                        const PowerCost& computer) {
   std::vector<double> resolutions_m;
   resolutions_m.reserve(levels.size());
   for (const SearchLevel& level : levels) {
@@ -45,7 +46,7 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   if (!points) {
     return points.error();
   }
-  EnergySearch search{settings, levels, std::move(*points)};
+  EnergySearch search{settings, levels, std::move(*points), computer};
   search.in_force_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
                       knobs.value("cpu.frequency_hz")};
   search.points_.prune(4, [&](const double* at, std::vector<double>& costs) {
@@ -68,19 +69,25 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
 
 EnergySearch::EnergySearch(const EnergySearchSettings& settings,
                            const std::vector<SearchLevel>& levels,
-                           OperatingPoints points)
-    : settings_{settings}, points_{std::move(points)}, bound_{levels.size(), 1, settings.bound} {
+                           OperatingPoints points,
+                           const PowerCost& computer)
+    : settings_{settings},
+      points_{std::move(points)},
+      bound_{levels.size(), 1, settings.bound},
+      computer_{computer},
+      thermal_{computer},
+      most_clock_hz_{points_.axes()[clock_axis].values.back()} {
   for (const SearchLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;
     prior.slope_resolution = 0.0;
     prior.slope_points = level.range_slope;  // "points" are metres of range here
-    prior.seconds = level.latency_s / std::pow(level.range_m, level.range_slope) /
-                    settings.clock.factor(Hertz{level.clock_hz});
+    prior.seconds =
+        level.latency_s / std::pow(level.range_m, level.range_slope) /
+        settings.clock.factor(level.clock_hz > 0.0 ? Hertz{level.clock_hz} : Hertz{most_clock_hz_});
     prior.sigma = 0.5;
     models_.add(std::to_string(level.resolution_m), prior);
   }
-  most_clock_hz_ = points_.axes()[clock_axis].values.back();
 }
 
 MapSetting EnergySearch::setting(std::size_t point) const {

@@ -93,7 +93,8 @@ Result<PolicyChoice> load_one(const std::string& path, std::uint64_t seed) {
 
 }  // namespace
 
-Result<std::unique_ptr<Policy>> PolicyChoice::started(const KnobSettings& knobs) const {
+Result<std::unique_ptr<Policy>> PolicyChoice::started(const KnobSettings& knobs,
+                                                      const BoardModel& board) const {
   auto policy = make();
   if (!policy) {
     return policy;
@@ -106,7 +107,8 @@ Result<std::unique_ptr<Policy>> PolicyChoice::started(const KnobSettings& knobs)
     }
     return all;
   }
-  if (const Status started = (*policy)->start(std::get<Parameters>(given), knobs); !started) {
+  if (const Status started = (*policy)->start(std::get<Parameters>(given), knobs, board);
+      !started) {
     return started.error();
   }
   return policy;

@@ -21,14 +21,6 @@ using Row = Eigen::Vector3d;
 
 }  // namespace
 
-Watts ComputerPower::power(Hertz clock, double busy_cores) const {
-  return cost.power(clock, busy_cores);
-}
-
-Joules ComputerPower::job_energy(Hertz clock, double seconds) const {
-  return Joules{cost.converter * cost.core_power(clock).value() * seconds};
-}
-
 RotorPower::RotorPower(const Prior& prior)
     : solver_{Row{prior.hover_w, prior.linear_w_s_m, prior.quadratic_w_s2_m2},
               Row{prior.sigma_hover_w, prior.sigma_linear_w_s_m, prior.sigma_quadratic_w_s2_m2} /

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -44,9 +45,9 @@ bool is_told(const Observation& seen) {
 
 }  // namespace
 
-ThermalLimit::ThermalLimit(const ThermalLimitSettings& settings, const ComputerPower& computer)
+ThermalLimit::ThermalLimit(PowerCost computer, const ThermalLimitSettings& settings)
     : settings_{settings},
-      computer_{computer},
+      computer_{std::move(computer)},
       solver_{Row{prior_q_k_s, prior_g_k_j, prior_k_1_s},
               Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} * (prior_sigmas / noise_k), forgetting},
       window_s_{first_window * settings.window_s} {

@@ -57,7 +57,8 @@ std::unique_ptr<flyball::Policy> started_half(const std::string& name) {
       preset ? preset->parameters : std::map<std::string, flyball::ParameterValue>{});
   const auto* parameters = std::get_if<flyball::Parameters>(&given);
   const bool starts =
-      parameters != nullptr && policy->start(*parameters, flyball::conformance_knobs()).ok();
+      parameters != nullptr &&
+      policy->start(*parameters, flyball::conformance_knobs(), flyball::conformance_board()).ok();
   return starts ? std::move(policy) : nullptr;
 }
 
@@ -114,7 +115,7 @@ TEST(Policies, start_or_say_why_not_when_a_mission_has_no_knobs) {
       spec.required = false;
     }
     const auto given = flyball::Parameters::resolve(name, specs, {});
-    const auto status = policy->start(std::get<flyball::Parameters>(given), {});
+    const auto status = policy->start(std::get<flyball::Parameters>(given), {}, {});
     EXPECT_TRUE(status.ok() || !status.error().message.empty()) << name;
   }
 }
@@ -127,8 +128,26 @@ std::string refusal(const std::string& name, const flyball::KnobSettings& knobs)
     spec.required = false;
   }
   const auto given = flyball::Parameters::resolve(name, specs, {});
-  const auto status = policy->start(std::get<flyball::Parameters>(given), knobs);
+  const auto status =
+      policy->start(std::get<flyball::Parameters>(given), knobs, flyball::conformance_board());
   return status.ok() ? "" : status.error().message;
+}
+
+TEST(Policies, that_need_the_computers_power_say_what_to_pass) {
+  int refused = 0;
+  for (const std::string& name : policies().names<flyball::Policy>()) {
+    const auto policy = policies().make<flyball::Policy>(name);
+    const auto given = flyball::Parameters::resolve(
+        name, policy->parameters(), flyball::with_examples(policy->parameters(), {}));
+    const auto status =
+        policy->start(std::get<flyball::Parameters>(given), flyball::conformance_knobs(), {});
+    if (!status.ok()) {
+      EXPECT_NE(std::string::npos, status.error().message.find("pass a flyball::BoardModel"))
+          << status.error().message;
+      ++refused;
+    }
+  }
+  EXPECT_EQ(refused, 3) << "energy_clock, mission_energy, reference";
 }
 
 TEST(Policies, name_all_knobs_that_they_miss_at_once) {
@@ -160,7 +179,8 @@ class Culprit final : public flyball::Policy {
     return {};
   }
   flyball::Status start(const flyball::Parameters& /*given*/,
-                        const flyball::KnobSettings& /*knobs*/) override {
+                        const flyball::KnobSettings& /*knobs*/,
+                        const flyball::BoardModel& /*board*/) override {
     return flyball::Done{};
   }
   [[nodiscard]] flyball::Decision decide(const flyball::Observation& /*seen*/) noexcept override {

@@ -41,7 +41,7 @@ TEST(PolicyFiles, keep_the_contract_of_a_policy) {
 TEST(PolicyFiles, of_one_rule_decide_the_same) {
   std::vector<std::unique_ptr<Policy>> policies;
   for (const std::string& file : examples()) {
-    auto policy = chosen(file).started(conformance_knobs());
+    auto policy = chosen(file).started(conformance_knobs(), conformance_board());
     ASSERT_TRUE(policy.ok()) << policy.error().message;
     policies.push_back(std::move(*policy));
   }
@@ -67,7 +67,7 @@ TEST(PolicyFiles, with_wrong_parameters_refuse_in_one_sentence) {
   for (const std::string& file : examples()) {
     PolicyChoice choice = chosen(file);
     choice.parameters = {{"fine_m", 0.9}, {"coarse_m", 0.6}};
-    const auto policy = choice.started(conformance_knobs());
+    const auto policy = choice.started(conformance_knobs(), conformance_board());
     ASSERT_FALSE(policy.ok()) << file;
     EXPECT_NE(std::string::npos, policy.error().message.find("must be below")) << file;
     EXPECT_EQ(std::string::npos, policy.error().message.find('\n'));

@@ -52,7 +52,7 @@ std::unique_ptr<ClockPolicy> started(std::vector<ClockSample>& seen) {
   auto policy = std::make_unique<ClockPolicy>("witness", std::make_unique<Witness>(seen));
   const auto given =
       Parameters::resolve("witness", policy->parameters(), {{"sampling_period_s", 0.1}});
-  EXPECT_TRUE(policy->start(std::get<Parameters>(given), knobs()).ok());
+  EXPECT_TRUE(policy->start(std::get<Parameters>(given), knobs(), {}).ok());
   return policy;
 }
 
@@ -92,7 +92,7 @@ TEST(ClockPolicy, refuses_a_computer_without_a_list_of_clocks) {
   ClockPolicy policy{"witness", std::make_unique<Witness>(samples)};
   const auto given =
       Parameters::resolve("witness", policy.parameters(), {{"sampling_period_s", 0.1}});
-  EXPECT_FALSE(policy.start(std::get<Parameters>(given), {}).ok());
+  EXPECT_FALSE(policy.start(std::get<Parameters>(given), {}, {}).ok());
 }
 
 }  // namespace

@@ -14,7 +14,9 @@ class Wisher final : public Policy {
   Wisher(double value, std::optional<Duration> period, int* asked)
       : value_{value}, period_{period}, asked_{asked} {}
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
-  Status start(const Parameters& /*given*/, const KnobSettings& /*knobs*/) override {
+  Status start(const Parameters& /*given*/,
+               const KnobSettings& /*knobs*/,
+               const BoardModel& /*board*/) override {
     return Done{};
   }
   [[nodiscard]] std::optional<Duration> period() const override { return period_; }

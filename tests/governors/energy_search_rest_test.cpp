@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "flyball/governors/energy_search.h"
+#include "flyball/governors/policy_conformance.h"
 
 #include "search_knobs.h"
 #include <cmath>
@@ -17,7 +18,8 @@ EnergySearch search() {
   const std::vector<SearchLevel> levels{{0.15, 0.4, 2.2, 25.0, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
   return *EnergySearch::make({}, levels, {7.0, 12.0},
-                             kit::search_knobs({0.25e9, 0.5e9, 1e9, 1.5e9, top_hz}));
+                             kit::search_knobs({0.25e9, 0.5e9, 1e9, 1.5e9, top_hz}),
+                             *conformance_board().power);
 }
 
 TEST(EnergySearchRest, takes_the_lowest_clock_that_is_soon_enough) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/energy_search.h"
 
+#include "flyball/governors/policy_conformance.h"
+
 #include "search_knobs.h"
 #include <cmath>
 
@@ -15,10 +17,14 @@ KnobSettings knobs() {
   return kit::search_knobs({0.5e9, 1e9, top_hz});
 }
 
+PowerCost power() {
+  return *conformance_board().power;
+}
+
 EnergySearch search(double fine_most_range_m = 25.0) {
   const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, fine_most_range_m, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make({}, levels, {7.0, 12.0}, knobs());
+  return *EnergySearch::make({}, levels, {7.0, 12.0}, knobs(), power());
 }
 
 Surroundings open_space() {
@@ -200,8 +206,9 @@ TEST(EnergySearch, counts_a_map_that_never_comes_as_a_miss) {
 
 TEST(EnergySearch, refuses_what_no_knob_can_be) {
   const std::vector<SearchLevel> levels{{5.0, 0.5, 2.2, 25.0, 7.0, top_hz}};
-  EXPECT_FALSE(EnergySearch::make({}, levels, {7.0}, knobs()).ok());
-  EXPECT_FALSE(EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}).ok());
+  EXPECT_FALSE(EnergySearch::make({}, levels, {7.0}, knobs(), power()).ok());
+  EXPECT_FALSE(
+      EnergySearch::make({}, {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}}, {7.0}, {}, power()).ok());
 }
 
 /// Maps of .8 m, one in each of `n` looks, `period_s` apart.
@@ -249,7 +256,7 @@ TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
 EnergySearch search_with(const EnergySearchSettings& settings) {
   const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs());
+  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs(), power());
 }
 
 TEST(EnergySearch,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way past obstacles as the search prices it.
 #include "flyball/governors/energy_search.h"
+#include "flyball/governors/policy_conformance.h"
 
 #include "search_knobs.h"
 #include <cmath>
@@ -15,7 +16,8 @@ constexpr double top_hz = 2e9;
 EnergySearch search_with(const EnergySearchSettings& settings) {
   const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make(settings, levels, {7.0, 12.0}, kit::search_knobs({top_hz}));
+  return *EnergySearch::make(settings, levels, {7.0, 12.0}, kit::search_knobs({top_hz}),
+                             *conformance_board().power);
 }
 
 /// A place where the mission allows 1 m/s.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/horizon_search.h"
 
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/governors/speed_limit.h"
 
 #include "search_knobs.h"
@@ -26,7 +27,8 @@ struct Made {
             {},
             {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}, {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}},
             {12.0},
-            kit::search_knobs({slow_hz, 1e9, top_hz}))},
+            kit::search_knobs({slow_hz, 1e9, top_hz}),
+            *conformance_board().power)},
         horizon{{}, search} {
     Surroundings open;
     open.speed_limit_m_s = 6.0;

@@ -49,7 +49,7 @@ std::string end_of(const std::string& name, const IsolationLimits& limits) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&given)) {
     return errors->front().message;
   }
-  if (const Status started = policy.start(std::get<Parameters>(given), conformance_knobs());
+  if (const Status started = policy.start(std::get<Parameters>(given), conformance_knobs(), {});
       !started) {
     EXPECT_NE(std::string::npos, started.error().message.find(path)) << started.error().message;
     return started.error().message;

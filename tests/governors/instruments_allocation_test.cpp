@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/governors/thermal_limit.h"
@@ -19,7 +20,7 @@ TEST(Instruments, allocate_nothing_after_construction) {
   LatencyBound bound{3, 4, {}};
   RotorPower rotors;
   const SpeedLimit limit;
-  ThermalLimit heat;
+  ThermalLimit heat{*conformance_board().power};
   Observation warm;
   warm.trip_c = 80.0;
   warm.frequency = Hertz{2e9};

@@ -37,6 +37,20 @@ TEST(LibraryPolicy, declares_decides_and_gives_its_reason) {
   EXPECT_EQ("", policy->trouble());
 }
 
+TEST(LibraryPolicy, is_told_what_the_computer_draws_and_where_it_gets_too_hot) {
+  const auto policy = opened("culprit");
+  BoardModel board = conformance_board();
+  const double top_w = board.power->power(board.frequencies.back(), 1.0).value();
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 11.0}}, conformance_knobs(), board).ok());
+  Decision wished = policy->decide(at_speed(1.0));
+  EXPECT_DOUBLE_EQ(top_w, kit::wish_for(wished, "map.resolution_m").value_or(0.0));
+  EXPECT_EQ(board.thermal->trips.front().at_c, kit::wish_for(wished, "map.range_m"));
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 11.0}}, conformance_knobs(), {}).ok());
+  wished = policy->decide(at_speed(1.0));
+  EXPECT_EQ(0.0, kit::wish_for(wished, "map.resolution_m")) << "nothing is known";
+  EXPECT_EQ(0.0, kit::wish_for(wished, "map.range_m"));
+}
+
 TEST(LibraryPolicy, says_why_it_does_not_start) {
   const auto policy = opened("culprit");
   const Status refused = kit::start(*policy, {{"crime", 8.0}});

@@ -94,6 +94,40 @@ TEST_F(LuaPolicy, declares_parameters_and_a_period_and_gets_what_a_preset_gives)
   EXPECT_EQ(0.25 + 1.20, kit::wish_for(policy->decide({}), "map.resolution_m"));
 }
 
+TEST_F(LuaPolicy, is_told_what_the_computer_draws_and_where_it_gets_too_hot) {
+  const auto policy = open(
+      "function start(given, knobs, board)\n"
+      "  local top = board.clocks[#board.clocks]\n"
+      "  watts = top.idle_w + top.busy_core_w\n"
+      "  trip = board.thermal.trips[1]\n"
+      "  log(board.cores, top.hz, board.switching_s, board.thermal.resistance_k_w)\n"
+      "end\n"
+      "function decide(seen)\n"
+      "  return {['map.range_m'] = watts, ['map.rate_hz'] = trip.at_c - trip.hysteresis_k,\n"
+      "          ['cpu.frequency_hz'] = trip.cap_hz}\n"
+      "end");
+  ASSERT_TRUE(policy.ok()) << policy.error().message;
+  const BoardModel board = conformance_board();
+  const Status started = kit::start(**policy, {}, conformance_knobs(), board);
+  ASSERT_TRUE(started.ok()) << started.error().message;
+  const Decision wished = (*policy)->decide({});
+  EXPECT_DOUBLE_EQ(board.power->power(board.frequencies.back(), 1.0).value(),
+                   kit::wish_for(wished, "map.range_m").value_or(0.0));
+  EXPECT_EQ(78.0, kit::wish_for(wished, "map.rate_hz"));
+  EXPECT_EQ(806.4e6, kit::wish_for(wished, "cpu.frequency_hz"));
+}
+
+TEST_F(LuaPolicy, is_not_told_what_nobody_knows) {
+  const auto policy = open(
+      "function start(given, knobs, board)\n"
+      "  for name in pairs(board) do error('told: ' .. name) end\n"
+      "end\n"
+      "function decide() return {} end");
+  ASSERT_TRUE(policy.ok()) << policy.error().message;
+  const Status started = kit::start(**policy, {}, conformance_knobs(), {});
+  EXPECT_TRUE(started.ok()) << started.error().message;
+}
+
 TEST_F(LuaPolicy, refuses_to_start_in_its_own_words) {
   const auto policy = open("function start() error('no wind') end\nfunction decide() end");
   ASSERT_TRUE(policy.ok());

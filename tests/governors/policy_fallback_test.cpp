@@ -50,7 +50,8 @@ class Troubled final : public flyball::Policy {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override { return {}; }
   flyball::Status start(const flyball::Parameters& /*given*/,
-                        const flyball::KnobSettings& /*knobs*/) override {
+                        const flyball::KnobSettings& /*knobs*/,
+                        const flyball::BoardModel& /*board*/) override {
     return flyball::Done{};
   }
   [[nodiscard]] Decision decide(const Observation& /*seen*/) noexcept override {

@@ -14,7 +14,9 @@ class Half final : public Policy {
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
     return {{"range_m", 5.0, 1.0, 25.0, "Of the map."}};
   }
-  Status start(const Parameters& given, const KnobSettings& /*knobs*/) override {
+  Status start(const Parameters& given,
+               const KnobSettings& /*knobs*/,
+               const BoardModel& /*board*/) override {
     range_m_ = given.number("range_m");
     return Done{};
   }
@@ -47,7 +49,7 @@ class PolicyFile : public testing::Test {
 TEST_F(PolicyFile, a_preset_brings_parameters_for_a_policy_with_a_name) {
   const auto choice = load("mine.toml", "policy = 'half'\n[parameters]\nrange_m = 9\n");
   ASSERT_TRUE(choice.ok()) << choice.error().message;
-  const auto policy = choice->started(conformance_knobs());
+  const auto policy = choice->started(conformance_knobs(), {});
   ASSERT_TRUE(policy.ok());
   EXPECT_EQ(9.0, kit::wish_for((*policy)->decide({}), "map.range_m"));
 }
@@ -56,7 +58,7 @@ TEST_F(PolicyFile, what_is_wrong_with_parameters_is_said_at_once) {
   const auto choice =
       load("mine.toml", "policy = 'half'\n[parameters]\nrange_m = 90\ncolour = 'red'\n");
   ASSERT_TRUE(choice.ok());
-  const auto policy = choice->started(conformance_knobs());
+  const auto policy = choice->started(conformance_knobs(), {});
   ASSERT_FALSE(policy.ok());
   EXPECT_NE(std::string::npos, policy.error().message.find("90 is not within 1 to 25"));
   EXPECT_NE(std::string::npos, policy.error().message.find("no parameter \"colour\""));
@@ -66,12 +68,12 @@ TEST_F(PolicyFile, a_library_is_loaded_and_a_preset_beside_it_sets_its_parameter
   const std::string library = std::string{FLYBALL_TEST_PLUGINS} + "/culprit.so";
   const auto bare = load_policy(library, known_, 1);
   ASSERT_TRUE(bare.ok()) << bare.error().message;
-  EXPECT_TRUE(bare->started(conformance_knobs()).ok());
+  EXPECT_TRUE(bare->started(conformance_knobs(), {}).ok());
   const std::string preset =
       scratch_.file("mine.toml", "policy = '" + library + "'\n[parameters]\ncrime = 8\n");
   const auto choice = load_policy(preset, known_, 1);
   ASSERT_TRUE(choice.ok()) << choice.error().message;
-  const auto policy = choice->started(conformance_knobs());
+  const auto policy = choice->started(conformance_knobs(), {});
   ASSERT_FALSE(policy.ok());
   EXPECT_EQ(library + ": not today", policy.error().message);
   EXPECT_EQ((std::vector<std::string>{preset, library}), files_of_policy(preset));
@@ -108,7 +110,7 @@ TEST_F(PolicyFile, a_script_lies_beside_its_preset) {
                     "function decide() return {['map.range_m'] = range_m} end"));
   const auto choice = load("mine.toml", "policy = 'mine.lua'\n[parameters]\nrange_m = 4\n");
   ASSERT_TRUE(choice.ok()) << choice.error().message;
-  const auto policy = choice->started(conformance_knobs());
+  const auto policy = choice->started(conformance_knobs(), {});
   ASSERT_TRUE(policy.ok());
   EXPECT_EQ(4.0, kit::wish_for((*policy)->decide({}), "map.range_m"));
 }

@@ -10,34 +10,6 @@
 namespace flyball {
 namespace {
 
-TEST(ComputerPower, agrees_with_the_platform_that_has_the_same_numbers) {
-  const ComputerPower computer;
-  PlatformModel model;
-  model.power = computer.cost;
-  const ModeledPlatform platform{model};
-  for (const double f : {0.3456e9, 0.8064e9, 2.0352e9}) {
-    for (const double busy : {0.0, 1.5, 4.0}) {
-      EXPECT_DOUBLE_EQ(computer.power(Hertz{f}, busy).value(),
-                       platform.power({4, Hertz{f}}, busy).value());
-    }
-  }
-}
-
-TEST(ComputerPower, four_cores_of_a_TX2_take_about_4_W_of_their_rail_at_the_top) {
-  const ComputerPower computer;
-  const double f = 2.0352e9;
-  const double rail_w =
-      (computer.power(Hertz{f}, 4.0) - computer.power(Hertz{f}, 0.0)).value() / 1.24 + 0.15 + 0.102;
-  EXPECT_NEAR(rail_w, 4.3, 0.1);  // facts of the platform file: 4.3 W
-}
-
-TEST(ComputerPower, the_energy_of_a_job_is_what_it_adds_to_an_idle_computer) {
-  const ComputerPower computer;
-  const Hertz f{1.5744e9};
-  const double added_w = (computer.power(f, 1.0) - computer.power(f, 0.0)).value();
-  EXPECT_NEAR(computer.job_energy(f, 0.63).value(), added_w * 0.63, 1e-12);
-}
-
 TEST(RotorPower, is_equation_1_in_steady_flight_before_anything_is_measured) {
   const RotorPower rotors;  // Matrice 100, .5 kg: 251.7 + .197 * 500 = 350.2 W in hover
   EXPECT_NEAR(rotors.power(0.0).value(), 350.2, 0.5);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/thermal_limit.h"
 
+#include "flyball/governors/policy_conformance.h"
 #include "flyball/runtime/thermal.h"
 
 #include <algorithm>
@@ -15,6 +16,10 @@ constexpr double trip_c = 80.0;
 constexpr double guard_k = ThermalLimitSettings{}.guard_k;
 const std::vector<double> clocks_hz{0.3456e9, 0.8064e9, 1.2672e9, 1.4208e9,
                                     1.5744e9, 1.728e9,  1.8816e9, 2.0352e9};
+
+PowerCost computer() {
+  return *conformance_board().power;
+}
 
 ThermalModel sink() {
   return {40.0, 8.0, 540.0, {{trip_c, 2.0, Hertz{1.4208e9}}}};
@@ -36,7 +41,7 @@ struct Bench {
     one.temperature_c = sensor_step_k > 0.0 ? sensor_step_k * std::floor(t_c / sensor_step_k) : t_c;
     return one;
   }
-  [[nodiscard]] Watts power() const { return ComputerPower{}.power(Hertz{clock_hz}, busy_cores); }
+  [[nodiscard]] Watts power() const { return computer().power(Hertz{clock_hz}, busy_cores); }
   void draw(double seconds, ThermalLimit& limit, bool obeys) {
     constexpr double dt_s = 0.25;
     for (double t_s = 0.0; t_s < seconds; t_s += dt_s) {
@@ -50,7 +55,7 @@ struct Bench {
   ThermalState state{sink(), Watts{0.0}};
   MissionTime now{};
   double clock_hz{2.0352e9};
-  double busy_cores{2.9};  // 5.3 W: 82 C in the long run.
+  double busy_cores{2.9};  // 6.5 W: 92 C in the long run.
   double sensor_step_k{};
 };
 
@@ -63,7 +68,7 @@ void teach(Bench& bench, ThermalLimit& limit) {
 }
 
 TEST(ThermalLimit, is_none_where_nobody_tells_a_trip) {
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   Observation silent;
   silent.temperature_c = 120.0;
   silent.frequency = Hertz{2e9};
@@ -75,7 +80,7 @@ TEST(ThermalLimit, is_none_where_nobody_tells_a_trip) {
 
 TEST(ThermalLimit, the_power_for_ever_is_what_holds_the_guard_below_the_trip) {
   Bench bench{60.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   teach(bench, limit);
   const double expected_w = (trip_c - guard_k - 40.0) / 8.0;  // T = T_air + R P.
   ASSERT_TRUE(limit.sustainable_power());
@@ -84,7 +89,7 @@ TEST(ThermalLimit, the_power_for_ever_is_what_holds_the_guard_below_the_trip) {
 
 TEST(ThermalLimit, foretells_the_closed_form) {
   Bench bench{50.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   teach(bench, limit);
   limit.learn(bench.seen());
   const double start_c = bench.state.temperature_c();
@@ -101,7 +106,7 @@ TEST(ThermalLimit, foretells_the_closed_form) {
 
 TEST(ThermalLimit, the_power_of_one_horizon_ends_at_the_limit) {
   Bench bench{70.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   teach(bench, limit);
   bench.state.set_temperature(78.0);
   limit.learn(bench.seen());
@@ -115,7 +120,7 @@ TEST(ThermalLimit, the_power_of_one_horizon_ends_at_the_limit) {
 TEST(ThermalLimit, who_obeys_never_trips_and_ends_close_to_the_limit) {
   for (const double start_c : {40.0, 70.0, 79.0, 79.7, 79.9}) {
     Bench bench{start_c};
-    ThermalLimit limit;
+    ThermalLimit limit{computer()};
     bench.draw(3600.0, limit, true);
     EXPECT_LT(bench.state.hottest_c(), trip_c) << start_c;
     EXPECT_GT(bench.state.temperature_c(), trip_c - guard_k - 0.5) << start_c;
@@ -126,7 +131,7 @@ TEST(ThermalLimit, who_obeys_never_trips_and_ends_close_to_the_limit) {
 TEST(ThermalLimit, nor_with_a_thermometer_of_half_degrees) {
   for (const double start_c : {40.0, 70.0, 79.0}) {
     Bench bench{start_c, 0.5};
-    ThermalLimit limit;
+    ThermalLimit limit{computer()};
     bench.draw(3600.0, limit, true);
     EXPECT_LT(bench.state.hottest_c(), trip_c) << start_c;
     EXPECT_GT(bench.state.temperature_c(), trip_c - guard_k - 1.5) << start_c;
@@ -136,7 +141,7 @@ TEST(ThermalLimit, nor_with_a_thermometer_of_half_degrees) {
 TEST(ThermalLimit, before_it_has_learned_it_is_careful_close_to_the_trip_only) {
   const auto first_hz = [](double start_c) {
     Bench bench{start_c};
-    ThermalLimit limit;
+    ThermalLimit limit{computer()};
     limit.learn(bench.seen());
     return limit.most_clock_hz(clocks_hz);
   };
@@ -146,7 +151,7 @@ TEST(ThermalLimit, before_it_has_learned_it_is_careful_close_to_the_trip_only) {
 
 TEST(ThermalLimit, a_clock_that_was_lowered_stays_so_for_a_while) {
   Bench bench{79.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   int changes = 0;
   double last_hz = bench.clock_hz;
   for (int i = 0; i < 600; ++i) {
@@ -161,14 +166,14 @@ TEST(ThermalLimit, a_clock_that_was_lowered_stays_so_for_a_while) {
 
 TEST(ThermalLimit, a_cold_computer_may_have_its_top_clock) {
   Bench bench{40.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   bench.draw(60.0, limit, true);
   EXPECT_EQ(bench.clock_hz, clocks_hz.back());
 }
 
 TEST(ThermalLimit, learns_that_the_sink_got_worse) {
   Bench bench{70.0};
-  ThermalLimit limit;
+  ThermalLimit limit{computer()};
   bench.draw(600.0, limit, true);
   bench.state.set_cooling(45.0, 8.0);
   bench.draw(3600.0, limit, true);
@@ -178,7 +183,7 @@ TEST(ThermalLimit, learns_that_the_sink_got_worse) {
 
 TEST(ThermalLimit, nonsense_is_as_if_nobody_told) {
   for (const double x : {std::nan(""), 1e300, -1.0}) {
-    ThermalLimit limit;
+    ThermalLimit limit{computer()};
     Observation seen = Bench{79.0}.seen();
     seen.trip_c = x;
     limit.learn(seen);

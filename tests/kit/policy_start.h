@@ -13,10 +13,11 @@ using GivenParameters = std::map<std::string, ParameterValue>;
 /// @pre The parameters are within their own bounds.
 [[nodiscard]] inline Status start(Policy& policy,
                                   const GivenParameters& given = {},
-                                  const KnobSettings& knobs = conformance_knobs()) {
+                                  const KnobSettings& knobs = conformance_knobs(),
+                                  const BoardModel& board = conformance_board()) {
   const auto resolved = Parameters::resolve("policy", policy.parameters(), given);
   FLYBALL_ASSERT(std::holds_alternative<Parameters>(resolved), "parameters of a test's policy");
-  return policy.start(std::get<Parameters>(resolved), knobs);
+  return policy.start(std::get<Parameters>(resolved), knobs, board);
 }
 
 /// The wish for one knob; none when the policy does not name it.

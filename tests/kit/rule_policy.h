@@ -18,7 +18,9 @@ class RulePolicy final : public Policy {
  public:
   explicit RulePolicy(Rule rule) : rule_{std::move(rule)} {}
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
-  Status start(const Parameters& /*given*/, const KnobSettings& /*knobs*/) override {
+  Status start(const Parameters& /*given*/,
+               const KnobSettings& /*knobs*/,
+               const BoardModel& /*board*/) override {
     return Done{};
   }
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override { return rule_(seen); }

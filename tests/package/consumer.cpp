@@ -19,7 +19,7 @@ int main() {
   const flyball::KnobSettings knobs{
       {{"map.resolution_m", "m", "mine", {0.15, 0.80}, 0.0, 0.0, 0.15, {}, ""}}};
   const auto parameters = flyball::Parameters::resolve("density", policy->parameters(), {});
-  if (!policy->start(std::get<flyball::Parameters>(parameters), knobs).ok()) {
+  if (!policy->start(std::get<flyball::Parameters>(parameters), knobs, {}).ok()) {
     return 1;
   }
   flyball::PolicyGovernor governor{std::move(policy), knobs, {}, std::chrono::steady_clock::now};

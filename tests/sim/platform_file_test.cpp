@@ -226,6 +226,12 @@ TEST(JetsonTx2, draws_what_the_board_is_known_to_draw) {
   EXPECT_LT(idle_w, 2.1);
   EXPECT_GT(full_w, 6.0);
   EXPECT_LT(full_w, 8.0);
+  // Published: the rail of the four cores takes 4.3 W; it has their leakage and clock tree, too.
+  const double idle_top_w = platform.power({4, Hertz{2035.2e6}}, 0.0).value();
+  const PowerCost& power = platform.model().power;
+  const double rail_w =
+      (full_w - idle_top_w) / power.converter + power.cpu_constant_w + power.cpu_linear_w * 2.0352;
+  EXPECT_NEAR(rail_w, 4.3, 0.1);
 }
 
 TEST(JetsonTx2, raises_the_memory_clock_with_the_cores) {

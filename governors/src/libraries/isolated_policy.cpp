@@ -124,11 +124,13 @@ std::vector<ParameterSpec> IsolatedPolicy::parameters() const {
   return declaration_.parameters;
 }
 
-Status IsolatedPolicy::start(const Parameters& given, const KnobSettings& knobs) {
+Status IsolatedPolicy::start(const Parameters& given,
+                             const KnobSettings& knobs,
+                             const BoardModel& board) {
   knobs_ = knobs;
   process_.reset();
   auto child = ChildProcess::fork(limits_.memory_bytes, [&](const PacketSocket& socket) {
-    serve_policy(socket, make_, given, knobs);
+    serve_policy(socket, make_, given, knobs, board);
   });
   if (!child) {
     return child.error();

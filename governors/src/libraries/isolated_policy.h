@@ -48,7 +48,9 @@ class IsolatedPolicy final : public Policy {
   ~IsolatedPolicy() override;
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override;
-  Status start(const Parameters& given, const KnobSettings& knobs) override;
+  Status start(const Parameters& given,
+               const KnobSettings& knobs,
+               const BoardModel& board) override;
   [[nodiscard]] std::optional<Duration> period() const override { return period_; }
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }

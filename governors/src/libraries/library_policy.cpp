@@ -116,6 +116,42 @@ struct KnobList {
   std::vector<const FlyballKnob*> pointers;
 };
 
+/// The computer as C structures; lives as long as the call that it is made for.
+struct BoardList {
+  explicit BoardList(const BoardModel& board) {
+    for (const Hertz clock : board.frequencies) {
+      const double idle_w = board.power ? board.power->power(clock, 0.0).value() : 0.0;
+      const double busy_w = board.power ? board.power->power(clock, 1.0).value() : 0.0;
+      clocks.push_back({sizeof(FlyballClock), 0, clock.value(), idle_w, busy_w - idle_w});
+    }
+    const ThermalModel heat = board.thermal.value_or(ThermalModel{0.0, 0.0, 0.0});
+    for (const ThermalTrip& trip : heat.trips) {
+      trips.push_back({sizeof(FlyballTrip), 0, trip.at_c, trip.hysteresis_k, trip.cap.value()});
+    }
+    for (const FlyballClock& one : clocks) {
+      clock_pointers.push_back(&one);
+    }
+    for (const FlyballTrip& one : trips) {
+      trip_pointers.push_back(&one);
+    }
+    told = {sizeof(FlyballBoard),
+            static_cast<std::uint32_t>(board.max_cores),
+            static_cast<std::uint32_t>(clocks.size()),
+            static_cast<std::uint32_t>(trips.size()),
+            clock_pointers.data(),
+            trip_pointers.data(),
+            to_seconds(board.switching_time),
+            heat.ambient_c,
+            heat.resistance_k_w,
+            heat.time_constant_s};
+  }
+  std::vector<FlyballClock> clocks;
+  std::vector<FlyballTrip> trips;
+  std::vector<const FlyballClock*> clock_pointers;
+  std::vector<const FlyballTrip*> trip_pointers;
+  FlyballBoard told{};
+};
+
 const char* text_or_nothing(const char* text) {
   return text == nullptr ? "" : text;
 }
@@ -200,10 +236,13 @@ std::vector<ParameterSpec> LibraryPolicy::parameters() const {
   return specs;
 }
 
-Status LibraryPolicy::start(const Parameters& given, const KnobSettings& knobs) {
+Status LibraryPolicy::start(const Parameters& given,
+                            const KnobSettings& knobs,
+                            const BoardModel& board) {
   knobs_ = knobs;
   random_ = RandomStream{seed_, "policy"};
   const KnobList list{knobs_};
+  const BoardList computer{board};
   std::vector<double> values;
   for (const ParameterSpec& spec : parameters()) {
     values.push_back(given.number(spec.name));
@@ -215,7 +254,8 @@ Status LibraryPolicy::start(const Parameters& given, const KnobSettings& knobs) 
                           values.data(),
                           static_cast<std::uint32_t>(values.size()),
                           static_cast<std::uint32_t>(refusal.size()),
-                          refusal.data()};
+                          refusal.data(),
+                          &computer.told};
   if (state_ != nullptr) {
     policy_.destroy(std::exchange(state_, nullptr));
   }

@@ -24,7 +24,9 @@ class LibraryPolicy final : public Policy {
   ~LibraryPolicy() override;
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override;
-  Status start(const Parameters& given, const KnobSettings& knobs) override;
+  Status start(const Parameters& given,
+               const KnobSettings& knobs,
+               const BoardModel& board) override;
   [[nodiscard]] std::optional<Duration> period() const override { return period_; }
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }

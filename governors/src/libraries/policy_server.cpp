@@ -33,10 +33,11 @@ auto guarded(const Work& work) -> decltype(work()) {
 
 Result<std::unique_ptr<Policy>> started(const PolicyMaker& make,
                                         const Parameters& given,
-                                        const KnobSettings& knobs) {
+                                        const KnobSettings& knobs,
+                                        const BoardModel& board) {
   return guarded([&]() -> Result<std::unique_ptr<Policy>> {
     auto made = make();
-    Status status = made ? (*made)->start(given, knobs) : Status{made.error()};
+    Status status = made ? (*made)->start(given, knobs, board) : Status{made.error()};
     return status ? std::move(made) : Result<std::unique_ptr<Policy>>{status.error()};
   });
 }
@@ -111,14 +112,15 @@ void declare_policy(const PacketSocket& socket, const PolicyMaker& make) {
 void serve_policy(const PacketSocket& socket,
                   const PolicyMaker& make,
                   const Parameters& given,
-                  const KnobSettings& knobs) {
+                  const KnobSettings& knobs,
+                  const BoardModel& board) {
   OpeningPacket opening;
   std::unique_ptr<Policy> policy;
   const Status status = guarded([&]() -> Status {
     if (Status confined = confine_to(Confinement::loading, &opening); !confined) {
       return confined;
     }
-    auto made = started(make, given, knobs);
+    auto made = started(make, given, knobs, board);
     if (!made) {
       return made.error();
     }

@@ -17,6 +17,7 @@ void declare_policy(const PacketSocket& socket, const PolicyMaker& make);
 [[noreturn]] void serve_policy(const PacketSocket& socket,
                                const PolicyMaker& make,
                                const Parameters& given,
-                               const KnobSettings& knobs);
+                               const KnobSettings& knobs,
+                               const BoardModel& board);
 
 }  // namespace flyball

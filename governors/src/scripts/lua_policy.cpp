@@ -134,22 +134,22 @@ class LuaPolicy final : public Policy {
   [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }
   [[nodiscard]] std::string_view remark() const noexcept override { return sandbox_.logged(); }
 
-  Status start(const Parameters& given, const KnobSettings& knobs) override {
+  Status start(const Parameters& given,
+               const KnobSettings& knobs,
+               const BoardModel& board) override {
     knobs_ = knobs;
     sandbox_.restart_random();
-    return sandbox_.run(sandbox_.limits().load_instructions, [this, &given](lua_State* state) {
-      LuaSandbox::push_global(state, "start");
-      if (lua_isnil(state, -1)) {
-        return;
-      }
-      push_parameters(state, given);
-      lua_newtable(state);
-      for (const KnobSpec& spec : knobs_.specs()) {
-        push_knob(state, spec, knobs_.value(spec.name));
-        lua_setfield(state, -2, spec.name.c_str());
-      }
-      lua_call(state, 2, 0);
-    });
+    return sandbox_.run(sandbox_.limits().load_instructions,
+                        [this, &given, &board](lua_State* state) {
+                          LuaSandbox::push_global(state, "start");
+                          if (lua_isnil(state, -1)) {
+                            return;
+                          }
+                          push_parameters(state, given);
+                          push_knobs(state);
+                          push_board(state, board);
+                          lua_call(state, 3, 0);
+                        });
   }
 
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override {
@@ -175,6 +175,14 @@ class LuaPolicy final : public Policy {
   }
 
  private:
+  void push_knobs(lua_State* state) const {
+    lua_newtable(state);
+    for (const KnobSpec& spec : knobs_.specs()) {
+      push_knob(state, spec, knobs_.value(spec.name));
+      lua_setfield(state, -2, spec.name.c_str());
+    }
+  }
+
   void read_period(lua_State* state) {
     LuaSandbox::push_global(state, "period_s");
     if (lua_isnil(state, -1)) {

@@ -55,6 +55,56 @@ void push_knob(lua_State* state, const KnobSpec& spec, double value) {
   set_number(state, "value", value);
 }
 
+namespace {
+
+void push_clock(lua_State* state, Hertz clock, const BoardModel& board) {
+  lua_createtable(state, 0, 3);
+  set_number(state, "hz", clock.value());
+  if (board.power) {
+    const double idle_w = board.power->power(clock, 0.0).value();
+    set_number(state, "idle_w", idle_w);
+    set_number(state, "busy_core_w", board.power->power(clock, 1.0).value() - idle_w);
+  }
+}
+
+void push_heat(lua_State* state, const ThermalModel& heat) {
+  lua_createtable(state, 0, 4);
+  set_number(state, "ambient_c", heat.ambient_c);
+  set_number(state, "resistance_k_w", heat.resistance_k_w);
+  set_number(state, "time_constant_s", heat.time_constant_s);
+  lua_createtable(state, static_cast<int>(heat.trips.size()), 0);
+  for (std::size_t i = 0; i < heat.trips.size(); ++i) {
+    lua_createtable(state, 0, 3);
+    set_number(state, "at_c", heat.trips[i].at_c);
+    set_number(state, "hysteresis_k", heat.trips[i].hysteresis_k);
+    set_number(state, "cap_hz", heat.trips[i].cap.value());
+    lua_rawseti(state, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  lua_setfield(state, -2, "trips");
+}
+
+}  // namespace
+
+void push_board(lua_State* state, const BoardModel& board) {
+  lua_createtable(state, 0, 4);
+  if (board.max_cores > 0) {
+    set_number(state, "cores", board.max_cores);
+  }
+  if (!board.frequencies.empty()) {
+    set_number(state, "switching_s", to_seconds(board.switching_time));
+    lua_createtable(state, static_cast<int>(board.frequencies.size()), 0);
+    for (std::size_t i = 0; i < board.frequencies.size(); ++i) {
+      push_clock(state, board.frequencies[i], board);
+      lua_rawseti(state, -2, static_cast<lua_Integer>(i) + 1);
+    }
+    lua_setfield(state, -2, "clocks");
+  }
+  if (board.thermal) {
+    push_heat(state, *board.thermal);
+    lua_setfield(state, -2, "thermal");
+  }
+}
+
 void push_parameters(lua_State* state, const Parameters& given) {
   lua_newtable(state);
   for (const auto& entry : given.values()) {

@@ -4,6 +4,7 @@
 /// @file
 /// Numbers, texts and tables between a script and its host. All of them may raise.
 
+#include "flyball/runtime/board_model.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
 
@@ -20,6 +21,9 @@ const char* text_field(lua_State* state, const char* name);
 void set_number(lua_State* state, const char* name, double value);
 
 void push_knob(lua_State* state, const KnobSpec& spec, double value);
+
+/// What is not known is left out.
+void push_board(lua_State* state, const BoardModel& board);
 
 void push_parameters(lua_State* state, const Parameters& given);
 

@@ -17,7 +17,7 @@ TEST(PolicyChoice, is_a_preset_a_policy_or_a_file) {
   for (const std::string& name : {std::string{"two_level"}, std::string{"density"}, mine}) {
     const auto choice = choose_policy(name, 1);
     ASSERT_TRUE(choice.ok()) << choice.error().message;
-    EXPECT_TRUE(choice->started(conformance_knobs()).ok()) << name;
+    EXPECT_TRUE(choice->started(conformance_knobs(), conformance_board()).ok()) << name;
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/mission_setup.h"
 
-#include "flyball/governors/power_model.h"
 #include "flyball/scenario/files.h"
 
 #include "scratch_folder.h"
@@ -27,17 +26,42 @@ TEST(MissionSetup, makes_everything_that_the_default_scenario_names) {
   EXPECT_NE(setup->governor, nullptr);
 }
 
-TEST(MissionSetup, flies_a_computer_whose_power_policies_know) {
-  const auto setup = set_up(Scenario{});
-  ASSERT_TRUE(setup.ok()) << setup.error().message;
-  const ComputerPower known;
-  for (const Hertz clock : setup->platform->frequencies()) {
-    for (const double busy : {0.0, 1.5, 4.0}) {
-      EXPECT_NEAR(known.power(clock, busy).value(),
-                  setup->platform->power({4, clock}, busy).value(), 1e-9)
-          << clock.value();
-    }
+/// The TX2's file with these words in place of others.
+std::string shipped_platform_with(const std::map<std::string, std::string>& others) {
+  std::ifstream in{find_shipped("platforms", "jetson_tx2").value()};
+  std::string text{std::istreambuf_iterator<char>{in}, {}};
+  for (const auto& [before, after] : others) {
+    text.replace(text.find(before), before.size(), after);
   }
+  return text;
+}
+
+/// The watts at the lowest clock with a core busy that the policy of such a mission is told.
+double told_w(const ScratchFolder& folder, Scenario scenario) {
+  scenario.governor.policy = folder.file("asks.lua",
+                                         "function start(given, knobs, board)\n"
+                                         "  local low = board.clocks[1]\n"
+                                         "  watts = low.idle_w + low.busy_core_w\n"
+                                         "end\n"
+                                         "function decide() return {['map.range_m'] = watts} end");
+  const auto setup = set_up(scenario);
+  EXPECT_TRUE(setup.ok()) << setup.error().message;
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  static_cast<void>(setup->governor->decide(seen));
+  return setup->governor->wished().begin()->value;
+}
+
+TEST(MissionSetup, tells_the_policy_what_its_platform_draws) {
+  const ScratchFolder folder;
+  Scenario scenario;
+  const auto setup = set_up(scenario);
+  ASSERT_TRUE(setup.ok()) << setup.error().message;
+  const Hertz lowest = setup->platform->frequencies().front();
+  EXPECT_NEAR(told_w(folder, scenario), setup->platform->power({4, lowest}, 1.0).value(), 1e-9);
+  scenario.platform.name =
+      folder.file("hungry.toml", shipped_platform_with({{"board_w = 0.6 ", "board_w = 40.0 "}}));
+  EXPECT_NEAR(told_w(folder, scenario), 40.0, 1.0);
 }
 
 TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {
@@ -78,12 +102,9 @@ TEST(MissionSetup, may_fly_an_applications_policy_with_a_clock_rule_beside_it) {
 
 /// The shipped platform without a price for the brick map.
 std::string older_platform() {
-  std::ifstream in{find_shipped("platforms", "jetson_tx2").value()};
-  std::string text{std::istreambuf_iterator<char>{in}, {}};
-  for (const std::string heading : {"[kernels.flyball]", "[kernels.flyball.seconds_per]"}) {
-    text.replace(text.find(heading) + 9, 7, "another");
-  }
-  return text;
+  return shipped_platform_with(
+      {{"[kernels.flyball]", "[kernels.another]"},
+       {"[kernels.flyball.seconds_per]", "[kernels.another.seconds_per]"}});
 }
 
 TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {

@@ -21,12 +21,15 @@ enum {
   crime_fail,
   crime_refuse,
   crime_random,
-  crime_exit
+  crime_exit,
+  crime_watts /* None: it wishes for what the computer draws, with a core busy at the top clock. */
 };
 
 typedef struct Culprit {
   const FlyballHost* host;
   int crime;
+  double top_w;
+  double trip_c;
 } Culprit;
 
 static void* create(const FlyballHost* host, const FlyballStart* start) {
@@ -38,6 +41,12 @@ static void* create(const FlyballHost* host, const FlyballStart* start) {
   Culprit* self = calloc(1, sizeof(Culprit));
   self->host = host;
   self->crime = crime;
+  if (start->struct_size >= sizeof(FlyballStart) && start->board != NULL) {
+    const FlyballBoard* board = start->board;
+    const FlyballClock* top = board->clock_count > 0 ? board->clocks[board->clock_count - 1] : NULL;
+    self->top_w = top != NULL ? top->idle_w + top->busy_core_w : 0.0;
+    self->trip_c = board->trip_count > 0 ? board->trips[0]->at_c : 0.0;
+  }
   return self;
 }
 
@@ -90,6 +99,12 @@ static int32_t decide(void* policy, const FlyballObservation* seen, FlyballDecis
       decision->wishes[0].value = (double)(self->host->random(self->host->context) >> 11) * 0x1p-53;
       self->host->log(self->host->context,
                       self->host->now_ns(self->host->context) == seen->now_ns ? "in time" : "late");
+      break;
+    case crime_watts:
+      decision->wish_count = 2;
+      decision->wishes[0].value = self->top_w;
+      decision->wishes[1].knob = 1;
+      decision->wishes[1].value = self->trip_c;
       break;
     case crime_exit:
       _exit(7);

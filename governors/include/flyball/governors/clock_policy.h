@@ -61,7 +61,9 @@ class ClockPolicy final : public Policy {
   ClockPolicy(std::string name, std::unique_ptr<ClockRule> rule);
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override;
-  Status start(const Parameters& given, const KnobSettings& knobs) override;
+  Status start(const Parameters& given,
+               const KnobSettings& knobs,
+               const BoardModel& board) override;
   [[nodiscard]] std::optional<Duration> period() const override { return period_; }
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
 

@@ -21,7 +21,9 @@ class CombinedPolicy final : public Policy {
                  Duration application_period);
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
-  Status start(const Parameters& given, const KnobSettings& knobs) override;
+  Status start(const Parameters& given,
+               const KnobSettings& knobs,
+               const BoardModel& board) override;
   /// The shorter one of both; the clock rule's own where the application has none.
   [[nodiscard]] std::optional<Duration> period() const override;
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;

@@ -41,7 +41,7 @@ struct SearchLevel {
   double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
   double most_range_m{25.0};  ///< Depth noise there is still below half a cell.
   double range_m{7.0};
-  double clock_hz{2.0352e9};
+  double clock_hz{};  ///< 0: the highest that there is.
 };
 
 /// What limits speed besides latency.
@@ -88,11 +88,13 @@ struct EnergyEstimate {
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.
+  /// @param computer  Its power at each clock.
   /// @error `invalid_input` when a knob does not exist or cannot be one of the values.
   static Result<EnergySearch> make(const EnergySearchSettings& settings,
                                    const std::vector<SearchLevel>& levels,
                                    const std::vector<double>& ranges_m,
-                                   const KnobSettings& knobs);
+                                   const KnobSettings& knobs,
+                                   const PowerCost& computer);
 
   /// What the newest map, the rotors, the cores and the thermometer show of the setting that is in
   /// force.
@@ -130,7 +132,8 @@ class EnergySearch {
  private:
   EnergySearch(const EnergySearchSettings& settings,
                const std::vector<SearchLevel>& levels,
-               OperatingPoints points);
+               OperatingPoints points,
+               const PowerCost& computer);
   [[nodiscard]] MapSetting setting(std::size_t point) const;
   [[nodiscard]] std::size_t level(double resolution_m) const;
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
@@ -148,8 +151,8 @@ class EnergySearch {
   LatencyModels models_{};  ///< One for each level.
   LatencyBound bound_;
   RotorPower rotors_{};
-  ComputerPower computer_{};
-  ThermalLimit thermal_{};
+  PowerCost computer_;
+  ThermalLimit thermal_;
   double most_clock_hz_{};
   std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
   std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.

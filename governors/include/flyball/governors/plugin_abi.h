@@ -28,7 +28,7 @@ extern "C" {
 #endif
 
 enum {
-  flyball_abi_version = 3,   /* Goes up when a structure grows. */
+  flyball_abi_version = 4,   /* Goes up when a structure grows. */
   flyball_wish_capacity = 16 /* For good: the array stands inside a structure. */
 };
 
@@ -87,6 +87,39 @@ typedef struct FlyballKnob {
   double value;    /* In force at the start. */
 } FlyballKnob;
 
+/** One clock of the computer, with what it draws at it [W]: `idle_w` + busy cores * `busy_core_w`.
+ */
+typedef struct FlyballClock {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double frequency_hz;
+  double idle_w;      /* The whole computer with no core busy; 0: nobody knows its power. */
+  double busy_core_w; /* What each busy core adds. */
+} FlyballClock;
+
+/** From `at_c` on, and until it is cooler than `at_c - hysteresis_k`, clocks end at `cap_hz`. */
+typedef struct FlyballTrip {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double at_c;
+  double hysteresis_k;
+  double cap_hz;
+} FlyballTrip;
+
+/** The computer that the policy flies on, as `flyball::BoardModel`; what is 0 is not known. */
+typedef struct FlyballBoard {
+  uint32_t struct_size;
+  uint32_t max_cores;
+  uint32_t clock_count;
+  uint32_t trip_count;
+  const FlyballClock* const* clocks; /* Ascending. */
+  const FlyballTrip* const* trips;   /* Ascending; none: it never gets too hot. */
+  double switching_s;                /* How long a change of the clock takes. */
+  double ambient_c;                  /* These three describe its heat where `resistance_k_w` > 0: */
+  double resistance_k_w;             /* time_constant_s dT/dt = ambient_c + resistance_k_w P - T. */
+  double time_constant_s;
+} FlyballBoard;
+
 /** What a policy is started with; valid during `create` only. */
 typedef struct FlyballStart {
   uint32_t struct_size;
@@ -96,6 +129,9 @@ typedef struct FlyballStart {
   uint32_t parameter_count;
   uint32_t refusal_size; /* Bytes that `refusal` has room for. */
   char* refusal;         /* Why `create` returns NULL: one sentence. */
+  /* Version 3 ends here. */
+
+  const FlyballBoard* board; /* NULL: nothing is known. */
 } FlyballStart;
 
 /** What a decision knows; as `flyball::Observation`, where every member is explained. */

@@ -70,7 +70,14 @@ struct PluginKnob {
   FlyballKnob spec{};  ///< Valid during the constructor only.
 };
 
-/// Parameters and knobs, in the constructor.
+/// The computer that the policy flies on; what is 0 or empty is not known.
+struct PluginBoard {
+  FlyballBoard numbers{};              ///< Its pointers are valid during the constructor only.
+  std::vector<FlyballClock> clocks{};  ///< Ascending.
+  std::vector<FlyballTrip> trips{};    ///< Ascending.
+};
+
+/// Parameters, knobs and the computer, in the constructor.
 class PluginStart {
  public:
   PluginStart(const FlyballStart* start, const PluginDescription& described)
@@ -99,6 +106,22 @@ class PluginStart {
       return *found;
     }
     throw std::invalid_argument{"there is no knob " + name};
+  }
+
+  /// All unknown where an older host does not tell.
+  [[nodiscard]] PluginBoard board() const {
+    PluginBoard board;
+    if (start_.board == nullptr) {
+      return board;
+    }
+    board.numbers = readable_copy(start_.board);
+    for (std::uint32_t i = 0; i < board.numbers.clock_count; ++i) {
+      board.clocks.push_back(readable_copy(board.numbers.clocks[i]));
+    }
+    for (std::uint32_t i = 0; i < board.numbers.trip_count; ++i) {
+      board.trips.push_back(readable_copy(board.numbers.trips[i]));
+    }
+    return board;
   }
 
  private:

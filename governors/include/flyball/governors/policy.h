@@ -5,6 +5,7 @@
 /// The bare decision rule. It may be wrong; PolicyGovernor makes it safe.
 
 #include "flyball/governors/foresight.h"
+#include "flyball/runtime/board_model.h"
 #include "flyball/runtime/governor.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
@@ -50,8 +51,12 @@ class Policy {
   /// What a preset may set.
   [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
   /// Called once, before the first decision.
-  /// @error `invalid_input` when parameters contradict each other or the knobs.
-  virtual Status start(const Parameters& given, const KnobSettings& knobs) = 0;
+  /// @param board  The computer that it will fly on; `{}` where nothing is known of it.
+  /// @error `invalid_input` when parameters contradict each other or the knobs, or when something
+  /// is missing that the policy cannot do without.
+  virtual Status start(const Parameters& given,
+                       const KnobSettings& knobs,
+                       const BoardModel& board) = 0;
   /// How often it wants to be asked; empty: as often as the scenario says. Asked once, when
   /// started.
   [[nodiscard]] virtual std::optional<Duration> period() const { return std::nullopt; }

@@ -47,6 +47,26 @@ struct PolicyCandidate {
   }};
 }
 
+/// A computer with the clocks of these knobs; round numbers, as a small board may have them.
+[[nodiscard]] inline BoardModel conformance_board() {
+  PowerCost power;
+  power.board_w = 0.5;
+  power.converter = 1.25;
+  power.soc_w = 0.5;
+  power.memory_w = 0.2;
+  power.memory_linear_w = 0.4;
+  power.memory_clocks = {{Hertz{0.0}, Hertz{0.5e9}}, {Hertz{1e9}, Hertz{1.5e9}}};
+  power.cpu_constant_w = 0.2;
+  power.cpu_linear_w = 0.05;
+  power.core_linear_w = 0.1;
+  power.core_cubic_w = 0.1;
+  return {4,
+          {Hertz{806.4e6}, Hertz{1574.4e6}, Hertz{2035.2e6}},
+          std::chrono::microseconds{300},
+          power,
+          ThermalModel{40.0, 8.0, 500.0, {{80.0, 2.0, Hertz{806.4e6}}}}};
+}
+
 /// What is given, and its example for each required parameter that is not.
 [[nodiscard]] inline std::map<std::string, ParameterValue> with_examples(
     const std::vector<ParameterSpec>& specs, std::map<std::string, ParameterValue> given) {
@@ -168,7 +188,8 @@ class PolicyConformance {
       require(false, "does not take the given parameters: " + errors->front().message);
       return nullptr;
     }
-    const Status status = policy->start(std::get<Parameters>(given), conformance_knobs());
+    const Status status =
+        policy->start(std::get<Parameters>(given), conformance_knobs(), conformance_board());
     if (!status.ok()) {
       require(false, "does not start: " + status.error().message);
       return nullptr;

@@ -28,9 +28,10 @@ struct PolicyChoice {
   std::map<std::string, ParameterValue> parameters{};
   std::string caution{};  ///< What its user should know before it flies; empty: nothing.
 
-  /// One that is ready to decide.
+  /// One that is ready to decide on this board.
   /// @error What is wrong with the parameters, a line for each, or why it does not start.
-  [[nodiscard]] Result<std::unique_ptr<Policy>> started(const KnobSettings& knobs) const;
+  [[nodiscard]] Result<std::unique_ptr<Policy>> started(const KnobSettings& knobs,
+                                                        const BoardModel& board) const;
 };
 
 /// By its ending: .toml, .lua or .so.

@@ -2,34 +2,12 @@
 #pragma once
 
 /// @file
-/// What flying and computing take.
+/// What flying takes; what computing takes, the board tells (`BoardModel`).
 
 #include "flyball/governors/recursive_least_squares.h"
-#include "flyball/runtime/platform.h"
 #include "flyball/runtime/units.h"
 
 namespace flyball {
-
-/// Input power of the computer, as the platform's model has it (`PowerCost`). The defaults are a
-/// Jetson TX2's (four A57 cores; estimates from its published rail powers, recalibrate on the
-/// board): the same numbers, with their sources, as sim/platforms/jetson_tx2.toml.
-struct ComputerPower {
-  PowerCost cost{
-      0.6,
-      1.24,
-      0.5,
-      0.13,
-      0.15,
-      0.05,
-      0.11,
-      0.095,
-      0.402,
-      {{Hertz{0.0}, Hertz{408e6}}, {Hertz{800e6}, Hertz{660e6}}, {Hertz{1400e6}, Hertz{1866e6}}}};
-
-  [[nodiscard]] Watts power(Hertz clock, double busy_cores) const;
-  /// Energy of a job that takes `seconds` of one core at this clock, above an idle computer.
-  [[nodiscard]] Joules job_energy(Hertz clock, double seconds) const;
-};
 
 /// Rotor power in steady flight over level speed, P = c0 + c1 v + c2 v^2 [W], learned from what the
 /// battery shows. MAVBench's eq. 1 (MICRO 2018) without acceleration, climb and wind is c0 = b9

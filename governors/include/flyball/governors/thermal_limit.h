@@ -4,9 +4,10 @@
 /// @file
 /// How much a computer may take without getting too hot: learned from its own thermometer.
 
-#include "flyball/governors/power_model.h"
 #include "flyball/governors/recursive_least_squares.h"
 #include "flyball/runtime/observation.h"
+#include "flyball/runtime/platform.h"
+#include "flyball/runtime/units.h"
 
 #include <limits>
 #include <optional>
@@ -43,8 +44,7 @@ struct ThermalLimitSettings {
 /// Nothing allocates.
 class ThermalLimit {
  public:
-  explicit ThermalLimit(const ThermalLimitSettings& settings = {},
-                        const ComputerPower& computer = {});
+  explicit ThermalLimit(PowerCost computer, const ThermalLimitSettings& settings = {});
 
   /// Once per decision.
   void learn(const Observation& seen);
@@ -72,7 +72,7 @@ class ThermalLimit {
   [[nodiscard]] Watts power_for(double end_k, double start_k, double seconds) const;
 
   ThermalLimitSettings settings_;
-  ComputerPower computer_;
+  PowerCost computer_;
   RecursiveLeastSquares<3> solver_;
   double window_s_;
   std::optional<double> trip_c_{};

@@ -18,11 +18,12 @@ namespace flyball {
 /// names it; empty: none. Loads nothing.
 [[nodiscard]] std::string library_of_policy(const std::string& name);
 
-/// One that is ready to decide; also a preset that combines two others (combined_policy.h), whose
-/// application is asked once per `application_period`.
+/// One that is ready to decide on this board; also a preset that combines two others
+/// (combined_policy.h), whose application is asked once per `application_period`.
 [[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
                                                            std::uint64_t seed,
                                                            Duration application_period,
-                                                           const KnobSettings& knobs);
+                                                           const KnobSettings& knobs,
+                                                           const BoardModel& board);
 
 }  // namespace flyball
