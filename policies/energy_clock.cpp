@@ -8,6 +8,7 @@
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
 #include "flyball/governors/resting.h"
@@ -26,7 +27,7 @@ namespace {
 using flyball::MissionPhase;
 using flyball::Observation;
 
-class EnergyClock final : public flyball::Policy {
+class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     return {{"fine_latency_s", 0.5, 0.001, 60.0,
@@ -77,11 +78,9 @@ class EnergyClock final : public flyball::Policy {
     return wish;
   }
 
-  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
-    return search_->promises();
-  }
-  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
-    return search_->promise_levels();
+  [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
+  [[nodiscard]] std::vector<flyball::LevelBounds> bound_levels() const override {
+    return search_->bound_levels();
   }
 
  private:

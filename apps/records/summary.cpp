@@ -65,7 +65,7 @@ void read_kernels(const Json& json, Summary& summary) {
 
 Json promises_json(const Summary& summary) {
   Json levels = Json::array();
-  for (const LevelPromises& level : summary.promises) {
+  for (const LevelBounds& level : summary.promises) {
     levels.push_back({{"resolution_m", level.resolution_m},
                       {"issued", level.issued},
                       {"late", level.late},

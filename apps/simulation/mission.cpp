@@ -80,7 +80,7 @@ struct Flight {
 
   void add_governing(const Scenario& scenario, MissionSetup& setup) {
     const GovernorInputs inputs = governor_inputs(graph);
-    std::vector<MapSetting> settings = setup.governor->policy().foresees();
+    std::vector<MapSetting> settings = setup.governor->foresees();
     if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
       future = std::make_unique<FutureFrames>(parts.brief, setup.things.world, computer,
                                               std::move(settings));
@@ -182,7 +182,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.maps = maps.budget_use.size();
   summary.bound_overruns = maps.overruns;
   summary.budget_use_p50 = quantile(maps.budget_use, 0.5);
-  summary.promises = flight.governor->promise_levels();
+  summary.promises = flight.governor->bound_levels();
   summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
   summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.throttle_events = flight.drift->throttle_events();

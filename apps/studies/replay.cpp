@@ -61,7 +61,7 @@ Result<std::unique_ptr<PolicyGovernor>> governor_for(const Scenario& scenario) {
   if (!setup) {
     return setup.error();
   }
-  if (!setup->governor->policy().foresees().empty()) {
+  if (!setup->governor->foresees().empty()) {
     return Error{ErrorCode::unavailable, "policy \"" + scenario.governor.policy +
                                              "\" is told what no record holds; fly it instead"};
   }
@@ -185,7 +185,7 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
   const Observation& seen = explanation.seen = decisions.seen();
   explanation.at = seen.now;
   explanation.choice = decisions.recorded();
-  explanation.options = (*governor)->policy().options();
+  explanation.options = (*governor)->options();
   const double deceleration_m_s2 = flight.scenario.mission.max_acceleration_m_s2;
   explanation.response_s = to_seconds(seen.latency_bound + Guard{GuardSettings{}}.reaction_time());
   const double power_w = seen.rotor_power.value() + seen.computer_power.value();

@@ -115,7 +115,7 @@ std::vector<PromiseFigures> promises_of(const std::vector<Summary>& flights,
                                         const std::string& policy) {
   std::map<double, PromiseFigures> levels;
   for (const Summary& flight : flights) {
-    for (const LevelPromises& level : flight.promises) {
+    for (const LevelBounds& level : flight.promises) {
       if (flight.policy != policy || level.issued == 0) {
         continue;
       }

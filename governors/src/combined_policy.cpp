@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::string_view clock_knob = "cpu.frequency_hz";
 
+std::optional<Duration> period_of(const Policy* policy) {
+  const auto* chooses = dynamic_cast<const ChoosesPeriod*>(policy);
+  return chooses != nullptr ? chooses->period() : std::nullopt;
+}
+
 }  // namespace
 
 CombinedPolicy::CombinedPolicy(std::unique_ptr<Policy> application,
@@ -18,6 +23,11 @@ CombinedPolicy::CombinedPolicy(std::unique_ptr<Policy> application,
                                Duration application_period)
     : application_{std::move(application)},
       clock_{std::move(clock)},
+      bounds_{dynamic_cast<const BoundsLatency*>(application_.get())},
+      application_code_{dynamic_cast<const HostsCode*>(application_.get())},
+      clock_code_{dynamic_cast<const HostsCode*>(clock_.get())},
+      own_period_{period_of(application_.get())},
+      clock_period_{period_of(clock_.get())},
       application_period_{application_period} {
   FLYBALL_ASSERT(application_ != nullptr && clock_ != nullptr, "two policies are combined");
   FLYBALL_ASSERT(application_period_.count() > 0, "application_period=%g s",
@@ -31,14 +41,31 @@ Status CombinedPolicy::start(const Parameters& /*given*/,
 }
 
 std::optional<Duration> CombinedPolicy::period() const {
-  const Duration application = application_->period().value_or(application_period_);
-  return std::min(application, clock_->period().value_or(application));
+  const Duration application = own_period_.value_or(application_period_);
+  return std::min(application, clock_period_.value_or(application));
+}
+
+BoundCount CombinedPolicy::bounds() const noexcept {
+  return bounds_ != nullptr ? bounds_->bounds() : BoundCount{};
+}
+
+std::vector<LevelBounds> CombinedPolicy::bound_levels() const {
+  return bounds_ != nullptr ? bounds_->bound_levels() : std::vector<LevelBounds>{};
+}
+
+void CombinedPolicy::listen(const HostsCode* host) noexcept {
+  if (host != nullptr) {
+    trouble_ = trouble_.empty() ? host->trouble() : trouble_;
+    remark_ = remark_.empty() ? host->remark() : remark_;
+  }
 }
 
 Decision CombinedPolicy::decide(const Observation& seen) noexcept {
+  trouble_ = remark_ = {};
   if (!next_ || seen.now >= *next_) {
     wish_ = application_->decide(seen);
-    next_ = seen.now + application_->period().value_or(application_period_);
+    listen(application_code_);
+    next_ = seen.now + own_period_.value_or(application_period_);
   }
   Decision both;
   both.reason = wish_.reason;
@@ -52,6 +79,7 @@ Decision CombinedPolicy::decide(const Observation& seen) noexcept {
       both.set(knob, value);
     }
   }
+  listen(clock_code_);
   return both;
 }
 

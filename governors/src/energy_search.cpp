@@ -179,8 +179,8 @@ void EnergySearch::learn_latency(const Observation& seen) {
   }
 }
 
-PromiseCount EnergySearch::promises() const {
-  PromiseCount count;
+BoundCount EnergySearch::bounds() const {
+  BoundCount count;
   for (std::size_t i = 0; i < bound_.levels(); ++i) {
     count.issued += bound_.tracker(i).decisions();
     count.late += bound_.tracker(i).misses();
@@ -189,9 +189,9 @@ PromiseCount EnergySearch::promises() const {
   return count;
 }
 
-std::vector<LevelPromises> EnergySearch::promise_levels() const {
+std::vector<LevelBounds> EnergySearch::bound_levels() const {
   constexpr double worst = 4.0;  // Above the factor 3 of the drifts that are tried.
-  std::vector<LevelPromises> levels;
+  std::vector<LevelBounds> levels;
   for (std::size_t i = 0; i < bound_.levels(); ++i) {
     const QuantileTracker& one = bound_.tracker(i);
     levels.push_back({points_.axes()[resolution].values[i], one.decisions(), one.misses(),

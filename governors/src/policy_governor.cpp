@@ -38,6 +38,11 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
                                PolicyGovernorSettings settings,
                                HostClock clock)
     : policy_{std::move(policy)},
+      chooses_period_{dynamic_cast<const ChoosesPeriod*>(policy_.get())},
+      bounds_latency_{dynamic_cast<const BoundsLatency*>(policy_.get())},
+      compares_options_{dynamic_cast<const ComparesOptions*>(policy_.get())},
+      hosts_code_{dynamic_cast<const HostsCode*>(policy_.get())},
+      uses_foresight_{dynamic_cast<UsesForesight*>(policy_.get())},
       knobs_{std::move(knobs)},
       settings_{settings},
       clock_{std::move(clock)},
@@ -93,7 +98,7 @@ std::string PolicyGovernor::why() const {
     case PolicyFault::none:
       return {};
     case PolicyFault::failed:
-      return std::string{policy_->trouble()};
+      return std::string{hosts_code_->trouble()};
     case PolicyFault::overtime:
       return "the policy took longer than " + std::to_string(to_seconds(settings_.time_limit)) +
              " s";
@@ -109,7 +114,33 @@ std::string PolicyGovernor::why() const {
 }
 
 std::string_view PolicyGovernor::remark() const {
-  return was_asked_ ? policy_->remark() : std::string_view{};
+  return was_asked_ && hosts_code_ != nullptr ? hosts_code_->remark() : std::string_view{};
+}
+
+std::vector<MapSetting> PolicyGovernor::foresees() const {
+  return uses_foresight_ != nullptr ? uses_foresight_->foresees() : std::vector<MapSetting>{};
+}
+
+void PolicyGovernor::foretell(const Foresight& truth) noexcept {
+  if (uses_foresight_ != nullptr) {
+    uses_foresight_->foretell(truth);
+  }
+}
+
+std::optional<Duration> PolicyGovernor::period() const {
+  return chooses_period_ != nullptr ? chooses_period_->period() : std::nullopt;
+}
+
+std::optional<BoundCount> PolicyGovernor::bounds() const noexcept {
+  return bounds_latency_ != nullptr ? std::optional{bounds_latency_->bounds()} : std::nullopt;
+}
+
+std::vector<LevelBounds> PolicyGovernor::bound_levels() const {
+  return bounds_latency_ != nullptr ? bounds_latency_->bound_levels() : std::vector<LevelBounds>{};
+}
+
+std::vector<PolicyOption> PolicyGovernor::options() const {
+  return compares_options_ != nullptr ? compares_options_->options() : std::vector<PolicyOption>{};
 }
 
 double PolicyGovernor::bound_factor() const {
@@ -127,7 +158,7 @@ Decision PolicyGovernor::ask(const Observation& seen, PolicyFault& fault) noexce
 }
 
 PolicyFault PolicyGovernor::fault_in(const Decision& wished) noexcept {
-  if (!policy_->trouble().empty()) {
+  if (hosts_code_ != nullptr && !hosts_code_->trouble().empty()) {
     return PolicyFault::failed;
   }
   if (wished.overflowed()) {

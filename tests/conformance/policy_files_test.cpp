@@ -7,6 +7,8 @@
 #include "flyball/governors/policy_conformance.h"
 #include "flyball/scenario/policy_choice.h"
 
+#include "policy_start.h"
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -54,7 +56,7 @@ TEST(PolicyFiles, of_one_rule_decide_the_same) {
     last = first.begin()->value;
     for (const auto& policy : policies) {
       const Decision other = policy->decide(seen);
-      ASSERT_EQ(1U, other.size()) << policy->trouble();
+      ASSERT_EQ(1U, other.size()) << kit::trouble(*policy);
       EXPECT_EQ(first.begin()->knob, other.begin()->knob);
       EXPECT_EQ(first.begin()->value, other.begin()->value);
       EXPECT_EQ(first.reason, other.reason);

@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Wishes for a map, a range and a clock; counts how often it is asked.
-class Wisher final : public Policy {
+class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   Wisher(double value, std::optional<Duration> period, int* asked)
       : value_{value}, period_{period}, asked_{asked} {}
@@ -20,8 +20,11 @@ class Wisher final : public Policy {
     return Done{};
   }
   [[nodiscard]] std::optional<Duration> period() const override { return period_; }
-  [[nodiscard]] Decision decide(const Observation& /*seen*/) noexcept override {
+  [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }
+  [[nodiscard]] std::string_view remark() const noexcept override { return {}; }
+  [[nodiscard]] Decision decide(const Observation& seen) noexcept override {
     ++*asked_;
+    trouble_ = seen.speed_m_s > value_ ? "too fast" : "";
     Decision wish;
     wish.reason = value_ > 5.0 ? Reason::load : Reason::energy;
     wish.set("map.resolution_m", value_);
@@ -33,6 +36,7 @@ class Wisher final : public Policy {
   double value_;
   std::optional<Duration> period_;
   int* asked_;
+  std::string_view trouble_{};
 };
 
 struct Fixture {
@@ -68,6 +72,28 @@ TEST(CombinedPolicy, asks_each_at_its_own_pace) {
   }
   EXPECT_EQ(both.clock_asked, 100);
   EXPECT_EQ(both.application_asked, 4);
+}
+
+TEST(CombinedPolicy, tells_the_trouble_of_the_one_that_was_asked) {
+  Fixture both{10ms};
+  const auto trouble_at = [&both](Duration t, double speed_m_s) {
+    Observation seen;
+    seen.now = MissionTime{t};
+    seen.speed_m_s = speed_m_s;
+    static_cast<void>(both.policy.decide(seen));
+    return std::string{both.policy.trouble()};
+  };
+  EXPECT_EQ(trouble_at(0ms, 0.0), "");
+  EXPECT_EQ(trouble_at(10ms, 3.0), "") << "the application, which cannot, is not asked yet";
+  EXPECT_EQ(trouble_at(250ms, 3.0), "too fast");
+  EXPECT_EQ(trouble_at(260ms, 3.0), "") << "it said so once";
+  EXPECT_EQ(trouble_at(270ms, 10.0), "too fast") << "the clock rule";
+}
+
+TEST(CombinedPolicy, states_no_bounds_for_an_application_that_states_none) {
+  const Fixture both{10ms};
+  EXPECT_EQ(both.policy.bounds().issued, 0U);
+  EXPECT_TRUE(both.policy.bound_levels().empty());
 }
 
 TEST(CombinedPolicy, has_the_applications_pace_beside_a_rule_that_looks_at_nothing) {

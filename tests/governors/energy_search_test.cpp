@@ -223,34 +223,34 @@ void see_maps(EnergySearch& one, int n, double period_s, double latency_s, doubl
 TEST(EnergySearch, a_map_that_was_quick_is_in_time_however_seldom_it_is_looked_for) {
   EnergySearch one = search();
   see_maps(one, 100, 0.25, 0.01);
-  EXPECT_GT(one.promises().issued, 90U);
-  EXPECT_LT(one.promises().late, 8U);
+  EXPECT_GT(one.bounds().issued, 90U);
+  EXPECT_LT(one.bounds().late, 8U);
 }
 
-TEST(EnergySearch, keeps_its_promises_apart_by_level) {
+TEST(EnergySearch, keeps_its_bounds_apart_by_level) {
   EnergySearch one = search();
   see_maps(one, 100, 0.25, 0.01);
   std::uint64_t issued = 0;
-  for (const LevelPromises& level : one.promise_levels()) {
+  for (const LevelBounds& level : one.bound_levels()) {
     issued += level.issued;
     EXPECT_EQ(level.issued > 0, level.resolution_m == 0.80) << level.resolution_m;
     ASSERT_TRUE(level.most_late);
     EXPECT_LE(static_cast<double>(level.late), *level.most_late);
   }
-  EXPECT_EQ(issued, one.promises().issued);
+  EXPECT_EQ(issued, one.bounds().issued);
 }
 
 TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
   EnergySearch one = search();
   see_maps(one, 20, 0.25, 0.1);
-  const PromiseCount before = one.promises();
+  const BoundCount before = one.bounds();
   Observation seen = seen_map(6.0, 5750, 0.80, 0.1);  // The last map that was seen.
   for (int i = 0; i < 8; ++i) {
     seen.now += std::chrono::milliseconds{250};
     one.learn(seen);
   }
-  EXPECT_EQ(one.promises().issued, before.issued + 1);
-  EXPECT_EQ(one.promises().late, before.late + 1);
+  EXPECT_EQ(one.bounds().issued, before.issued + 1);
+  EXPECT_EQ(one.bounds().late, before.late + 1);
 }
 
 EnergySearch search_with(const EnergySearchSettings& settings) {
@@ -269,38 +269,38 @@ TEST(EnergySearch,
   EnergySearch calibrated = search_with({});
   for (EnergySearch* one : {&kept, &calibrated}) {
     see_maps(*one, 100, 0.25, 0.1);
-    const PromiseCount calm = one->promises();
+    const BoundCount calm = one->bounds();
     EXPECT_LE(calm.late, 10U);
     see_maps(*one, 50, 0.5, 0.3, 30.0);
-    const PromiseCount settled = one->promises();
+    const BoundCount settled = one->bounds();
     see_maps(*one, 200, 0.5, 0.3, 60.0);
-    const auto late = one->promises().late - settled.late;
-    const auto issued = one->promises().issued - settled.issued;
+    const auto late = one->bounds().late - settled.late;
+    const auto issued = one->bounds().issued - settled.issued;
     ASSERT_GT(issued, 190U);
     if (one == &kept) {
       EXPECT_EQ(late, issued);
-      EXPECT_DOUBLE_EQ(one->promises().factor, 1.3);
+      EXPECT_DOUBLE_EQ(one->bounds().factor, 1.3);
     } else {
       EXPECT_LE(static_cast<double>(late), 0.1 * static_cast<double>(issued));
     }
   }
 }
 
-TEST(EnergySearch, a_slower_clock_than_asked_for_moves_the_promise) {
+TEST(EnergySearch, a_slower_clock_than_asked_for_moves_the_bound) {
   EnergySearchSettings constant;
   constant.bound.eta = 0.0;
   constant.bound.first = std::log(1.3);
   EnergySearch one = search_with(constant);
   see_maps(one, 40, 0.25, 0.1);
-  const PromiseCount before = one.promises();
+  const BoundCount before = one.bounds();
   for (int i = 0; i < 10; ++i) {
     Observation seen = seen_map(20.0 + 0.5 * i, static_cast<std::uint64_t>(90000 + i), 0.80, 0.19);
     seen.frequency = Hertz{0.5 * top_hz};  // .9 / 1 + .05 instead of .9 / 2 + .05: 1.9 times.
     one.learn(seen);
     (void)one.choose(open_space(), seen.now);
   }
-  EXPECT_GE(one.promises().issued, before.issued + 9);
-  EXPECT_EQ(one.promises().late, before.late);
+  EXPECT_GE(one.bounds().issued, before.issued + 9);
+  EXPECT_EQ(one.bounds().late, before.late);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::string end_of(const std::string& script) {
     return started.error().message;
   }
   static_cast<void>((*policy)->decide({}));
-  return std::string{(*policy)->trouble()};
+  return std::string{kit::trouble(**policy)};
 }
 
 void expect_ends(const std::vector<Hostile>& scripts) {
@@ -205,8 +205,8 @@ TEST(HostileScripts, that_look_for_chance_see_the_same_in_each_run) {
       ASSERT_TRUE(policy.ok()) << policy.error().message;
       ASSERT_TRUE(kit::start(**policy).ok());
       static_cast<void>((*policy)->decide({}));
-      const std::string logged{(*policy)->remark()};
-      ASSERT_NE("", logged) << (*policy)->trouble();
+      const std::string logged{kit::remark(**policy)};
+      ASSERT_NE("", logged) << kit::trouble(**policy);
       first = run == 0 ? logged : first;
       EXPECT_EQ(first, logged);
     }

@@ -5,7 +5,6 @@
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/governors/thermal_limit.h"
-#include "flyball/governors/time_budget.h"
 
 #include "counting_new.h"
 
@@ -25,7 +24,6 @@ TEST(Instruments, allocate_nothing_after_construction) {
   warm.trip_c = 80.0;
   warm.frequency = Hertz{2e9};
   const std::vector<double> clocks_hz{1e9, 2e9};
-  const TimeBudget budget{StoppingDistance::roborun()};
   double sum = 0.0;
   const std::size_t before = allocation_count();
   for (int i = 0; i < 100; ++i) {
@@ -42,8 +40,7 @@ TEST(Instruments, allocate_nothing_after_construction) {
     warm.temperature_c = 60.0 + 0.2 * i;
     heat.learn(warm);
     sum += 1e-9 * heat.most_clock_hz(clocks_hz);
-    sum += limit.watts_per_second(rotors.power(3.0).value(), to_seconds(predicted), 7.0) +
-           budget.budget_s(3.0, 7.0);
+    sum += limit.watts_per_second(rotors.power(3.0).value(), to_seconds(predicted), 7.0);
   }
   const std::size_t after = allocation_count();
   EXPECT_EQ(after, before);

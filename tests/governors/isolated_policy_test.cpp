@@ -69,8 +69,8 @@ TEST(IsolatedPolicy, decides_what_the_policy_inside_decides) {
       const Decision b = outside->decide(seen);
       EXPECT_EQ(a.reason, b.reason);
       EXPECT_EQ(a.overflowed(), b.overflowed()) << crime;
-      EXPECT_EQ((*inside)->trouble(), outside->trouble()) << crime;
-      EXPECT_EQ((*inside)->remark(), outside->remark()) << crime;
+      EXPECT_EQ(kit::trouble(**inside), kit::trouble(*outside)) << crime;
+      EXPECT_EQ(kit::remark(**inside), kit::remark(*outside)) << crime;
       if (crime == none || crime == random) {
         EXPECT_EQ(kit::wish_for(a, "map.resolution_m"), kit::wish_for(b, "map.resolution_m"));
       }
@@ -99,10 +99,10 @@ TEST(IsolatedPolicy, that_hangs_crashes_leaves_or_eats_memory_is_survived_in_one
     const auto policy = isolated("culprit", fall.crime == hang ? impatient() : little_memory());
     ASSERT_TRUE(kit::start(*policy, {{"crime", static_cast<double>(fall.crime)}}).ok());
     EXPECT_EQ(0U, policy->decide({}).size());
-    const std::string trouble{policy->trouble()};
+    const std::string trouble{kit::trouble(*policy)};
     EXPECT_EQ(0U, trouble.find("culprit: " + fall.sentence)) << trouble;
     EXPECT_EQ(0U, policy->decide({}).size()) << "and is not asked again";
-    EXPECT_EQ(trouble, policy->trouble());
+    EXPECT_EQ(trouble, kit::trouble(*policy));
   }
 }
 

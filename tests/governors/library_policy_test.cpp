@@ -34,7 +34,7 @@ TEST(LibraryPolicy, declares_decides_and_gives_its_reason) {
   const Decision wished = policy->decide(at_speed(1.0));
   EXPECT_EQ(0.15, kit::wish_for(wished, "map.resolution_m"));
   EXPECT_EQ(Reason::load, wished.reason);
-  EXPECT_EQ("", policy->trouble());
+  EXPECT_EQ("", kit::trouble(*policy));
 }
 
 TEST(LibraryPolicy, is_told_what_the_computer_draws_and_where_it_gets_too_hot) {
@@ -62,7 +62,7 @@ TEST(LibraryPolicy, that_returns_an_error_is_in_trouble_with_its_own_words) {
   const auto policy = opened("culprit");
   ASSERT_TRUE(kit::start(*policy, {{"crime", 7.0}}).ok());
   EXPECT_EQ(0U, policy->decide(at_speed(1.0)).size());
-  EXPECT_EQ(plugin("culprit") + ": I cannot", policy->trouble());
+  EXPECT_EQ(plugin("culprit") + ": I cannot", kit::trouble(*policy));
 }
 
 TEST(LibraryPolicy, draws_from_the_hosts_stream_and_knows_the_hosts_time) {
@@ -76,7 +76,7 @@ TEST(LibraryPolicy, draws_from_the_hosts_stream_and_knows_the_hosts_time) {
   EXPECT_EQ(drawn, kit::wish_for(other->decide(at_speed(1.0)), "map.resolution_m"));
   EXPECT_NE(drawn, kit::wish_for(third->decide(at_speed(1.0)), "map.resolution_m"));
   EXPECT_NE(drawn, kit::wish_for(one->decide(at_speed(1.0)), "map.resolution_m"));
-  EXPECT_EQ("in time", one->remark());
+  EXPECT_EQ("in time", kit::remark(*one));
 }
 
 TEST(LibraryPolicy, a_wish_for_no_place_in_the_list_names_no_knob) {
@@ -96,7 +96,7 @@ TEST(LibraryPolicy, too_many_wishes_overflow) {
 TEST(LibraryPolicy, built_against_the_first_header_still_works) {
   const auto policy = opened("culprit_older");
   ASSERT_TRUE(kit::start(*policy).ok());
-  EXPECT_EQ(std::nullopt, policy->period());
+  EXPECT_EQ(std::nullopt, kit::period(*policy));
   EXPECT_EQ(0.15, kit::wish_for(policy->decide(at_speed(1.0)), "map.resolution_m"));
 }
 
@@ -113,11 +113,11 @@ TEST(LibraryPolicy, an_exception_through_the_c_function_is_caught) {
   const auto policy = opened("thrower");
   ASSERT_TRUE(kit::start(*policy).ok());
   EXPECT_EQ(0U, policy->decide(at_speed(4.0)).size());
-  EXPECT_EQ(plugin("thrower") + ": threw: too fast for me", policy->trouble());
+  EXPECT_EQ(plugin("thrower") + ": threw: too fast for me", kit::trouble(*policy));
   static_cast<void>(policy->decide(at_speed(2.5)));
-  EXPECT_EQ(plugin("thrower") + ": threw an exception of no known type", policy->trouble());
+  EXPECT_EQ(plugin("thrower") + ": threw an exception of no known type", kit::trouble(*policy));
   static_cast<void>(policy->decide(at_speed(1.0)));
-  EXPECT_EQ("", policy->trouble()) << "of the last decision only";
+  EXPECT_EQ("", kit::trouble(*policy)) << "of the last decision only";
 }
 
 TEST(LibraryPolicy, what_is_no_library_is_named) {

@@ -36,7 +36,7 @@ class LuaPolicy : public testing::Test {
   std::string trouble_of(const std::string& body) const {
     const auto policy = started("\nfunction decide(seen)\n" + body + "\nend");
     EXPECT_EQ(0U, policy->decide({}).size());
-    const std::string all{policy->trouble()};
+    const std::string all{kit::trouble(*policy)};
     const std::size_t file = all.find("mine.lua");
     return file == std::string::npos ? all : all.substr(file);
   }
@@ -49,7 +49,7 @@ TEST_F(LuaPolicy, decides_with_wishes_in_the_order_of_the_knobs) {
       "  return {['cpu.cores'] = 2, ['map.range_m'] = 9, ['map.resolution_m'] = 0.3}, 'energy'\n"
       "end");
   const Decision wished = policy->decide({});
-  ASSERT_EQ(3U, wished.size()) << policy->trouble();
+  ASSERT_EQ(3U, wished.size()) << kit::trouble(*policy);
   EXPECT_EQ("map.resolution_m", wished.begin()[0].knob);
   EXPECT_EQ("map.range_m", wished.begin()[1].knob);
   EXPECT_EQ("cpu.cores", wished.begin()[2].knob);
@@ -73,7 +73,7 @@ TEST_F(LuaPolicy, sees_every_member_of_the_observation) {
   seen.battery_percent = 50.0;
   seen.rotor_power = Watts{200.0};
   EXPECT_EQ(2.0 + 3.0 + 4.0 + 50.0 + 200.0, kit::wish_for(policy->decide(seen), "map.range_m"));
-  EXPECT_EQ("cruise 2.0", policy->remark());
+  EXPECT_EQ("cruise 2.0", kit::remark(*policy));
 }
 
 TEST_F(LuaPolicy, declares_parameters_and_a_period_and_gets_what_a_preset_gives) {
@@ -90,7 +90,7 @@ TEST_F(LuaPolicy, declares_parameters_and_a_period_and_gets_what_a_preset_gives)
   ASSERT_EQ(1U, policy->parameters().size());
   EXPECT_EQ(0.05, policy->parameters()[0].min);
   EXPECT_EQ("Fine.", policy->parameters()[0].description);
-  EXPECT_EQ(Duration{std::chrono::milliseconds{500}}, policy->period());
+  EXPECT_EQ(Duration{std::chrono::milliseconds{500}}, kit::period(*policy));
   EXPECT_EQ(0.25 + 1.20, kit::wish_for(policy->decide({}), "map.resolution_m"));
 }
 
@@ -172,9 +172,9 @@ TEST_F(LuaPolicy, that_has_failed_is_asked_again_and_may_recover) {
   Observation fast;
   fast.speed_m_s = 6.0;
   EXPECT_EQ(0U, policy->decide(fast).size());
-  EXPECT_NE("", policy->trouble());
+  EXPECT_NE("", kit::trouble(*policy));
   EXPECT_EQ(1U, policy->decide({}).size());
-  EXPECT_EQ("", policy->trouble());
+  EXPECT_EQ("", kit::trouble(*policy));
 }
 
 #endif

@@ -46,7 +46,7 @@ std::map<std::string, double> values(const Decision& decision) {
 
 const std::map<std::string, double> safe_default{{"map.resolution_m", 0.15}, {"map.range_m", 7.0}};
 
-class Troubled final : public flyball::Policy {
+class Troubled final : public flyball::Policy, public flyball::HostsCode {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override { return {}; }
   flyball::Status start(const flyball::Parameters& /*given*/,

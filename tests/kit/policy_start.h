@@ -20,6 +20,22 @@ using GivenParameters = std::map<std::string, ParameterValue>;
   return policy.start(std::get<Parameters>(resolved), knobs, board);
 }
 
+/// What its host says of a policy's code; empty for a policy that hosts none.
+[[nodiscard]] inline std::string_view trouble(const Policy& policy) {
+  const auto* host = dynamic_cast<const HostsCode*>(&policy);
+  return host != nullptr ? host->trouble() : std::string_view{};
+}
+[[nodiscard]] inline std::string_view remark(const Policy& policy) {
+  const auto* host = dynamic_cast<const HostsCode*>(&policy);
+  return host != nullptr ? host->remark() : std::string_view{};
+}
+
+/// How often it wants to be asked; empty for a policy that does not say.
+[[nodiscard]] inline std::optional<Duration> period(const Policy& policy) {
+  const auto* chooses = dynamic_cast<const ChoosesPeriod*>(&policy);
+  return chooses != nullptr ? chooses->period() : std::nullopt;
+}
+
 /// The wish for one knob; none when the policy does not name it.
 [[nodiscard]] inline std::optional<double> wish_for(const Decision& decision,
                                                     std::string_view knob) {

@@ -2,6 +2,7 @@
 //
 // Linux's rules, each held against its published formula on a Jetson TX2's clocks.
 
+#include "policy_start.h"
 #include "started_policy.h"
 #include <cmath>
 
@@ -77,7 +78,7 @@ class Computer {
 TEST(ClockRules, performance_and_powersave_do_not_look) {
   Computer performance{"performance", {}, 0.0, 806.4};
   EXPECT_DOUBLE_EQ(performance.sample(0.0), 2035.2);
-  EXPECT_FALSE(performance.policy().period());
+  EXPECT_FALSE(flyball::kit::period(performance.policy()));
   Computer powersave{"powersave", {}, 0.0, 806.4};
   EXPECT_DOUBLE_EQ(powersave.sample(1.0), 345.6);
 }
@@ -90,7 +91,8 @@ TEST(ClockRules, those_that_look_must_be_told_how_often) {
     const auto resolved = flyball::Parameters::resolve(rule, specs, {});
     EXPECT_TRUE(std::holds_alternative<std::vector<flyball::Error>>(resolved)) << rule;
     const Computer computer{rule, {}, 0.01, 806.4};
-    EXPECT_EQ(computer.policy().period(), flyball::Duration{std::chrono::milliseconds{10}});
+    EXPECT_EQ(flyball::kit::period(computer.policy()),
+              flyball::Duration{std::chrono::milliseconds{10}});
   }
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "started_policy.h"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,8 @@ flyball::Foresight told(const flyball::Policy& policy, double finest_s, double g
     const double ahead_m = 4.0 * i;
     const bool is_gap = std::abs(ahead_m - gap_at_m) < 2.0;
     truth.places.push_back({ahead_m, 6.0, is_gap ? 0.9 : 24.0, is_gap ? 0.45 : 20.0});
-    for (const flyball::MapSetting& one : policy.foresees()) {
+    for (const flyball::MapSetting& one :
+         dynamic_cast<const flyball::UsesForesight&>(policy).foresees()) {
       truth.frame_s.push_back(finest_s * 0.15 / one.resolution_m * top_hz / one.clock_hz);
     }
   }
@@ -30,7 +31,7 @@ flyball::Foresight told(const flyball::Policy& policy, double finest_s, double g
 struct Rule {
   Rule() : started{flyball::start_policy("reference", {})} {}
   flyball::Decision decide(const flyball::Observation& seen, const flyball::Foresight& truth) {
-    started.policy->foretell(truth);
+    dynamic_cast<flyball::UsesForesight&>(*started.policy).foretell(truth);
     return started.policy->decide(seen);
   }
   flyball::StartedPolicy started;
@@ -39,9 +40,10 @@ struct Rule {
 TEST(Reference, asks_for_the_durations_of_all_that_it_may_choose) {
   const Rule rule;
   ASSERT_TRUE(rule.started.status.ok());
-  const auto asked = rule.started.policy->foresees();
+  const auto asked = dynamic_cast<const flyball::UsesForesight&>(*rule.started.policy).foresees();
   EXPECT_GT(asked.size(), 50U);
-  EXPECT_TRUE(flyball::start_policy("mission_energy", {}).policy->foresees().empty());
+  const auto blind = flyball::start_policy("mission_energy", {});
+  EXPECT_EQ(dynamic_cast<const flyball::UsesForesight*>(blind.policy.get()), nullptr);
 }
 
 TEST(Reference, flies_the_open_at_a_lower_clock_where_frames_are_soon_enough) {

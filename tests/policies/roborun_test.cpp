@@ -57,6 +57,10 @@ Wish wish_of(Policy& policy, const Observation& seen) {
   return wish;
 }
 
+const BoundsLatency& bounded(const Policy& policy) {
+  return dynamic_cast<const BoundsLatency&>(policy);
+}
+
 class Roborun : public testing::Test {
  protected:
   void SetUp() override {
@@ -181,7 +185,7 @@ TEST_F(Roborun, solves_for_no_cells_that_the_map_does_not_know) {
   given["gap_share"] = 0.5;
   const auto roborun = start_policy("roborun", given, KnobSettings{specs});
   EXPECT_NEAR(wish_of(*roborun.policy, in_the_open(18.0)).resolution_m, 1.2, 1e-9);
-  EXPECT_EQ(roborun.policy->promise_levels().size(), 3U);
+  EXPECT_EQ(bounded(*roborun.policy).bound_levels().size(), 3U);
 }
 
 TEST_F(Roborun, counts_maps_that_came_later_than_the_budget_of_their_frame) {
@@ -198,14 +202,14 @@ TEST_F(Roborun, counts_maps_that_came_later_than_the_budget_of_their_frame) {
     ++seen.map_revision;
     seen.latency = latency;
     (void)roborun.policy->decide(seen);
-    return *roborun.policy->promises();
+    return bounded(*roborun.policy).bounds();
   };
   EXPECT_EQ(map_after(900ms).late, 0U);
   EXPECT_EQ(map_after(1100ms).late, 1U);
-  EXPECT_EQ(roborun.policy->promises()->issued, 2U);
+  EXPECT_EQ(bounded(*roborun.policy).bounds().issued, 2U);
   seen.known_free_m = 6.0;  // None from now on ...
   EXPECT_EQ(map_after(900ms).issued, 3U);
-  EXPECT_EQ(map_after(900ms).issued, 3U) << "... and no promise to keep";
+  EXPECT_EQ(map_after(900ms).issued, 3U) << "... and no bound to keep";
 }
 
 TEST_F(Roborun, is_at_most_a_metre_and_a_fifth_near_the_goal) {

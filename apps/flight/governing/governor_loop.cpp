@@ -114,7 +114,7 @@ void GovernorLoop::publish_knobs(JobContext& job) {
 }
 
 void GovernorLoop::record_promises(JobContext& job) {
-  const std::optional<PromiseCount> count = governor_.policy().promises();
+  const std::optional<BoundCount> count = governor_.bounds();
   if (count && count->issued != promises_) {
     promises_ = count->issued;
     log(job, parts_.mission, "promise",

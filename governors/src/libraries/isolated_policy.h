@@ -5,6 +5,7 @@
 /// Code that nobody here has read, in a process of its own: it may crash, hang or eat memory there.
 
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 
 #include <functional>
 #include <memory>
@@ -38,7 +39,7 @@ using PolicyMaker = std::function<Result<std::unique_ptr<Policy>>()>;
 
 /// The process is forked by `start` and lives as long as the policy. An answer costs two messages
 /// through a socket, some tens of microseconds; nothing allocates here while it has nothing to say.
-class IsolatedPolicy final : public Policy {
+class IsolatedPolicy final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   /// @param name  For messages: the file.
   IsolatedPolicy(std::string name,

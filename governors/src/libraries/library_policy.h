@@ -6,6 +6,7 @@
 
 #include "flyball/governors/plugin_abi.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/runtime/random.h"
 
 #include <memory>
@@ -16,7 +17,7 @@ namespace flyball {
 
 /// A policy in a shared library, called in this process: what it breaks, it breaks here
 /// (isolated_policy.h).
-class LibraryPolicy final : public Policy {
+class LibraryPolicy final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   /// @param seed  Of the random stream that the library draws from.
   /// @error `not_found`, or `invalid_input` with what the file lacks.

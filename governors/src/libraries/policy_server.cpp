@@ -2,6 +2,8 @@
 // tested-in: isolated_policy
 #include "policy_server.h"
 
+#include "flyball/governors/policy_abilities.h"
+
 #include "confinement.h"
 #include "policy_packets.h"
 #include <algorithm>
@@ -79,8 +81,9 @@ void fill(AnswerPacket& answer,
     }
     answer.wishes[answer.size++] = {knob, value};
   }
-  put(answer.trouble, policy.trouble());
-  put(answer.remark, policy.remark());
+  const auto* host = dynamic_cast<const HostsCode*>(&policy);
+  put(answer.trouble, host != nullptr ? host->trouble() : std::string_view{});
+  put(answer.remark, host != nullptr ? host->remark() : std::string_view{});
 }
 
 }  // namespace
@@ -125,7 +128,8 @@ void serve_policy(const PacketSocket& socket,
       return made.error();
     }
     policy = std::move(*made);
-    const auto period = policy->period();
+    const auto* chooses = dynamic_cast<const ChoosesPeriod*>(policy.get());
+    const auto period = chooses != nullptr ? chooses->period() : std::nullopt;
     opening.period_ns = period ? period->count() : -1;
     return confine_to(Confinement::deciding, &opening);
   });

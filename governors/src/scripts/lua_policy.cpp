@@ -16,6 +16,7 @@ Result<std::unique_ptr<Policy>> open_lua_policy(const std::string& path, std::ui
 
 #else
 
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/policy_period.h"
 #include "flyball/runtime/observation_fields.h"
 
@@ -108,7 +109,7 @@ void read_wishes(lua_State* state, int table, const KnobSettings& knobs, Decisio
   }
 }
 
-class LuaPolicy final : public Policy {
+class LuaPolicy final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   LuaPolicy(std::string path, std::uint64_t seed) : sandbox_{std::move(path), seed, {}} {}
 

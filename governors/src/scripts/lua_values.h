@@ -4,7 +4,7 @@
 /// @file
 /// Numbers, texts and tables between a script and its host. All of them may raise.
 
-#include "flyball/runtime/board_model.h"
+#include "flyball/runtime/board.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
 

@@ -58,10 +58,11 @@ TEST(MissionSetup, tells_the_policy_what_its_platform_draws) {
   const auto setup = set_up(scenario);
   ASSERT_TRUE(setup.ok()) << setup.error().message;
   const Hertz lowest = setup->platform->frequencies().front();
-  EXPECT_NEAR(told_w(folder, scenario), setup->platform->power({4, lowest}, 1.0).value(), 1e-9);
+  const double usual_w = told_w(folder, scenario);
+  EXPECT_NEAR(usual_w, setup->platform->power({4, lowest}, 1.0).value(), 1e-9);
   scenario.platform.name =
       folder.file("hungry.toml", shipped_platform_with({{"board_w = 0.6 ", "board_w = 40.0 "}}));
-  EXPECT_NEAR(told_w(folder, scenario), 40.0, 1.0);
+  EXPECT_NEAR(told_w(folder, scenario) - usual_w, 40.0 - 0.6, 1e-9);
 }
 
 TEST(MissionSetup, names_what_it_does_not_know_and_where_the_names_are_listed) {

@@ -20,7 +20,8 @@ std::string what_it_does(const std::string& file) {
   if (!std::holds_alternative<flyball::Parameters>(given)) {
     return std::get<std::vector<flyball::Error>>(given).front().message;
   }
-  if (const auto begun = (*policy)->start(std::get<flyball::Parameters>(given), knobs); !begun) {
+  if (const auto begun = (*policy)->start(std::get<flyball::Parameters>(given), knobs, {});
+      !begun) {
     return begun.error().message;
   }
   std::string text;
@@ -30,7 +31,8 @@ std::string what_it_does(const std::string& file) {
     for (const auto& [knob, value] : (*policy)->decide(seen)) {
       text += std::string{knob} + "=" + std::to_string(value) + " ";
     }
-    text += std::string{(*policy)->trouble()} + "; " + std::string{(*policy)->remark()} + "\n";
+    text += std::string{flyball::kit::trouble(**policy)} + "; " +
+            std::string{flyball::kit::remark(**policy)} + "\n";
   }
   return text;
 }

@@ -5,6 +5,7 @@
 /// Policies that turn nothing in flight but the clock: an operating system's governors.
 
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 
 #include <memory>
 #include <string>
@@ -55,7 +56,7 @@ class ClockRule {
 /// A clock rule as a policy: `cpu.frequency_hz` is the rule's, the other knobs stay where
 /// parameters of `fixed_settings.h` put them. `sampling_period_s` is required, because with another
 /// period these rules are other rules.
-class ClockPolicy final : public Policy {
+class ClockPolicy final : public Policy, public ChoosesPeriod {
  public:
   /// @pre `rule` is not null.
   ClockPolicy(std::string name, std::unique_ptr<ClockRule> rule);

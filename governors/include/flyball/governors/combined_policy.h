@@ -6,6 +6,7 @@
 /// application does not set the clock.
 
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 
 #include <memory>
 
@@ -13,7 +14,10 @@ namespace flyball {
 
 /// The clock is the clock rule's, every other knob the application's. Each is asked at its own
 /// pace: the clock rule always, the application once per `application_period`.
-class CombinedPolicy final : public Policy {
+class CombinedPolicy final : public Policy,
+                             public ChoosesPeriod,
+                             public BoundsLatency,
+                             public HostsCode {
  public:
   /// @pre Both have been started; neither is null.
   CombinedPolicy(std::unique_ptr<Policy> application,
@@ -27,17 +31,25 @@ class CombinedPolicy final : public Policy {
   /// The shorter one of both; the clock rule's own where the application has none.
   [[nodiscard]] std::optional<Duration> period() const override;
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
-  /// The application's.
-  [[nodiscard]] std::optional<PromiseCount> promises() const noexcept override {
-    return application_->promises();
-  }
-  [[nodiscard]] std::vector<LevelPromises> promise_levels() const override {
-    return application_->promise_levels();
-  }
+  /// The application's; none where it states no bounds.
+  [[nodiscard]] BoundCount bounds() const noexcept override;
+  [[nodiscard]] std::vector<LevelBounds> bound_levels() const override;
+  /// Of whichever was asked; the application's first.
+  [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }
+  [[nodiscard]] std::string_view remark() const noexcept override { return remark_; }
 
  private:
+  void listen(const HostsCode* host) noexcept;
+
   std::unique_ptr<Policy> application_;
   std::unique_ptr<Policy> clock_;
+  const BoundsLatency* bounds_;        ///< The application's; null: it states none.
+  const HostsCode* application_code_;  ///< Null: it hosts none.
+  const HostsCode* clock_code_;
+  std::optional<Duration> own_period_{};  ///< The application's.
+  std::optional<Duration> clock_period_{};
+  std::string_view trouble_{};
+  std::string_view remark_{};
   Duration application_period_;
   Decision wish_{};  ///< The application's last one.
   std::optional<MissionTime> next_{};

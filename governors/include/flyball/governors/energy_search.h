@@ -8,7 +8,7 @@
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
 #include "flyball/governors/operating_points.h"
-#include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/governors/thermal_limit.h"
@@ -124,9 +124,9 @@ class EnergySearch {
   /// The highest that leaves the computer below its first trip; the top one where there is none.
   [[nodiscard]] double most_clock_hz() const { return most_clock_hz_; }
   /// Of all levels; the factor is that of the level in force.
-  [[nodiscard]] PromiseCount promises() const;
+  [[nodiscard]] BoundCount bounds() const;
   /// `most_late` where no map takes more than four times as long as predicted.
-  [[nodiscard]] std::vector<LevelPromises> promise_levels() const;
+  [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
 
  private:

@@ -6,6 +6,8 @@
 
 #include "flyball/governors/fallback_ladder.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
+#include "flyball/runtime/governor.h"
 
 #include <cstdint>
 #include <functional>
@@ -56,12 +58,20 @@ class PolicyGovernor final : public Governor {
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
   /// soon after a change is answered with the value in force. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
-  /// For a policy that asks for it (`Policy::foresees`), before `decide`.
-  void foretell(const Foresight& truth) noexcept { policy_->foretell(truth); }
+  /// Settings of which the policy wants to be told how long a frame will take; empty: it does not.
+  [[nodiscard]] std::vector<MapSetting> foresees() const;
+  /// For a policy that asks for it, before `decide`.
+  void foretell(const Foresight& truth) noexcept;
   /// What the policy asked for at the last decision, before it was made legal; empty after a fault.
   [[nodiscard]] const Decision& wished() const { return wished_; }
   /// How often the policy wants to be asked; empty: as often as the scenario says.
-  [[nodiscard]] std::optional<Duration> period() const { return policy_->period(); }
+  [[nodiscard]] std::optional<Duration> period() const;
+  /// How often the policy's bounds on latency held; empty: it states none.
+  [[nodiscard]] std::optional<BoundCount> bounds() const noexcept;
+  /// Level by level; empty: it states none. Allocates.
+  [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
+  /// What the policy weighed in the last decision, best first; empty: it does not compare.
+  [[nodiscard]] std::vector<PolicyOption> options() const;
   [[nodiscard]] PolicyFault last_fault() const { return last_fault_; }
   [[nodiscard]] bool has_fallen_back() const { return faults_in_row_ >= settings_.max_faults; }
   /// What the last decision is, and why: one sentence, empty for `Fallback::none`.
@@ -71,7 +81,6 @@ class PolicyGovernor final : public Governor {
   [[nodiscard]] double bound_factor() const;
   /// Whether the vehicle shall brake and stand.
   [[nodiscard]] bool must_hover() const { return fallback_ == Fallback::hover; }
-  [[nodiscard]] const Policy& policy() const { return *policy_; }
   /// What may be set, at the values that were in force at the start.
   [[nodiscard]] const KnobSettings& knobs() const { return knobs_; }
   /// What the policy wants the record to keep of the last decision; empty when it was not asked.
@@ -91,6 +100,11 @@ class PolicyGovernor final : public Governor {
   void put_in_force(std::size_t knob, double value, MissionTime now) noexcept;
 
   std::unique_ptr<Policy> policy_;
+  const ChoosesPeriod* chooses_period_;  ///< The policy, by what it can do; null: it cannot.
+  const BoundsLatency* bounds_latency_;
+  const ComparesOptions* compares_options_;
+  const HostsCode* hosts_code_;
+  UsesForesight* uses_foresight_;
   KnobSettings knobs_;
   PolicyGovernorSettings settings_;
   HostClock clock_;

@@ -4,7 +4,7 @@
 /// @file
 /// The computer's power, for a policy that cannot do without.
 
-#include "flyball/runtime/board_model.h"
+#include "flyball/runtime/board.h"
 #include "flyball/runtime/result.h"
 
 #include <string>

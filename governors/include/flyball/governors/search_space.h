@@ -6,7 +6,7 @@
 /// itself.
 
 #include "flyball/governors/energy_search.h"
-#include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 
 #include <vector>
 

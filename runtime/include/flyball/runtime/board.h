@@ -2,15 +2,32 @@
 #pragma once
 
 /// @file
-/// The companion computer as the governor meets it: what its meters say, and the operating point
-/// that is asked of it.
+/// The companion computer as the governor meets it: what is known of it before it flies, what its
+/// meters say, and the operating point that is asked of it.
 
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/units.h"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace flyball {
+
+/// Operating points, power and heat of one computer, as its platform file or its maker's data sheet
+/// has them. What is left out is not known: a board that is all defaults is one of which nothing
+/// is.
+struct BoardModel {
+  int max_cores{};                        ///< That may run jobs; 0: not known.
+  std::vector<Hertz> frequencies{};       ///< Ascending; empty: not known.
+  Duration switching_time{};              ///< How long a change of the clock takes.
+  std::optional<PowerCost> power{};       ///< Input power of the whole computer.
+  std::optional<ThermalModel> thermal{};  ///< Empty: it is not known to get too hot.
+};
+
+/// What a platform's file says of the board; what work costs in time is left to be learned in
+/// flight.
+[[nodiscard]] BoardModel board_model_of(const PlatformModel& platform);
 
 /// One look at every meter.
 struct BoardReading {

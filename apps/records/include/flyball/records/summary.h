@@ -5,7 +5,7 @@
 /// The result of one mission.
 
 #include "flyball/flight/mission_end.h"
-#include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 
 #include <cstdint>
 #include <map>
@@ -47,11 +47,11 @@ struct Summary {
   double latency_p50_s{};         ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
-  std::uint64_t maps{};                   ///< Published; each had a latency bound.
-  std::uint64_t bound_overruns{};         ///< Maps that violated their bound.
-  double budget_use_p50{};                ///< Latency over its bound.
-  std::vector<LevelPromises> promises{};  ///< Empty for a policy that states no bounds.
-  double decision_host_us_p50{};          ///< One decision of the governor, on the host.
+  std::uint64_t maps{};                 ///< Published; each had a latency bound.
+  std::uint64_t bound_overruns{};       ///< Maps that violated their bound.
+  double budget_use_p50{};              ///< Latency over its bound.
+  std::vector<LevelBounds> promises{};  ///< Empty for a policy that states no bounds.
+  double decision_host_us_p50{};        ///< One decision of the governor, on the host.
   double decision_host_us_p99{};
   std::uint64_t throttle_events{};    ///< How often heat lowered the granted clock.
   std::optional<double> hottest_c{};  ///< Of the computer; empty without a thermal model.

@@ -4,7 +4,7 @@
 /// @file
 /// A flight's decisions, made again from its record.
 
-#include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/runtime/observation.h"
 #include "flyball/scenario/scenario.h"
 

@@ -67,9 +67,7 @@ class GovernorLoop {
   /// Why the policy failed the first time; empty when it never did.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
   [[nodiscard]] std::uint64_t misses() const { return last_misses_; }
-  [[nodiscard]] std::vector<LevelPromises> promise_levels() const {
-    return governor_.policy().promise_levels();
-  }
+  [[nodiscard]] std::vector<LevelBounds> bound_levels() const { return governor_.bound_levels(); }
 
  private:
   /// Of the newest messages; empty while there is no map or no navigator.

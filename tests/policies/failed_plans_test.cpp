@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/failed_plans.h"
+#include "mission_energy/failed_plans.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/runtime/board_model.h"
+#include "flyball/runtime/board.h"
 
 #include <gtest/gtest.h>
 

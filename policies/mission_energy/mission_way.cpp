@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/mission_way.h"
+#include "mission_way.h"
 
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/search_space.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/horizon_search.h"
+#include "horizon_search.h"
 
 #include "flyball/governors/search_space.h"
 #include "flyball/governors/speed_limit.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/passability.h"
+#include "mission_energy/passability.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/sight.h"
+#include "sight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/mission_way.h"
+#include "mission_energy/mission_way.h"
 
 #include "flyball/governors/policy_conformance.h"
 

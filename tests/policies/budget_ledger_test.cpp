@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/budget_ledger.h"
+#include "roborun/budget_ledger.h"
 
 #include <chrono>
 

@@ -5,11 +5,15 @@
 /// What a mission's way allows to whoever searches for the least energy.
 
 #include "flyball/governors/energy_search.h"
-#include "flyball/governors/failed_plans.h"
-#include "flyball/governors/passability.h"
 #include "flyball/governors/resting.h"
-#include "flyball/governors/sight.h"
+#include "flyball/runtime/decision.h"
+#include "flyball/runtime/knob.h"
+#include "flyball/runtime/parameters.h"
+#include "flyball/runtime/result.h"
 
+#include "failed_plans.h"
+#include "passability.h"
+#include "sight.h"
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,13 +5,14 @@
 // Where the vehicle waits, or flies without a map, only the clock is left to save.
 
 #include "flyball/governors/energy_search.h"
-#include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
+#include "mission_way.h"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -21,7 +22,9 @@ namespace {
 using flyball::MapSetting;
 using flyball::Observation;
 
-class MissionEnergy final : public flyball::Policy {
+class MissionEnergy final : public flyball::Policy,
+                            public flyball::BoundsLatency,
+                            public flyball::ComparesOptions {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     auto all = flyball::MissionWay::parameters();
@@ -79,11 +82,9 @@ class MissionEnergy final : public flyball::Policy {
     return way_->wish(seen, best);
   }
 
-  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
-    return search_->promises();
-  }
-  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
-    return search_->promise_levels();
+  [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
+  [[nodiscard]] std::vector<flyball::LevelBounds> bound_levels() const override {
+    return search_->bound_levels();
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {

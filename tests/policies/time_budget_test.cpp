@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/time_budget.h"
+#include "roborun/time_budget.h"
 
 #include "flyball/governors/speed_limit.h"
 

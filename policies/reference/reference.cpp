@@ -2,18 +2,19 @@
 //
 // What is to be approached: mission_energy's way and prices, but true durations of the jobs to
 // come in place of learned ones, and all of the next 60 m weighed at once. A simulator alone can
-// tell it (Policy::foresees); told nothing, it decides by what it has learned, for the next metre.
+// tell it (UsesForesight); told nothing, it decides by what it has learned, for the next metre.
 // In the field there is nobody to ask.
 
 #include "flyball/governors/energy_search.h"
-#include "flyball/governors/horizon_search.h"
-#include "flyball/governors/mission_way.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
+#include "horizon_search.h"
+#include "mission_energy/mission_way.h"
 #include <algorithm>
 #include <optional>
 
@@ -28,7 +29,9 @@ constexpr double beside_m = 6.0;       // Large cells end what is free before ob
 constexpr double look_ahead_m = 12.0;  // here and so far on: as observations count density.
 constexpr double zone_ahead_m = 20.0;
 
-class Reference final : public flyball::Policy {
+class Reference final : public flyball::Policy,
+                        public flyball::ComparesOptions,
+                        public flyball::UsesForesight {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     auto all = flyball::MissionWay::parameters();

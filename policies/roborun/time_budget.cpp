@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/time_budget.h"
+#include "time_budget.h"
 
 #include "flyball/runtime/assert.h"
 

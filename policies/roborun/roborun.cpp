@@ -24,13 +24,14 @@
 // range. Our planner has neither, so r1, V1 and V2 only bind the others. Promises: each map is
 // held against the budget that was in force when its frame began, as in RoboRun's logs.
 
-#include "flyball/governors/budget_ledger.h"
 #include "flyball/governors/policy.h"
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
-#include "flyball/governors/time_budget.h"
 #include "flyball/runtime/registry.h"
 
+#include "budget_ledger.h"
 #include "roborun_solver.h"
+#include "time_budget.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +51,7 @@ constexpr double at_rest_m_s = 0.2;
 // The view of 90 by 59 degrees is a pyramid of volume 4/3 tan(45) tan(29.4) R^3.
 constexpr double view_volume = 0.75;
 
-class Roborun final : public flyball::Policy {
+class Roborun final : public flyball::Policy, public flyball::BoundsLatency {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     // q of the map: through the TX2's median latencies at 25 m in delivery_mixed and
@@ -132,12 +133,12 @@ class Roborun final : public flyball::Policy {
     return wish_;
   }
 
-  [[nodiscard]] std::optional<flyball::PromiseCount> promises() const noexcept override {
+  [[nodiscard]] flyball::BoundCount bounds() const noexcept override {
     const flyball::BudgetLedger::Count all = ledger_.all();
-    return flyball::PromiseCount{all.results, all.late, 1.0};
+    return flyball::BoundCount{all.results, all.late, 1.0};
   }
-  [[nodiscard]] std::vector<flyball::LevelPromises> promise_levels() const override {
-    std::vector<flyball::LevelPromises> all;
+  [[nodiscard]] std::vector<flyball::LevelBounds> bound_levels() const override {
+    std::vector<flyball::LevelBounds> all;
     for (std::size_t k = 0; k < levels_; ++k) {
       const flyball::BudgetLedger::Count& one = ledger_.levels()[k];
       all.push_back({level_m(k), one.results, one.late, std::nullopt});
