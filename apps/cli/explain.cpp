@@ -92,10 +92,10 @@ void add_explain(CLI::App& program, int& exit_code) {
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
   add_kernels(*command, options->kernels);
-  command->add_option("--at", options->at_s, "mission time")
-      ->type_name("SECONDS")
-      ->required()
-      ->check(CLI::Range(0.0, 86400.0));
+  refuse_nan(*command->add_option("--at", options->at_s, "mission time")
+                  ->type_name("SECONDS")
+                  ->required()
+                  ->check(CLI::Range(0.0, 86400.0)));
   command->callback([options, &exit_code] { exit_code = run_explain(*options); });
 }
 

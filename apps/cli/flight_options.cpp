@@ -4,6 +4,7 @@
 
 #include "flyball/scenario/kernel_library.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
@@ -42,6 +43,16 @@ void add_kernels(CLI::App& command, std::vector<std::string>& files) {
 void refuse_empty(CLI::Option& option) {
   option.check(CLI::Validator{
       [](const std::string& value) { return std::string{value.empty() ? "is empty" : ""}; }, ""});
+}
+
+void refuse_nan(CLI::Option& option) {
+  option.check(CLI::Validator{[](const std::string& value) {
+                                double number = 0.0;
+                                const bool is_nan =
+                                    CLI::detail::lexical_cast(value, number) && std::isnan(number);
+                                return std::string{is_nan ? value + " is no number" : ""};
+                              },
+                              ""});
 }
 
 void add_output(CLI::App& command, FlightOptions& options) {

@@ -31,6 +31,8 @@ void add_scenario(CLI::App& command, FlightOptions& options);
 /// An option that was given, but with nothing (`--policy "$UNSET"`), is a mistake: it does not
 /// stand for the default.
 void refuse_empty(CLI::Option& option);
+/// `nan`, which CLI11's ranges let through.
+void refuse_nan(CLI::Option& option);
 /// Adds `--out` and `--json`.
 void add_output(CLI::App& command, FlightOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include "recording_options.h"
 #include <memory>
 
@@ -108,11 +109,11 @@ void add_localize(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<LocalizeOptions>();  // Owners: the parser's callbacks.
   add_recording_options(*command, options->recording);
   command->add_option("--localizer", options->localizer, "visual_slam or visual_inertial");
-  command
-      ->add_option("--uncertain-above", options->uncertain_above_m,
-                   "counts poses whose expected error is larger; 0.1 by default")
-      ->type_name("M")
-      ->check(CLI::PositiveNumber);
+  refuse_nan(*command
+                  ->add_option("--uncertain-above", options->uncertain_above_m,
+                               "counts poses whose expected error is larger; 0.1 by default")
+                  ->type_name("M")
+                  ->check(CLI::PositiveNumber));
   command->add_option("--out", options->out, "writes the path here, as TUM's tools read it");
   command->add_flag("--json", options->as_json, "prints JSON");
   command->callback([options, &exit_code] { exit_code = localize(*options); });

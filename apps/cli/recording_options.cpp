@@ -4,21 +4,34 @@
 
 #include "flyball/records/text_table.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <CLI/CLI.hpp>
 
 namespace flyball {
 namespace {
 
+constexpr double most_px = 1e6;
+// Of 16 bits: a whole image within .7 mm, or 65 km; beyond that somebody has mistyped it.
+constexpr double least_factor = 1e-3;
+constexpr double most_factor = 1e8;
+
 Status check(const RecordingSettings& settings) {
   const auto& k = settings.intrinsics;
+  if (!std::all_of(k.begin(), k.end(), [](double px) { return std::abs(px) <= most_px; })) {
+    return Error{ErrorCode::invalid_input,
+                 "--intrinsics must be numbers of pixels, up to " + rounded(most_px, 0)};
+  }
   if (!k.empty() && !(k[0] > 0.0 && k[1] > 0.0)) {
     return Error{ErrorCode::invalid_input, "--intrinsics: focal lengths " + rounded(k[0], 3) +
                                                " and " + rounded(k[1], 3) +
                                                " must be above 0 pixels"};
   }
-  if (!(settings.depth_factor > 0.0)) {
-    return Error{ErrorCode::invalid_input,
-                 "--depth-factor " + rounded(settings.depth_factor, 3) + " must be above 0"};
+  if (!(settings.depth_factor >= least_factor && settings.depth_factor <= most_factor)) {
+    return Error{ErrorCode::invalid_input, "--depth-factor " + rounded(settings.depth_factor, 3) +
+                                               " must be from " + rounded(least_factor, 3) +
+                                               " to " + rounded(most_factor, 0)};
   }
   return Done{};
 }

@@ -5,6 +5,7 @@
 
 #include <csetjmp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <png.h>
@@ -69,6 +70,10 @@ Result<PngPixels> read_png(const std::string& file) {
   const Error unreadable{
       ErrorCode::invalid_input,
       "cannot read \"" + file + "\" as a PNG image of at most 8192 x 8192 pixels"};
+  // A pipe or a device may never end.
+  if (std::error_code failed; !std::filesystem::is_regular_file(file, failed)) {
+    return unreadable;
+  }
   const std::unique_ptr<std::FILE, CloseFile> source{std::fopen(file.c_str(), "rb")};
   const Decoder decoder;
   PngPixels pixels;

@@ -91,8 +91,9 @@ Status read_lens(const std::string& file, const std::string& text, CameraModel& 
 }
 
 Status read_camera(const std::string& file, Recording& recording) {
+  std::error_code failed;
   std::ifstream in_file{file};
-  if (!in_file) {
+  if (!in_file || !fs::is_regular_file(file, failed)) {
     return Error{ErrorCode::not_found, "cannot read \"" + file + "\""};
   }
   const std::string text = "\n" + std::string{std::istreambuf_iterator<char>{in_file}, {}};

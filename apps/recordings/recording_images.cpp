@@ -6,6 +6,7 @@
 #include "flyball/records/pictures.h"
 
 #include "recordings/png_file.h"
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -63,9 +64,11 @@ std::vector<std::uint8_t> grey_of(const PngPixels& image) {
 }
 
 bool begins_with(const std::string& file, std::string_view start) {
+  std::error_code failed;
   std::ifstream in{file, std::ios::binary};
   std::string head(start.size(), '\0');
-  return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == start;
+  return std::filesystem::is_regular_file(file, failed) &&
+         in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == start;
 }
 
 /// A JPEG image that was cut off would be shown grey from there on.

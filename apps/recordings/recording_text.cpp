@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace flyball {
@@ -62,8 +63,9 @@ Status check_order(const std::string& file,
 }
 
 Result<std::vector<TextLine>> read_lines(const std::string& file) {
+  std::error_code failed;
   std::ifstream in{file};
-  if (!in) {
+  if (!in || !std::filesystem::is_regular_file(file, failed)) {
     return Error{ErrorCode::not_found, "cannot read \"" + file + "\""};
   }
   std::vector<TextLine> lines;

@@ -74,8 +74,9 @@ void take_row(const Json& row, RecordedFlight& flight) {
 }
 
 Status read_trace(const std::string& path, RecordedFlight& flight) {
+  std::error_code failed;
   std::ifstream file{path};
-  if (!file) {
+  if (!file || !fs::is_regular_file(path, failed)) {
     return Error{ErrorCode::not_found,
                  "no file " + path + "; give the folder of a run, as `flyball run` writes it"};
   }
@@ -120,6 +121,11 @@ Status read_scenario(const std::string& path, RecordedFlight& flight) {
 
 /// The number of decisions, which must be no more than the flight had time for.
 Status read_decisions(const std::string& path, RecordedFlight& flight) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) {
+    return Error{ErrorCode::not_found,
+                 "no file " + path + "; give the folder of a run, as `flyball run` writes it"};
+  }
   std::ifstream file{path};
   const std::string text{std::istreambuf_iterator<char>{file}, {}};
   const Result<Summary> summary = read_summary(text);

@@ -85,7 +85,7 @@ def run(target, program, seeds, options):
     for name, content in seeds_of(target, seeds).items():
         (corpus / name.replace("/", "_")).write_bytes(content)
     command = [program.resolve(), corpus, f"-max_total_time={int(60 * options.minutes)}",
-               f"-seed={options.seed}", "-timeout=20", "-rss_limit_mb=6000", "-max_len=65536",
+               f"-seed={options.seed}", "-timeout=120", "-rss_limit_mb=6000", "-max_len=65536",
                "-print_final_stats=0", f"-artifact_prefix={options.out.resolve()}/{target}-"]
     return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, text=True, errors="replace", check=False)

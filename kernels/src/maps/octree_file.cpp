@@ -194,7 +194,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 Result<std::unique_ptr<octomap::OcTree>> read_octree(const std::string& path) {
   std::error_code ignored;
   std::ifstream file{path, std::ios::binary};
-  if (!file || fs::is_directory(path, ignored)) {
+  if (!file || !fs::is_regular_file(path, ignored)) {
     return Error{ErrorCode::not_found, "no map file \"" + path + "\""};
   }
   try {

@@ -6,6 +6,7 @@
 #include "world/solid_surface.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace flyball {
@@ -16,6 +17,10 @@ constexpr double below_m = 0.3;
 constexpr double above_m = 0.5;
 
 bool is_map(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) {
+    return false;
+  }
   std::ifstream file{path, std::ios::binary};
   std::string line;
   return std::getline(file, line) && line.rfind("# Octomap", 0) == 0;

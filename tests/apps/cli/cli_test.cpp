@@ -4,6 +4,7 @@
 
 #include "flyball_program.h"
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -236,6 +237,30 @@ TEST_F(Cli, world_draws_a_plan_and_says_how_far_a_place_reaches) {
 TEST_F(Cli, world_refuses_what_it_cannot_draw) {
   expect_refused("world nowhere.bt --picture plan.png", "no mesh file \"nowhere.bt\"");
   expect_refused("world hall.obj --up x", "--up");
+  for (const char* option : {"--height", "--ground", "--cell", "--metres-per-unit"}) {
+    expect_refused(std::string{"world hall.obj "} + option + " nan", "nan is no number");
+  }
+}
+
+// They would be read for ever.
+TEST_F(Cli, refuses_devices_where_files_are_wanted) {
+  const std::string zero = "/dev/zero";
+  expect_refused("world " + zero, "no mesh file");
+  expect_refused("map info " + zero, "no map file");
+  expect_refused("run delivery_open --start-map " + zero, "no map file");
+  const ScratchFolder devices;
+  std::filesystem::create_symlink(zero, devices.path("rgb.txt"));
+  expect_refused("localize " + devices.path(), "rgb.txt");
+  std::filesystem::create_symlink(zero, devices.path("trace.jsonl"));
+  expect_refused("replay " + devices.path(), "trace.jsonl; give the folder of a run");
+}
+
+TEST_F(Cli, refuses_a_lens_and_a_depth_that_are_none) {
+  expect_refused("localize . --intrinsics 80,80,nan,36", "--intrinsics must be numbers of pixels");
+  expect_refused("localize . --intrinsics 1e300,80,48,36", "--intrinsics must be numbers");
+  expect_refused("localize . --depth-factor inf", "--depth-factor inf must be from");
+  expect_refused("localize . --depth-factor 1e-300", "--depth-factor 0.000 must be from");
+  expect_refused("localize . --uncertain-above nan", "nan is no number");
 }
 
 TEST_F(Cli, map_export_keeps_log_odds) {
