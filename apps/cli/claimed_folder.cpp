@@ -43,6 +43,9 @@ Result<ClaimedFolder> ClaimedFolder::claim(const std::string& path) {
       return made.error();
     }
     const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0 && errno == ENOENT) {
+      continue;  // Whoever had it before has removed it since.
+    }
     if (folder >= 0) {
       lock(folder, path);
     }

@@ -126,9 +126,8 @@ std::string run_page(const Scenario& scenario,
                      summary_table(picture.summary) + frames_html + scenario_html(scenario));
 }
 
-}  // namespace
-
-Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
+/// One attempt at `prepare_folder`.
+Result<std::vector<std::string>> try_to_prepare(const std::string& folder) {
   std::error_code failed;
   std::vector<std::string> made;
   for (fs::path at = fs::absolute(folder, failed).lexically_normal();
@@ -147,6 +146,20 @@ Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
   }
   fs::remove(probe, failed);
   return made;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
+  // Another process that shares the folder may remove what is empty at any moment, between two
+  // steps of ours too. So many times in a row it does not; then the place itself is at fault.
+  constexpr int most_attempts = 100;
+  for (int attempt = 1;; ++attempt) {
+    auto made = try_to_prepare(folder);
+    if (made || attempt == most_attempts) {
+      return made;
+    }
+  }
 }
 
 void remove_empty(const std::vector<std::string>& folders) {

@@ -4,8 +4,10 @@
 
 #include "made_flights.h"
 #include "scratch_folder.h"
+#include <atomic>
 #include <cstring>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -124,6 +126,23 @@ TEST(RunFolder, preparing_can_be_undone) {
   remove_empty(*made);
   EXPECT_FALSE(std::filesystem::exists(scratch.path("a/b")));
   EXPECT_EQ(scratch.content("a/kept"), "precious");
+}
+
+TEST(RunFolder, a_folder_is_made_though_others_remove_what_is_empty) {
+  const ScratchFolder scratch;
+  std::atomic<bool> is_done{false};
+  std::thread other{[&] {
+    while (!is_done) {
+      remove_empty({scratch.path("a"), scratch.path("a/b"), scratch.path("a/b/c")});
+    }
+  }};
+  for (int i = 0; i < 500; ++i) {
+    const auto made = prepare_folder(scratch.path("a/b/c/d"));
+    EXPECT_TRUE(made.ok()) << made.error().message;
+    std::filesystem::remove(scratch.path("a/b/c/d"));
+  }
+  is_done = true;
+  other.join();
 }
 
 TEST(RunFolder, a_file_that_cannot_be_replaced_keeps_its_content) {
