@@ -160,6 +160,7 @@ constexpr std::array<Listing, 8> listings{{
     {"kernels", list_kernels},
     {"policies", list_policies},
     {"platforms", [] { return list_files("platforms"); }},
+    {"boards", [] { return list_files("boards"); }},
     {"worlds", list_worlds},
     {"airframes", [] { return list_files("airframes"); }},
     {"knobs", list_knobs},
