@@ -154,7 +154,7 @@ struct Listing {
   Result<Lines> (*list)();
 };
 
-constexpr std::array<Listing, 8> listings{{
+constexpr std::array<Listing, 9> listings{{
     {"scenarios", [] { return list_files("scenarios"); }},
     {"workloads", list_workloads},
     {"kernels", list_kernels},
