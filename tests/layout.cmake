@@ -60,7 +60,8 @@ foreach(folder IN LISTS places)
 endforeach()
 
 foreach(folder IN LISTS places)
-  file(GLOB_RECURSE files ${root}/${folder}/*.h ${root}/${folder}/*.cpp ${root}/${folder}/*.cmake
+  file(GLOB_RECURSE files ${root}/${folder}/*.h ${root}/${folder}/*.cpp ${root}/${folder}/*.inc
+       ${root}/${folder}/*.py ${root}/${folder}/*.lua ${root}/${folder}/*.cmake
        ${root}/${folder}/*.sh ${root}/${folder}/*.js ${root}/${folder}/*.html)
   foreach(file IN LISTS files)
     file(READ ${file} text)

@@ -30,7 +30,7 @@ void Legs::land(JobContext& job) {
   command(job, MissionPhase::land, {FlightCommand::Kind::land, 0.0});
 }
 
-void Legs::release_payload(JobContext& job) {
+void Legs::release_payload(JobContext& job) const {
   job.publish(vehicle_.command, FlightCommand{FlightCommand::Kind::release_payload, 0.0});
 }
 

@@ -79,14 +79,15 @@ struct Flight {
   }
 
   void add_governing(const Scenario& scenario, MissionSetup& setup) {
-    const GovernorInputs inputs = governor_inputs(graph);
+    GovernorInputs inputs = governor_inputs(graph);
     std::vector<MapSetting> settings = setup.governor->foresees();
     if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
       future = std::make_unique<FutureFrames>(parts.brief, setup.things.world, computer,
                                               std::move(settings));
+      inputs.future = future.get();
     }
     governor = std::make_shared<GovernorLoop>(parts, setup.equipment.knobs, *setup.governor, board,
-                                              inputs, future.get());
+                                              inputs);
     period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
     add_governor(graph, parts, inputs, period, governor);
   }

@@ -44,18 +44,24 @@ void KnownShare::spread_from(std::size_t cell) {
   const std::size_t row = cell / columns_ % rows_;
   const std::size_t layer = cell / (columns_ * rows_);
   const std::size_t plane = columns_ * rows_;
-  if (column > 0)
+  if (column > 0) {
     reach(cell - 1);
-  if (column + 1 < columns_)
+  }
+  if (column + 1 < columns_) {
     reach(cell + 1);
-  if (row > 0)
+  }
+  if (row > 0) {
     reach(cell - columns_);
-  if (row + 1 < rows_)
+  }
+  if (row + 1 < rows_) {
     reach(cell + columns_);
-  if (layer > 0)
+  }
+  if (layer > 0) {
     reach(cell - plane);
-  if (layer + 1 < layers_)
+  }
+  if (layer + 1 < layers_) {
     reach(cell + plane);
+  }
 }
 
 double KnownShare::percent(const OccupancyView& map) {

@@ -52,21 +52,20 @@ double density_ahead(const NavigatorState& navigator, const OccupancyView& map) 
 }  // namespace
 
 GovernorInputs governor_inputs(const Graph& graph) {
-  return {graph.find<NavigatorState>("navigator"), graph.find<MapRevision>("map_revision")};
+  return {graph.find<NavigatorState>("navigator"), graph.find<MapRevision>("map_revision"),
+          nullptr};
 }
 
 GovernorLoop::GovernorLoop(const FlightParts& parts,
                            const KnobSettings& knobs,
                            PolicyGovernor& governor,
                            Board& board,
-                           const GovernorInputs& inputs,
-                           ForesightSource* future)
+                           const GovernorInputs& inputs)
     : parts_{parts},
       knobs_{knobs_at_start(knobs)},
       governor_{governor},
       board_{board},
       inputs_{inputs},
-      future_{future},
       asked_{board.read().granted} {
   // Until there is a map, nothing is known to stand anywhere.
   const GapScan scan;
@@ -160,8 +159,8 @@ void GovernorLoop::look_around(JobContext& job) {
   }
   if (navigator && map) {
     observe_map(*navigator, *map->map);
-    if (future_ != nullptr) {
-      governor_.foretell(future_->look(*navigator, {*parts_.brief, knobs_, *map->map}));
+    if (inputs_.future != nullptr) {
+      governor_.foretell(inputs_.future->look(*navigator, {*parts_.brief, knobs_, *map->map}));
     }
   }
 }

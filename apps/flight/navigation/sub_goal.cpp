@@ -32,12 +32,14 @@ Vec3 sub_goal_W(const Situation& situation, const Vec3& start_W, const Vec3& goa
   }
   const Vec3 ahead_W = (goal_W - start_W) / distance_m;
   const Vec3 left_W = Vec3::UnitZ().cross(ahead_W);
+  const auto is_next = [&](Vec3& p_W) {
+    p_W.z() = goal_W.z();
+    return may_be_there(situation, p_W) && failures-- <= 0;
+  };
   for (int place = 0; place <= 2 * most_aside; ++place) {
     const double aside = aside_m * (place % 2 == 1 ? (place + 1) / 2 : -(place / 2));
     for (double on_m = horizon_m; on_m >= nearest_share * horizon_m; on_m -= step_m) {
-      Vec3 p_W = start_W + on_m * ahead_W + aside * left_W;
-      p_W.z() = goal_W.z();
-      if (may_be_there(situation, p_W) && failures-- <= 0) {
+      if (Vec3 p_W = start_W + on_m * ahead_W + aside * left_W; is_next(p_W)) {
         return p_W;
       }
     }

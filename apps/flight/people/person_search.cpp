@@ -43,15 +43,16 @@ std::vector<float> depths_near(const DepthImage& depth,
   };
   const auto u = range(pixel[0], half[0], depth.camera.width_px);
   const auto v = range(pixel[1], half[1], depth.camera.height_px);
+  const auto width = static_cast<std::size_t>(depth.camera.width_px);
   std::vector<float> depths;
   for (int y = v[0]; y <= v[1]; ++y) {
     for (int x = u[0]; x <= u[1]; ++x) {
-      const float d = depth.depth_m[static_cast<std::size_t>(y * depth.camera.width_px + x)];
-      if (std::isfinite(d)) {
-        depths.push_back(d);
-      }
+      depths.push_back(
+          depth.depth_m[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
     }
   }
+  const auto is_infinite = [](float d) { return !std::isfinite(d); };
+  depths.erase(std::remove_if(depths.begin(), depths.end(), is_infinite), depths.end());
   return depths;
 }
 

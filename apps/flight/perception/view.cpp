@@ -2,6 +2,7 @@
 #include "flyball/flight/perception/view.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flyball {
 
@@ -27,7 +28,7 @@ std::vector<std::uint8_t> exposed_grey(const ColourImage& colour) {
   std::vector<std::uint8_t> grey(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     const double bright = std::min(gain * luma_of(&colour.rgb[3 * i]), 255.0);
-    grey[i] = static_cast<std::uint8_t>(bright + 0.5);
+    grey[i] = static_cast<std::uint8_t>(std::lround(bright));
   }
   return grey;
 }

@@ -20,9 +20,9 @@ class Legs {
   void declare(NodeSpec& spec) const;
   void take_off(JobContext& job, double height_m);
   void land(JobContext& job);
-  void release_payload(JobContext& job);
+  void release_payload(JobContext& job) const;
   /// A phase that is no manoeuvre.
-  void enter(JobContext& job, MissionPhase phase) { job.publish(mission_.state, {phase}); }
+  void enter(JobContext& job, MissionPhase phase) const { job.publish(mission_.state, {phase}); }
   /// Whether the last take-off or landing has ended. A status that was sent before the flight
   /// controller heard of it does not count.
   [[nodiscard]] bool are_done(JobContext& job) const;

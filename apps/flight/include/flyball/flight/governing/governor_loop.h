@@ -40,6 +40,7 @@ class ForesightSource {
 struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
   std::optional<Topic<MapRevision>> map{};
+  ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
 /// The topics `navigator` and `map_revision` of a graph, where it has them.
@@ -48,13 +49,12 @@ struct GovernorInputs {
 /// Belongs to the node `govern` while the graph runs; what it counted may be asked afterwards.
 class GovernorLoop {
  public:
-  /// Governor, board and `future` outlive the loop; `future` may be null.
+  /// Governor and board outlive the loop.
   GovernorLoop(const FlightParts& parts,
                const KnobSettings& knobs,
                PolicyGovernor& governor,
                Board& board,
-               const GovernorInputs& inputs,
-               ForesightSource* future);
+               const GovernorInputs& inputs);
 
   /// Makes one decision. The surroundings are observed once in each `governor.period_s`, the
   /// computer every time.
@@ -95,7 +95,6 @@ class GovernorLoop {
   PolicyGovernor& governor_;
   Board& board_;
   GovernorInputs inputs_;
-  ForesightSource* future_;
   OperatingPoint asked_;
   Observation seen_{};
   std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
