@@ -37,7 +37,7 @@ Fields mission_fields() {
       {"mission.max_acceleration_m_s2", &at<in, &M::max_acceleration_m_s2>, 0.5, 20,
        "the braking that the speed limit counts on"},
       {"mission.goal_tolerance_m", &at<in, &M::goal_tolerance_m>, 0.1, 100,
-       "a path that ends farther from the goal is replanned"},
+       "a path that ends this near to the goal has reached it; from others a plan is made"},
   };
 }
 

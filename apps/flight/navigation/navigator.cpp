@@ -16,7 +16,6 @@ constexpr auto retry_after = 500ms;     // The same map would fail again: wait f
 constexpr auto finer_patience = 3s;     // For a map of smaller cells that is on its way.
 constexpr int most_refusals = 3;        // Of one way: then another one is looked for.
 constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
-constexpr double arrival_m = 0.3;
 constexpr double rests_below_m_s = 0.02;
 constexpr double moves_above_m_s = 0.2;
 constexpr double creeps_below_m_s = 0.05;
@@ -75,7 +74,8 @@ void Navigator::clear_goal() {
 }
 
 bool Navigator::has_arrived() const {
-  return goal_W_ && follower_.is_at_end() && (follower_.position_W() - *goal_W_).norm() < arrival_m;
+  return goal_W_ && follower_.is_at_end() &&
+         (follower_.position_W() - *goal_W_).norm() < brief_->settings.mission.goal_tolerance_m;
 }
 
 void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
@@ -168,7 +168,8 @@ bool Navigator::is_leg_ending() const {
   }
   const Path& path = follower_.path();
   return path.length_m() - follower_.s_m() < 0.4 * horizon_m &&
-         (path.at(path.length_m()).p_W - *goal_W_).norm() > arrival_m;
+         (path.at(path.length_m()).p_W - *goal_W_).norm() >
+             brief_->settings.mission.goal_tolerance_m;
 }
 
 // What is known to be free is flown on while a plan is made: from nearer by the map shows more, and

@@ -29,6 +29,23 @@ TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
+TEST(Navigator, has_arrived_where_a_path_ends_within_the_tolerance_of_the_goal) {
+  for (const double tolerance_m : {0.3, 1.5}) {
+    Scenario scenario = kit::MissionRig::one_core();
+    scenario.mission.goal_tolerance_m = tolerance_m;
+    Trip trip{scenario};
+    trip.set_goal(Vec3{20, 0, 1.5});
+    auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    query->goal_W.x() -= 1.0;  // The plan ends 1 m short of the goal.
+    trip.answer(*query);
+    trip.tick(2000);
+    const bool is_near_enough = tolerance_m > 1.0;
+    EXPECT_EQ(trip.navigator.has_arrived(), is_near_enough);
+    EXPECT_EQ(trip.navigator.next_query(trip.now).has_value(), !is_near_enough);
+  }
+}
+
 TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
   Scenario scenario = kit::MissionRig::one_core();
   scenario.planner.horizon_m = 20.0;
