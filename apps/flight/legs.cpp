@@ -6,7 +6,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settling = 500ms;  // Until a status is surely from after the command.
+// Chosen: by then the flight controller has heard the command, and its status is newer than that.
+constexpr auto settling = 500ms;
 
 }  // namespace
 

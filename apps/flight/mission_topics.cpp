@@ -8,9 +8,10 @@
 namespace flyball {
 namespace {
 
-constexpr std::size_t most_rows = 4096;  // Waiting to be recorded.
+// Chosen: many more than one job writes; the node `record` runs before any other.
+constexpr std::size_t most_rows = 4096;
 constexpr std::size_t most_ends = 8;
-// Recording takes no time on the modeled computer, so it need not wait for anything.
+// Recording takes no time on the modeled computer, so it runs before all else.
 constexpr int record_priority = 100;
 constexpr int finish_priority = 99;
 

@@ -10,9 +10,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double facing_rad = 0.05;
-constexpr int most_failures = 3;     // Plans in a row: the view cannot be got to.
-constexpr double patience_s = 40.0;  // Standing on the way to a view, for whatever reason.
+// Chosen by hand.
+constexpr double there_m = 0.3;        // Near enough to a view, ...
+constexpr double there_error_m = 0.1;  // ... with the vehicle this near to its reference, ...
+constexpr double facing_rad = 0.05;    // ... and turned this near to its heading.
+constexpr double moving_m_s = 0.05;
+constexpr int most_failures = 3;     // After so many failed plans in a row a view is given up, ...
+constexpr double patience_s = 40.0;  // ... or after standing for so long before it is reached.
 
 }  // namespace
 
@@ -183,8 +187,8 @@ void ExplorationFlight::watch_flight(JobContext& job) {
     return;
   }
   const bool is_there =
-      (navigator->position_W - navigator->goal_W).norm() < 0.3 && navigator->stands_still;
-  if (is_there && navigator->tracking_error.size_m < 0.1) {
+      (navigator->position_W - navigator->goal_W).norm() < there_m && navigator->stands_still;
+  if (is_there && navigator->tracking_error.size_m < there_error_m) {
     guidance_.give_up_goal(job);
     if (state_ == State::homing) {
       land(job);
@@ -193,7 +197,7 @@ void ExplorationFlight::watch_flight(JobContext& job) {
     }
     return;
   }
-  if (navigator->speed_m_s > 0.05) {
+  if (navigator->speed_m_s > moving_m_s) {
     since_ = job.now();
   }
   const bool is_stuck =

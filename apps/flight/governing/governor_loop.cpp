@@ -5,20 +5,26 @@
 #include "flyball/runtime/observation_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 
 namespace flyball {
 namespace {
 
-// The neighbourhood that the two-level switch looks at: the delivery camera's 7 m less a frame's
-// travel, and a band of heights just wider than the body. A wider one would reach the ground's own
-// cells: at .80 m, depth noise marks all of [0, .80).
+// The neighbourhood whose density counts: the delivery camera's range of 7 m less the distance
+// flown during one frame, and a band of heights that is just wider than the body. A wider band
+// would include cells of the ground, because depth noise at .80 m cells marks all of [0, .80).
 constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
+// Chosen: farther obstacles than this make no difference to any policy.
 constexpr double nearest_limit_m = 20.0;
-constexpr int govern_priority = 90;         // It takes no time on the modeled computer.
-constexpr double path_width_reach_m = 8.0;  // A little farther than the finest cells show.
+constexpr double path_width_reach_m = 8.0;  // A little farther than the delivery camera's range.
+// Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
+// wide.
+constexpr std::array<double, 3> density_places_m{4.0, 8.0, 12.0};
+constexpr std::array<double, 5> limit_places_m{4.0, 8.0, 12.0, 16.0, 20.0};
+constexpr int govern_priority = 90;  // It takes no time on the modeled computer.
 
 /// On the path, or its end.
 Vec3 place_ahead_W(const NavigatorState& navigator, double ahead_m) {
@@ -31,7 +37,7 @@ double speed_limit_ahead(const NavigatorState& navigator,
                          const Site& site) {
   double least = knobs.speed_limit_m_s(site, navigator.position_W);
   if (navigator.has_path()) {
-    for (const double ahead_m : {4.0, 8.0, 12.0, 16.0, 20.0}) {
+    for (const double ahead_m : limit_places_m) {
       least = std::min(least, knobs.speed_limit_m_s(site, place_ahead_W(navigator, ahead_m)));
     }
   }
@@ -41,7 +47,7 @@ double speed_limit_ahead(const NavigatorState& navigator,
 double density_ahead(const NavigatorState& navigator, const OccupancyView& map) {
   double most = 0.0;
   if (navigator.has_path()) {
-    for (const double ahead_m : {4.0, 8.0, 12.0}) {
+    for (const double ahead_m : density_places_m) {
       const Vec3 p_W = place_ahead_W(navigator, ahead_m);
       most = std::max(most, map.obstacle_density(p_W, density_radius_m, density_half_band_m));
     }
@@ -123,8 +129,9 @@ void GovernorLoop::record_promises(JobContext& job) {
   }
 }
 
-/// Whole when it has looked around; else what has changed since, so that fast policies do not fill
-/// the record. Together they are every observation, bit for bit.
+/// Records the whole observation after a look around, and otherwise only the fields that have
+/// changed, so that policies that decide often do not fill the record. Together the rows give every
+/// observation to the bit.
 void GovernorLoop::record(JobContext& job, bool is_whole) {
   const auto& fields = observation_fields();
   told_.resize(fields.size());
@@ -230,8 +237,8 @@ void GovernorLoop::observe_computer(MissionTime now) {
   seen_.trip_c = board.trip_c;
 }
 
-/// Once for each knob whose wished value this mission does not have: a mapper may know no cells of
-/// .8 m.
+/// Tells once of each knob whose wished value is not legal in this mission: a mapper may know no
+/// cells of .8 m.
 void GovernorLoop::note_moved_wishes(JobContext& job) {
   for (const auto& wish : governor_.wished()) {
     const KnobSpec* spec = knobs_.knobs.spec(wish.knob);
@@ -245,7 +252,7 @@ void GovernorLoop::note_moved_wishes(JobContext& job) {
   }
 }
 
-/// Each step of the ladder, up or down, is an event; so is each other fault of the policy.
+/// Each change of the fallback is an event, and so is each new fault of the policy.
 void GovernorLoop::note_fallback(JobContext& job) {
   const FlightRestraint restraint{governor_.bound_factor(), governor_.must_hover()};
   has_new_knobs_ = has_new_knobs_ || restraint != knobs_.restraint;
@@ -286,7 +293,7 @@ void GovernorLoop::apply(JobContext& job, const Decision& decision) {
   note_fallback(job);
   const OperatingPoint wished{static_cast<int>(knobs_.value("cpu.cores")),
                               Hertz{knobs_.value("cpu.frequency_hz")}};
-  if (wished != asked_) {  // What is granted may be less.
+  if (wished != asked_) {  // The board may grant less than this.
     asked_ = wished;
     board_.request(wished);
     knobs_.computer = board_.read().granted;

@@ -10,14 +10,15 @@ namespace {
 constexpr double line_spacing_m = 1.0;
 // A wall that is thinner than the spacing is still as near as this to one of two lines.
 constexpr double near_m = 0.5 * line_spacing_m;
-constexpr double least_step_m = 0.25;
-constexpr double touching_m = 0.05;  // A third of the finest cells.
-constexpr double feeling_m = 0.1;
+constexpr double least_step_m = 0.25;    // So exact are widths; chosen for the cost of a scan.
+constexpr double touching_m = 0.05;      // A third of the finest cells.
+constexpr double least_feeling_m = 0.1;  // Less than one of the finest cells.
 constexpr double span_step_m = 0.5;  // A wall of .2 m is no farther than .15 m from one of them.
-constexpr double sight_m = 3.0;  // A farther obstacle need not be found: the next step finds it.
+constexpr double look_m = 3.0;       // An obstacle farther away is found from the next step.
 
-/// Asks for the nearest obstacle around, which most often saves the questions that follow: nothing
-/// is nearer to a place beside this one than that, less the way there.
+/// Asks the map once for the nearest obstacle around. Most often that saves the queries that
+/// follow: a place beside this one is at least that distance, less the distance between the two
+/// places, away from any obstacle.
 class Surroundings {
  public:
   /// @param reach_m  The places that will be asked for are no farther, at the same height.
@@ -25,14 +26,14 @@ class Surroundings {
       : map_{map},
         p_W_{p_W},
         half_band_m_{half_band_m},
-        nearest_m_{map.nearest_obstacle_m(p_W, reach_m + 2.0 * sight_m, half_band_m)} {}
-  /// `sight_m` at most.
+        nearest_m_{map.nearest_obstacle_m(p_W, reach_m + 2.0 * look_m, half_band_m)} {}
+  /// `look_m` at most.
   [[nodiscard]] double nearest_obstacle_m(const Vec3& p_W) const {
     constexpr double rounding_m = 1e-6;
-    if (nearest_m_ - (p_W - p_W_).norm() > sight_m + rounding_m) {
-      return sight_m;
+    if (nearest_m_ - (p_W - p_W_).norm() > look_m + rounding_m) {
+      return look_m;
     }
-    return map_.nearest_obstacle_m(p_W, sight_m, half_band_m_);
+    return map_.nearest_obstacle_m(p_W, look_m, half_band_m_);
   }
 
  private:
@@ -42,7 +43,7 @@ class Surroundings {
   double nearest_m_;
 };
 
-/// The widest opening on one line, by steps as long as the obstacles are far.
+/// The widest opening on one line. Each step is as long as the nearest obstacle is away.
 double widest_m(const Surroundings& map,
                 const Vec3& centre_W,
                 const Vec3& aside_W,
@@ -67,27 +68,27 @@ double widest_m(const Surroundings& map,
   return widest > 0.0 ? std::min(widest, 2.0 * scan.aside_m) : 2.0 * closest;
 }
 
-/// From `p_W` to the first obstacle on this side, `sight_m` at most.
+/// From `p_W` to the first obstacle on this side, `look_m` at most.
 double free_aside_m(const OccupancyView& map,
                     const Vec3& p_W,
                     const Vec3& aside_W,
                     double half_band_m) {
   double free_m = 0.0;
-  while (free_m < sight_m) {
-    const double clear_m = map.nearest_obstacle_m(p_W + free_m * aside_W, sight_m, half_band_m);
+  while (free_m < look_m) {
+    const double clear_m = map.nearest_obstacle_m(p_W + free_m * aside_W, look_m, half_band_m);
     if (clear_m < touching_m) {
       break;
     }
-    free_m += std::max(clear_m, feeling_m);
+    free_m += std::max(clear_m, least_feeling_m);
   }
-  return std::min(free_m, sight_m);
+  return std::min(free_m, look_m);
 }
 
 }  // namespace
 
 PathWidth narrowest_on(const OccupancyView& map, const PathSpan& span, double half_band_m) {
   const double reach_m = std::min(span.horizon_m, span.path->length_m() - span.from_m);
-  PathWidth narrowest{2.0 * sight_m, std::max(0.0, reach_m)};
+  PathWidth narrowest{2.0 * look_m, std::max(0.0, reach_m)};
   for (double ahead_m = 0.0; ahead_m <= reach_m; ahead_m += span_step_m) {
     const Path::Sample here = span.path->at(span.from_m + ahead_m);
     const Vec3 left_W = Vec3::UnitZ().cross(here.tangent_W);

@@ -11,8 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration least_price = 1ms;  // A computer in a test may be free.
-constexpr std::size_t most_windows = 64;
+constexpr Duration least_price = 1ms;     // A computer in a test may charge nothing.
+constexpr std::size_t most_windows = 64;  // Chosen: enough for the settings of some minutes.
 
 }  // namespace
 
@@ -50,8 +50,8 @@ FramePrice frame_price(const Brief& brief) {
   return price;
 }
 
-// What was measured longest ago is forgotten, so that a policy that never asks for the same range
-// twice does not fill the memory.
+// The oldest measurement is forgotten, because a policy that never asks for the same range twice
+// would fill the memory.
 void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
   const auto key = std::make_tuple(terms.cores, terms.resolution_m, terms.range_m);
   if (windows_.find(key) == windows_.end() && windows_.size() >= most_windows) {
@@ -64,9 +64,9 @@ void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
   here.newest = now;
 }
 
-// The price of a frame is an upper bound, and several times too high where a wall ends most rays:
-// so the nearest settings that were measured tell more than it does. On fewer cores the same jobs
-// take at most as many times longer as there are fewer.
+// The price of a frame is an upper bound, and several times too high where a wall ends most rays.
+// So a measurement at the nearest settings tells more than the price does. The same jobs on fewer
+// cores take longer by at most the ratio of the numbers of cores.
 double MeasuredShares::bound(const MapTerms& terms) const {
   using Apart = std::tuple<double, double, double>;  // Cells first, then range, then cores.
   std::optional<Apart> nearest;
@@ -118,8 +118,8 @@ MapLatency::Bounds MapLatency::bounds_of(const MapTerms& terms) const {
 }
 
 void MapLatency::published(const MapRevision& revision, MissionTime now) {
-  const Duration promised = last_published_ ? bounds_.latency : bounds_of(terms_).latency;
-  budget_use_ = ratio(now - revision.captured, promised);
+  const Duration bound = last_published_ ? bounds_.latency : bounds_of(terms_).latency;
+  budget_use_ = ratio(now - revision.captured, bound);
   const bool is_of_these_terms = revision.resolution_m == terms_.resolution_m;
   if (is_of_these_terms && revision.captured >= since_) {
     latencies_.add(now, terms_, ratio(now - revision.captured, price(terms_)));

@@ -12,15 +12,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto retry_after = 500ms;     // The same map would fail again: wait for frames.
-constexpr auto finer_patience = 3s;     // For a map of smaller cells that is on its way.
-constexpr int most_refusals = 3;        // Of one way: then another one is looked for.
-constexpr double room_to_turn_m = 3.0;  // Left before what blocks the path.
-constexpr double rests_below_m_s = 0.02;
-constexpr double moves_above_m_s = 0.2;
-constexpr double creeps_below_m_s = 0.05;
-constexpr double least_lead_in_m = 0.3;
-constexpr double straight = 0.999;  // Chord over arc.
+// All of these are chosen by hand, for the reason that stands beside each.
+constexpr auto retry_after = 500ms;       // The same map would fail again: wait for some frames.
+constexpr auto finer_patience = 3s;       // How long to wait for a map of smaller cells.
+constexpr int most_refusals = 3;          // A path that cannot be joined so often is given up.
+constexpr double room_to_turn_m = 3;      // Left before an obstacle: the radius of a turn at 3 m/s.
+constexpr double rests_below_m_s = 0.02;  // The speed of PathFollower's standstill.
+constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unknown space.
+constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
+constexpr double least_lead_in_m = 0.3;    // On less of a straight line a bend gains nothing.
+constexpr double straight = 0.999;         // Chord over arc: a turn by 9 degrees.
 constexpr double rounding_m = 1e-6;
 
 }  // namespace
@@ -135,8 +136,8 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   return query();
 }
 
-// What has failed in large cells fails in them again, and takes its whole budget: where smaller
-// ones are on their way, the search waits for their first frame.
+// A search that has failed in large cells would fail in them again and use up its whole budget.
+// When the governor has asked for smaller cells, the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
   return failures_ > 0 && now < not_before_ + finer_patience &&
          knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
@@ -153,14 +154,14 @@ PlanQuery Navigator::query() {
   query.known = std::exchange(known_, std::nullopt);
   query.goal_W = *goal_W_;
   query.failures = failures_;
-  // Where the narrow tube has found no way twice, a wide one will not.
+  // When no path was found twice with the narrow tube, none will be found with a wide one.
   query.may_be_tight = situation().speed_limit_m_s(query.start_W) <= slow_m_s || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
   return query;
 }
 
-// Early enough that the vehicle flies on, late enough that the next leg, half a horizon at least,
-// is longer than what is left.
+// The next plan is asked for so early that the vehicle need not stop, and so late that the next
+// leg, which is half a horizon at least, is longer than what is left of this one.
 bool Navigator::is_leg_ending() const {
   const double horizon_m = brief_->settings.planner.horizon_m;
   if (horizon_m <= 0.0 || !follower_.has_path()) {
@@ -172,19 +173,20 @@ bool Navigator::is_leg_ending() const {
              brief_->settings.mission.goal_tolerance_m;
 }
 
-// What is known to be free is flown on while a plan is made: from nearer by the map shows more, and
-// most plans are there before the vehicle must stop.
+// The vehicle flies on through known-free space while a plan is made, because the map shows more
+// from nearer by, and because most plans are ready before the vehicle must stop.
 double Navigator::last_stop_m() const {
   const double blocked_m = blocked_at_m_.value_or(follower_.path().length_m() + room_to_turn_m);
   return std::max(follower_.planned_stop_m(),
                   std::min(blocked_m - room_to_turn_m, follower_.farthest_stop_m()));
 }
 
-// At first the new path leaves the old one ahead of the moving vehicle. If it then bends too
-// sharply for the vehicle's speed, or comes too late, the next one leaves where the vehicle would
-// soon come to rest, so that the bend can begin before that; at last it starts from rest. So does
-// the plan of a vehicle that stands already: it creeps on with each cell that becomes known, and
-// would have left a splice where it stands before the plan is there.
+// The first attempt lets the new path leave the old one ahead of the moving vehicle. If that path
+// bends too sharply for the vehicle's speed, or comes too late, the second attempt leaves from the
+// place where the vehicle will soon come to rest, so that the bend can begin before that place. The
+// third attempt starts from rest. A vehicle that stands already uses that one at once: it creeps
+// forward with each cell that becomes known, and would have passed a splice at its present place
+// before the plan is ready.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
@@ -205,7 +207,7 @@ void Navigator::start_from_path(PlanQuery& query) {
 }
 
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
-  if (joins_) {  // No plan has failed: one is made from here now.
+  if (joins_) {  // A known path could not be joined; no search has failed, so one is made now.
     want_plan(now, "the way does not join: " + planned.failure);
     return;
   }
@@ -216,23 +218,23 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     }
     trust_own_place();
   }
-  // The governor looks at a failure first: its settings may be why.
+  // The governor sees the failure first, because its settings may be the reason.
   const Duration look = from_seconds(brief_->settings.governor.period_s);
   not_before_ = now + (planned.map_moved_on ? look : std::max<Duration>(look, retry_after));
   want_plan(now, planned.failure);
 }
 
-// What was found late is mostly a way around. It is worth its search where the metres more cost no
-// more time than another search might; in rooms they do.
-bool Navigator::is_worth_joining(const std::vector<Vec3>& way_W) const {
+// A path that was found late is mostly a detour. It is worth flying where its additional metres
+// take no more time than another search would; in rooms, where flight is slow, they take more.
+bool Navigator::is_worth_joining(const std::vector<Vec3>& path_W) const {
   const double limit_m_s = situation().speed_limit_m_s(follower_.position_W());
   const double search_s = std::max(lead_.lead_s(), searched_s_);
-  return way_W.size() >= 2 && detour_m(way_W) <= search_s * limit_m_s;
+  return path_W.size() >= 2 && detour_m(path_W) <= search_s * limit_m_s;
 }
 
-// A way that was found after seconds of search is not lost because the vehicle has flown on, or is
-// too fast for its first bend: it is flown into from elsewhere. At first from a point ahead again,
-// since that takes no search.
+// A path that took seconds to find is not thrown away because the vehicle has passed its start or
+// is too fast for its first bend. Instead the vehicle joins it from another place. The first such
+// place is a point ahead again, since that takes no search.
 void Navigator::plan_refused(MissionTime now, const PlannedPath& planned) {
   const bool is_late = follower_.s_m() > splice_m_;
   refusals_ += is_late && !joins_ && refusals_ == 0 ? 0 : 1;

@@ -7,18 +7,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto stall_patience = 6s;  // Looking left and right has not helped: plan anew.
+// Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
+constexpr auto stall_patience = 6s;
 
 }  // namespace
 
-// Noise, or part of an obstacle, may fill a cell that body or tube reach into. Yet the place is
-// free.
+// The vehicle stands here, so the place is free, although noise or the edge of an obstacle may have
+// filled a cell that the body or its tube overlaps.
 void Navigator::trust_own_place() {
   news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
 }
 
-// At first a plan from here may go elsewhere. When it does not, and the next one neither, what it
-// leads to cannot be seen from here.
+// After the first stall, a plan from here may lead elsewhere. When the vehicle stalls again, the
+// camera cannot see the space ahead from here, and the vehicle has to step back.
 void Navigator::note_stall(MissionTime now) {
   if (follower_.stalled(now) <= stall_patience || wants_plan_) {
     return;
@@ -31,7 +32,7 @@ void Navigator::note_stall(MissionTime now) {
 }
 
 bool Navigator::steps_back() {
-  constexpr double ahead_m = 3.0;  // It looks there.
+  constexpr double ahead_m = 3.0;  // Chosen: the camera turns to this place on the path.
   const Path& path = follower_.path();
   const Vec3 ahead_W = path.at(follower_.s_m() + ahead_m).p_W - follower_.position_W();
   const Intrinsics camera = brief_->settings.camera.intrinsics();

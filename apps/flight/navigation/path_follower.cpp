@@ -9,27 +9,35 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double middle_m_s = 4.0;
+constexpr double middle_m_s = 4.0;  // Chosen: between slow flight, 1 m/s, and cruise, 8 to 10 m/s.
 // Half of what the guard may brake with; the rest is for curves and for the guard.
 constexpr double comfort_m_s2 = 3.0;
 // A planned stop brakes harder, a little less than the guard would: the later the vehicle must
 // stop before an obstacle, the more room is left to turn.
 constexpr double stopping_m_s2 = 5.0;
 constexpr double yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees a second.
+// Chosen by hand: where the camera looks along the path, and how far before the end of known-free
+// space the vehicle stops.
 constexpr double look_ahead_s = 1.0;
-constexpr double stop_margin_m = 0.1;  // From what is not known to be free.
 constexpr double look_ahead_min_m = 1.0;
-constexpr auto odometer_memory = 10s;
+constexpr double stop_margin_m = 0.1;
+constexpr double look_aside_rad = 0.8;  // To both sides, when the vehicle has stalled.
+constexpr double look_aside_after_s = 2.0;
+constexpr double standing_m_s = 0.02;
+constexpr double range_reserve_m =
+    2.0;                               // The cells of the farthest returns reach beyond the range.
+constexpr auto odometer_memory = 10s;  // Chosen: an older map would stop the vehicle anyway.
 
 double towards(double value, double target, double braking_m_s2, double dt_s) {
   return value < target ? std::min(target, value + comfort_m_s2 * dt_s)
                         : std::max(target, value - braking_m_s2 * dt_s);
 }
 
-// The safe speed saws with each published map; a vehicle that followed every tooth at full
-// acceleration would pitch to and fro and lose height. The guard does not wait for this.
+// The safe speed jumps up when a map arrives and falls until the next one. A vehicle that followed
+// each of these changes at full acceleration would pitch up and down and lose height, so the speed
+// follows with a time constant of .2 s. The guard does not wait for this.
 double eased(double value, double target, double dt_s) {
-  constexpr double gain_1_s = 5.0;
+  constexpr double gain_1_s = 5.0;  // Chosen: a few times slower than 20 maps a second.
   return value + std::min(1.0, gain_1_s * dt_s) * (target - value);
 }
 
@@ -51,10 +59,10 @@ TierDistances known_free_until_m(const OccupancyView& map,
                                  double s_m,
                                  const Brief& brief,
                                  const KnobsInForce& knobs) {
-  // Half a cell of the finest map; farther than the sensor can see there is nothing to find.
+  // The steps are half a cell of the usual finest map, .15 m. Nothing is known beyond the range.
   constexpr double step_m = 0.075;
   const double horizon_m =
-      brief.maps_obstacles ? knobs.value("map.range_m") + 2.0 : path.length_m();
+      brief.maps_obstacles ? knobs.value("map.range_m") + range_reserve_m : path.length_m();
   const TierDistances speeds_m_s = tier_speeds_m_s(knobs);
   TierDistances until_m{};
   for (std::size_t tier = 0; tier < speed_tiers; ++tier) {
@@ -89,7 +97,7 @@ bool PathFollower::adopt(const Path& tail, double splice_m) {
     return false;
   }
   Path path = has_path() ? Path::joined(*path_, s_m_, splice_m, tail) : tail;
-  constexpr double slack_m_s = 0.1;
+  constexpr double slack_m_s = 0.1;  // Chosen: the follower brakes by this in one tick.
   if (profile_of(path, stopping_m_s2).at(0.0) + slack_m_s < speed_m_s_) {
     return false;
   }
@@ -118,8 +126,9 @@ double PathFollower::distance_since(MissionTime captured) const {
   return after == odometer_.end() ? 0.0 : travelled_m_ - after->second;
 }
 
-// At most what the newest frame itself can have seen: the map remembers free space beyond its
-// range, but something may have come there since. Without a map, what is declared clear stays so.
+// The distance is limited to what the newest frame itself can have seen, because the map remembers
+// free space beyond its range, and something may have moved there since. In a flight without a map,
+// space that is declared clear stays clear.
 double PathFollower::room_m(std::size_t tier) const {
   const double from_here_m = free_until_m_[tier] - s_m_;
   if (!brief_->maps_obstacles) {
@@ -130,7 +139,7 @@ double PathFollower::room_m(std::size_t tier) const {
   return std::min(from_here_m + distance_since(newest_capture_), in_sight_m);
 }
 
-// Without a map there is none to wait for.
+// In a flight without a map the vehicle need not wait for one, so its latency does not count.
 double PathFollower::cruise_speed(std::size_t tier) const {
   const double safe_m_s = brief_->maps_obstacles
                               ? guard_.cruise_speed(latency_bound(), room_m(tier))
@@ -166,7 +175,8 @@ double PathFollower::speed_limit() const {
   return std::min(profile_.at(s_m_), stop);
 }
 
-// A tier whose free space ends is left for the next slower one; the slowest is left for a stop.
+// When the free space of a tier ends, the vehicle brakes to the speed of the next slower tier, and
+// from the slowest tier to a stop.
 double PathFollower::braked_speed(double dt_s) const {
   const auto speeds = tier_speeds_m_s(*knobs_);
   const double least = speed_m_s_ - guard_.settings().max_deceleration_m_s2 * dt_s;
@@ -179,17 +189,18 @@ double PathFollower::braked_speed(double dt_s) const {
   return speed_m_s_ + comfort_m_s2 * dt_s;
 }
 
-// A vehicle that has fallen out of its tube is waited for: the reference slows down to a crawl.
-// Lagging along the path is no danger, and waiting for it would make both swing.
+// When the vehicle has left its tube, the reference waits for it by slowing down to a crawl. A lag
+// along the path is no danger, and waiting for every lag would make the two oscillate.
 double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
   const Vec3 tangent_W = path_->at(s_m_).tangent_W;
   const double along_m = error_W.dot(tangent_W);
   const double across_m = (error_W - along_m * tangent_W).norm();
   const double tube_m = brief_->tube.radius_m(speed_m_s_);
-  constexpr double patience_m = 0.2;
-  constexpr double lag_m = 0.5;
+  constexpr double patience_m = 0.2;  // Chosen: so far outside, the reference is slowest.
+  constexpr double lag_m = 0.5;       // Chosen: the lag of .07 s at 7 m/s.
+  constexpr double slowest = 0.1;     // Chosen: above zero, so that no error stops the flight.
   const double out_m = std::max(across_m - tube_m, std::abs(along_m) - lag_m);
-  return std::clamp(1.0 - out_m / patience_m, 0.1, 1.0);
+  return std::clamp(1.0 - out_m / patience_m, slowest, 1.0);
 }
 
 double PathFollower::next_speed(double dt_s, const Vec3& error_W) {
@@ -213,7 +224,7 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
         std::min(0.5 * (next + speed_m_s_) * dt_s, std::max(0.0, stop_at_m_ - s_m_));
     s_m_ += moved;
     travelled_m_ += moved;
-    // The last millimetres of a square-root approach would take for ever.
+    // The speed falls with the square root of the distance, so it would never quite reach zero.
     speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
     turn(dt_s, now);
   }
@@ -227,8 +238,8 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
   return {s_m_, speed_m_s_, acceleration, yaw_rad_};
 }
 
-// Yaw looks where the path goes next, at least as far as the first place that must be seen before
-// it can be flown to: so the vehicle turns in place before it leaves its field of view.
+// The camera looks where the path goes next, at least one metre ahead. So a vehicle turns in place
+// before it flies out of its own field of view.
 std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   const double ahead_m = std::max(look_ahead_min_m, look_ahead_s * speed_m_s_);
   Vec3 direction = path_->at(s_m_ + ahead_m).p_W - path_->at(s_m_).p_W;
@@ -236,9 +247,9 @@ std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   if (direction.norm() <= 0.1) {
     return std::nullopt;
   }
-  // Stalled before something unknown: look left and right of it.
-  const double stalled_s = std::max(0.0, to_seconds(stalled(now)) - 2.0);
-  return yaw_of(direction) + 0.8 * std::sin(stalled_s);
+  // A vehicle that has stalled before unknown space looks left and right of it.
+  const double stalled_s = std::max(0.0, to_seconds(stalled(now)) - look_aside_after_s);
+  return yaw_of(direction) + look_aside_rad * std::sin(stalled_s);
 }
 
 void PathFollower::turn_towards(double yaw_rad, double dt_s) {
@@ -251,7 +262,7 @@ void PathFollower::turn(double dt_s, MissionTime now) {
   if (const auto wanted_rad = wanted_yaw_rad(now)) {
     turn_towards(*wanted_rad, dt_s);
   }
-  const bool stands = speed_m_s_ <= 0.02;
+  const bool stands = speed_m_s_ <= standing_m_s;
   if (!stands || is_at_end()) {
     stalled_since_.reset();
   } else if (!stalled_since_) {
@@ -274,8 +285,8 @@ double PathFollower::stop_point_m(double deceleration_m_s2) const {
   return s_m_ + v * to_seconds(guard_.settings().tick) + v * v / (2.0 * deceleration_m_s2);
 }
 
-// Where room is left for the wide tube, so that the next path can be flown at speed from its start;
-// but not nearer than full braking reaches.
+// The stop leaves room for the wide tube, so that the next path can be flown at speed from its
+// start. It is never nearer than the vehicle can stop with full braking.
 double PathFollower::planned_stop_m() const {
   const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
   const double wished = stop_point_m(stopping()) + speed_m_s_ * SpeedProfileLimits{}.lag_s;

@@ -11,11 +11,13 @@
 namespace flyball {
 namespace {
 
+// Chosen by hand. A lead that is too short wastes the plan; one that is too long splices it far
+// ahead, where the map shows less. So most plans are to come in time, and none is waited for long.
 constexpr double lead_over_usual = 1.5;
-constexpr double usual_share = 0.8;
+constexpr double usual_share = 0.8;  // The quantile of the times that counts as usual.
 constexpr std::size_t plans_remembered = 5;
 constexpr double most_lead_s = 3.0;
-constexpr double least_iterations = 100.0;  // Else their fixed part would be counted.
+constexpr double least_iterations = 100.0;  // With fewer, the fixed part of a plan would dominate.
 
 }  // namespace
 

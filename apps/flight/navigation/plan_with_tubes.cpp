@@ -9,22 +9,24 @@
 namespace flyball {
 namespace {
 
-// Beside the tube of cruise speed: two of the cells with which that speed can be flown (.30 m),
-// one that an obstacle fills by its border and one that must be known free. (Larger ones keep their
-// distance by themselves.) A path with so much room keeps a map of such cells passable; a corner
-// that is cut closer costs fine cells, and half the speed.
+// The room beside the tube of cruise speed is two of the cells with which that speed can be flown
+// (.30 m): an obstacle fills one of them by its border, and the other must be known free. A map of
+// such cells stays passable along a path with so much room. A path that cuts a corner more closely
+// needs finer cells, and with them half the speed.
 constexpr double room_m = 0.6;
 
-constexpr double aside_m = 20.0;     // A way farther off the line is a detour for any tube.
-constexpr double exact_to_m = 0.25;  // Widths of openings.
-constexpr double half_band_m = 0.3;
+constexpr double aside_m = 20.0;     // Chosen: a path farther off the line is a detour in any case.
+constexpr double exact_to_m = 0.25;  // To this, `gaps_ahead` knows the widths of openings.
+constexpr double half_band_m = 0.3;  // A little more than half the body's height.
 
-constexpr double detour_m = 3.0;         // Over the straight line: a shorter way is looked for.
-constexpr double worthwhile = 0.5;       // A narrow way, for it is slower, saves this share of it.
+// Chosen by hand, apart from those with a source.
+constexpr double detour_m = 3.0;    // A path longer than the line by this is worth another search.
+constexpr double worthwhile = 0.5;  // Flight is slower in a narrow tube: it must save this share.
 constexpr int shorter_iterations = 400;  // A known door takes fewer (tests/kernels/rrt_test.cpp).
 constexpr int most_improvements = 3;
-// Measured in flights of delivery_mixed: 9 of 88 such searches found a way, and of the time that a
-// vehicle in motion searches it loses this share; the rest it flies on.
+constexpr int wide_parts = 8;  // A wide tube gets an eighth of the budget: what fits is found soon.
+// Measured in flights of delivery_mixed: 9 of 88 such searches found a path, and a vehicle in
+// motion loses this share of the time that it searches, because it flies on meanwhile.
 constexpr double finds_one = 0.1;
 constexpr double lost_in_motion = 0.37;
 
@@ -48,10 +50,10 @@ class Search {
   [[nodiscard]] const Cylinder& body() const { return body_; }
 
  private:
-  // First with room around the wide tube that cruise speed needs, then without, each for a part of
-  // the budget: what is there is mostly found soon. The narrow one gets what is left. A tube that
-  // no opening on the way lets through is not tried: before doors that would be a quarter of the
-  // time.
+  // The first search asks for room around the wide tube that cruise speed needs, the second one for
+  // the wide tube alone; each gets a small part of the budget, because a wide path is mostly found
+  // soon if there is one. The narrow tube gets what is left. A tube that fits through none of the
+  // openings ahead is not tried, since before doors that would take a quarter of the time.
   bool find_any() {
     const int budget = static_cast<int>(situation_.knobs.value("planner.budget"));
     if (query_.may_be_tight) {
@@ -61,7 +63,7 @@ class Search {
     const auto fits = [&](const Cylinder& body) {
       return 2.0 * body.radius_m <= opening_m + exact_to_m;
     };
-    const int part = budget / 8;
+    const int part = budget / wide_parts;
     const Cylinder wide = situation_.brief.body_at(situation_.knobs.value("mission.max_speed_m_s"));
     const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
     const bool tries_roomy = 2.0 * situation_.map.resolution_m() <= room_m && fits(roomy);
@@ -93,7 +95,7 @@ class Search {
     }
   }
 
-  /// No longer than the time that they may save.
+  /// As many iterations as take no longer than the time that a shorter path may save.
   [[nodiscard]] int iterations_worth(double saved_m) const {
     const double limit_m_s = std::min(situation_.speed_limit_m_s(query_.start_W),
                                       situation_.knobs.value("mission.max_speed_m_s"));
@@ -104,7 +106,7 @@ class Search {
                : static_cast<int>(worth_s / query_.iteration_s);
   }
 
-  /// Keeps what was found before when nothing is found.
+  /// Keeps the plan that was found before when this search finds none.
   bool try_with(const Cylinder& body, int iterations) {
     request_.body = body;
     request_.max_iterations = iterations;

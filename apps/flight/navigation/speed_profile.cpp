@@ -10,9 +10,9 @@
 namespace flyball {
 namespace {
 
-// Passing a corner (infinite curvature) needs a standstill, but a reference at v = 0 would never
-// leave it: it is passed at a crawl, .05 m/s, where even a right angle costs 2 mm of tracking
-// error.
+// A corner (infinite curvature) can only be passed at a standstill, but a reference with v = 0
+// would never leave it. So the reference passes a corner at .05 m/s, where even a right angle costs
+// only 2 mm of tracking error.
 constexpr double crawl_m_s = 0.05;
 
 double curve_speed_squared(double curvature_1_m, const SpeedProfileLimits& limits) {
@@ -25,7 +25,7 @@ double curve_speed_squared(double curvature_1_m, const SpeedProfileLimits& limit
   return std::max(crawl, std::min(limits.lateral_m_s2 / bend, turning * turning));
 }
 
-// The speed `ds_m` before a place that is passed with `speed_m_s`.
+// The largest speed at `ds_m` before a place that is passed with `speed_m_s`.
 double speed_before(double speed_m_s, double ds_m, const SpeedProfileLimits& limits) {
   const double a = limits.longitudinal_m_s2;
   const double to_standstill_m = speed_m_s * speed_m_s / (2.0 * a) + limits.lag_s * speed_m_s;

@@ -8,7 +8,8 @@
 namespace flyball {
 namespace {
 
-// Farther than the tube is wide it would need a path.
+// Chosen: a few millimetres are enough for a cell that only just overlaps the tube, and a step
+// longer than the tube is wide would need a path.
 constexpr std::array<double, 4> aside_m{0.005, 0.015, 0.03, 0.06};
 constexpr std::size_t turns = 8;
 constexpr double eighth_rad = 0.7853981633974483;

@@ -9,15 +9,16 @@
 namespace flyball {
 namespace {
 
-constexpr double spacing_m = 0.1;
-constexpr double most_trail_m = 5.0;
-constexpr double least_m = 0.2;  // A shorter way shows nothing new.
+// Chosen by hand. The vehicle cannot see behind itself, so it flies back slowly and not far.
+constexpr double spacing_m = 0.1;     // Between remembered places: less than a fine cell.
+constexpr double most_trail_m = 5.0;  // Longer than the blind zone of cells of 1 m.
+constexpr double least_m = 0.2;       // From nearer by the camera would see nothing new.
 constexpr double speed_m_s = 0.5;
 constexpr double yaw_rate_rad_s = 0.8;
-constexpr double settled_m = 0.15;
-constexpr double settled_rad = 0.05;
-constexpr double same_place_m = 3.0;
-constexpr int most_times = 3;
+constexpr double settled_m = 0.15;  // The vehicle stands when it is this near to its reference, ...
+constexpr double settled_rad = 0.05;  // ... and looks this near to the wanted heading.
+constexpr double same_place_m = 3.0;  // Manoeuvres that begin within this are of one place, ...
+constexpr int most_times = 3;         // ... from which more of them would show nothing new.
 
 double towards(double value, double target, double most) {
   return value + std::clamp(wrap_angle(target - value), -most, most);

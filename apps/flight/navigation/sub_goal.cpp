@@ -4,12 +4,13 @@
 namespace flyball {
 namespace {
 
+// Chosen: candidates 3 m apart to both sides, up to 12 m, and every 2.5 m along the line.
 constexpr double step_m = 2.5;
 constexpr double nearest_share = 0.5;  // Of the horizon: nearer goals would make short legs.
 constexpr double aside_m = 3.0;
 constexpr int most_aside = 4;
-constexpr double half_band_m = 0.3;
-// What is unknown and nearer to an obstacle may be its inside: RoboRun's blocks are 4 m wide.
+constexpr double half_band_m = 0.3;  // A little more than half the body's height.
+// Unknown space nearer to an obstacle may be the obstacle's inside: RoboRun's blocks are 4 m wide.
 constexpr double unknown_gap_m = 3.0;
 
 bool may_be_there(const Situation& situation, const Vec3& p_W) {

@@ -6,14 +6,14 @@
 namespace flyball {
 namespace {
 
-// A box's middle is some pixels off, a hundredth of a radian: at a slope of 1 : 7 a fourteenth of
-// the distance. On flatter lines of sight the box's size says more.
+// The middle of a box is wrong by some pixels, a hundredth of a radian, which at a slope of 1 : 7
+// is a fourteenth of the distance. On flatter lines the size of the box is the better measure.
 constexpr double least_slope = 0.15;
-// Boxes have steps of 5 to 10 % between two sizes, and trackers keep the size that they began with
-// while somebody comes near. Own choice: measured with `hog` in the park, no person was left out.
+// The sizes of boxes come in steps of 5 to 10 %, and a tracker keeps the size that it began with
+// while the person comes nearer. Chosen: with `hog` in the park, this left out no person.
 constexpr double largest_ratio = 1.5;
 
-/// Rise over run of the line of sight to a pixel.
+/// Rise over run of the line from the camera through a pixel.
 double slope(const ColourFrame& frame, double x_px, double y_px) {
   const Intrinsics& camera = frame.camera;
   const Vec3 ray_C{(x_px - camera.centre_x_px) / camera.focal_px,

@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto same_time = 60ms;      // Colour and depth camera run at 20 Hz.
-constexpr double inner_share = 0.25;  // Of the box, to each side of its middle.
+constexpr auto same_time = 60ms;      // A little more than a frame of either camera, at 20 Hz.
+constexpr double inner_share = 0.25;  // Of the box, to each side of its middle. Chosen.
 
 /// The pixel that looks along a direction of the level frame L (x forward, y left, z up).
 std::optional<std::array<double, 2>> pixel_of(const Vec3& ray_L, const Intrinsics& camera) {

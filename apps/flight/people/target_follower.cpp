@@ -10,25 +10,29 @@ namespace flyball {
 namespace {
 
 constexpr double max_yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degrees/s
-// Tuned by hand on the park's walk at the top operating point: own choices.
+// Tuned by hand on the walk in the park, at the highest operating point.
 constexpr Pid::Gains distance_gains{1.0, 0.1, 0.2, 6.0};
 constexpr Pid::Gains yaw_gains{2.0, 0.0, 0.1, max_yaw_rate_rad_s};
-// Per frame of 50 ms; a longer gap counts as several. beta = alpha^2 / (2 - alpha) damps critically
-// (Kalata 1984, doi:10.1109/TAES.1984.310438). Boxes jitter by some pixels.
+// alpha is chosen for boxes that jitter by some pixels. It is meant for frames 50 ms apart; a
+// longer gap counts as several frames. beta = alpha^2 / (2 - alpha) makes the filter critically
+// damped (Kalata 1984, doi:10.1109/TAES.1984.310438).
 constexpr double alpha_of_frame = 0.2;
 constexpr double nominal_frame_s = 0.05;
 constexpr double fastest_person_m_s = 5.0;
-// Nobody keeps a direction for long: in expectation a velocity fades. Own choice; with 3 s, and
-// with trackers believed only while a detector confirms them, 12 of 15 flights succeeded, not 14.
+// Nobody keeps a direction for long, so the expected velocity decays with this time constant.
+// Chosen: 14 of 15 flights succeeded. With 3 s, and with trackers that count only while a detector
+// confirms them, 12 did.
 constexpr double keeps_going_s = 2.0;
-// Own choices: as near as the camera still sees somebody standing there, at a runner's speed.
+// Chosen: the search flies as near as the camera still shows somebody standing there in full, at
+// the speed of a runner.
 constexpr double search_from_m = 4.0;
 constexpr double search_speed_m_s = 3.0;
-// A place is the person's if they can have gone there, from a belief that may be wrong itself.
+// Chosen: a measurement counts if the person can have gone to its place in the time since the last
+// one. The estimate may be wrong by 2 m itself.
 constexpr double wrong_by_m = 2.0;
 constexpr double reach_m_s = 4.0;
 constexpr double most_reach_m = 6.0;
-constexpr double rumour_lasts_s = 1.5;  // Three looks or more at the top operating point.
+constexpr double candidate_lasts_s = 1.5;  // At the highest clock, three detections or more.
 
 Vec3 direction_L(const Target& target, double x_px, double y_px) {
   const Intrinsics& camera = target.frame.camera;
@@ -65,8 +69,8 @@ void TargetFollower::start(const PoseEstimate& pose) {
   yaw_rad_ = yaw_of(pose.X_WB.linear().col(0));
 }
 
-std::optional<TargetFollower::Rumour> TargetFollower::measured(const Target& target,
-                                                               const PoseEstimate& pose) const {
+std::optional<TargetFollower::Measurement> TargetFollower::measured(
+    const Target& target, const PoseEstimate& pose) const {
   if (!target.box || (seen_ && target.frame.captured <= *seen_)) {
     return std::nullopt;
   }
@@ -74,22 +78,22 @@ std::optional<TargetFollower::Rumour> TargetFollower::measured(const Target& tar
   const PersonRange range =
       person_range(*target.box, target.frame,
                    {settings_.person_height_m, pose.X_WB.translation().z() - settings_.ground_z_m});
-  // Boxes jitter by a tenth of their size; their middles do not.
+  // The size of a box is wrong by up to a tenth; its middle is more exact.
   const double away_m = range.by_ground_m.value_or(range.by_size_m);
   const Vec3 out_L = middle_L * (away_m / middle_L.head<2>().norm());
-  return Rumour{level_frame(pose.X_WB) * out_L, target.frame.captured};
+  return Measurement{level_frame(pose.X_WB) * out_L, target.frame.captured};
 }
 
-bool TargetFollower::can_be_at(const Rumour& measured) const {
+bool TargetFollower::can_be_at(const Measurement& measured) const {
   const double dt_s = to_seconds(measured.at - *seen_);
   const double reach_m = std::min(wrong_by_m + reach_m_s * dt_s, most_reach_m);
   return (measured.place_W - foreseen(dt_s)).norm() <= reach_m;
 }
 
-bool TargetFollower::is_said_again(const Rumour& measured) const {
-  const double dt_s = rumour_ ? to_seconds(measured.at - rumour_->at) : 0.0;
-  return rumour_ && dt_s > 0.0 && dt_s <= rumour_lasts_s &&
-         (measured.place_W - rumour_->place_W).norm() <= wrong_by_m + reach_m_s * dt_s;
+bool TargetFollower::is_repeated(const Measurement& measured) const {
+  const double dt_s = candidate_ ? to_seconds(measured.at - candidate_->at) : 0.0;
+  return candidate_ && dt_s > 0.0 && dt_s <= candidate_lasts_s &&
+         (measured.place_W - candidate_->place_W).norm() <= wrong_by_m + reach_m_s * dt_s;
 }
 
 void TargetFollower::see(const Target& target, const PoseEstimate& pose) {
@@ -106,21 +110,21 @@ void TargetFollower::sight(const Target& target, const PoseEstimate& pose) {
   }
   if (seen_ && can_be_at(*measurement)) {
     believe(*measurement);
-  } else if (!seen_ || is_said_again(*measurement)) {
+  } else if (!seen_ || is_repeated(*measurement)) {
     begin_at(*measurement);
   } else {
-    rumour_ = measurement;
+    candidate_ = measurement;
   }
 }
 
-void TargetFollower::begin_at(const Rumour& measured) {
+void TargetFollower::begin_at(const Measurement& measured) {
   seen_ = measured.at;
   person_W_ = measured.place_W;
   v_person_W_ = Vec3::Zero();
-  rumour_.reset();
+  candidate_.reset();
 }
 
-void TargetFollower::believe(const Rumour& measured) {
+void TargetFollower::believe(const Measurement& measured) {
   const double dt_s = to_seconds(measured.at - *seen_);
   if (dt_s > settings_.coast_s) {
     begin_at(measured);
@@ -149,7 +153,7 @@ void TargetFollower::point_at(const Vec3& person_W) {
   gimbal_.tilt_rad = std::atan2(-out_W.z(), out_W.head<2>().norm());
 }
 
-/// Towards the wish within the acceleration.
+/// Changes the velocity towards the wished one within the limit of acceleration.
 void TargetFollower::steer(const Vec3& wish_W, double dt_s, Setpoint& setpoint) {
   const Vec3 change = wish_W - v_W_;
   const double largest = settings_.max_acceleration_m_s2 * dt_s;
@@ -185,8 +189,8 @@ Vec3 TargetFollower::search(MissionTime now, double dt_s, Setpoint& setpoint) {
     yaw_pid_.reset();
     return Vec3::Zero();
   }
-  if (rumour_ && to_seconds(now - rumour_->at) < rumour_lasts_s) {
-    face(rumour_->place_W, dt_s, setpoint);
+  if (candidate_ && to_seconds(now - candidate_->at) < candidate_lasts_s) {
+    face(candidate_->place_W, dt_s, setpoint);
     return Vec3::Zero();
   }
   const Vec3 place_W = foreseen(settings_.coast_s);

@@ -13,10 +13,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A box that jumps by more than this share of the image's width is somebody else.
+// Chosen: a box that jumps by more than this share of the image's width shows somebody else.
 constexpr double reach_share = 0.3;
-constexpr int give_up_after = 20;    // Frames: a second.
-constexpr int unconfirmed_most = 6;  // Looks in a row; nine of ten find somebody in view.
+constexpr int give_up_after = 20;  // Chosen: a second of frames without the person.
+// Chosen: a detector that finds nine of ten people in view misses one so often in a row by chance
+// once in a million.
+constexpr int unconfirmed_most = 6;
 
 double between_px(const ImageBox& a, const ImageBox& b) {
   const double x = a.centre_x_px() - b.centre_x_px();
@@ -24,7 +26,8 @@ double between_px(const ImageBox& a, const ImageBox& b) {
   return std::sqrt(x * x + y * y);
 }
 
-/// Shows the tracker what it reads of the frame, and no more: the rest need not be rendered.
+/// Shows the tracker only the part of the frame that it reads, so that the rest need not be
+/// rendered.
 Status begin_tracking(Tracker& tracker, const ColourFrame& frame, const ImageBox& box, Work& work) {
   return tracker.begin(frame.image.part(tracker.learns_from(box, frame.camera)), box, work);
 }
@@ -77,7 +80,7 @@ class BufferedTracking {
       job.publish(topics_.sighting, Target{seen->frame, caught_up.box});
       begin(job, caught_up, work);
     }
-    // Taken in any case: the next detection's frames are those that come from now on.
+    // The buffer is emptied in any case, because the next detection begins with a later frame.
     while (const auto frame = job.take(parts_.vehicle.colour_buffer)) {
       if (frame->sequence > seen->frame.sequence) {
         catch_up(job, *frame, caught_up, work);
@@ -146,9 +149,10 @@ void add_buffered(Graph& graph, const FlightParts& parts, const TargetTopics& to
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });
 }
 
-/// Follows from frame to frame; a detection that was caught up with replaces what it follows. What
-/// was not seen for a while is given up: the view has gone elsewhere. So is what no detector
-/// confirms: a tracker holds on to the tree behind which somebody went.
+/// Follows the person from frame to frame. A newer detection, once the buffered tracker has caught
+/// up with it, replaces the person that is followed. A person who was not seen for a while is given
+/// up, because the camera looks elsewhere by then. So is one whom the detector no longer confirms,
+/// because a tracker holds on to the tree behind which somebody went.
 class RealTimeTracking {
  public:
   RealTimeTracking(const FlightParts& parts, const TargetTopics& topics)
@@ -208,7 +212,7 @@ std::optional<Detection> pick(const std::vector<Detection>& people,
                               const std::optional<ImageBox>& last,
                               double reach_px) {
   std::optional<Detection> best;
-  for (const Detection& person : people) {  // Surest first.
+  for (const Detection& person : people) {  // The highest score comes first.
     if (!last) {
       return person;
     }

@@ -12,7 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t longest_job = 1000;  // Poses: ten seconds.
+// Poses, for ten seconds: no frame takes longer to map.
+constexpr std::size_t longest_job = 1000;
 
 using Fixes = std::optional<Topic<VisualFix>>;
 
@@ -101,7 +102,7 @@ void add_see(Graph& graph, const FlightParts& parts, Topic<View> view, Topic<Vis
   spec.name = "see";
   spec.cost = frame_cost(parts.brief->settings.kernels.localizer);
   spec.trigger = OnMessage{view.index};
-  // Before points and map: where nobody knows the pose, a map is worth nothing.
+  // It runs before `points` and `map`, because a map is worth nothing without a pose.
   spec.priority = 28;
   spec.writes = {fix.index};
   if (parts.vehicle.imu) {

@@ -9,16 +9,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double stop_s = 1.5;  // From 6 m/s at 5 m/s^2, and a little.
-constexpr double look_s = 6.0;  // Left and right and back.
+// Chosen by hand.
+constexpr double stop_s = 1.5;  // A stop from 6 m/s at 5 m/s^2 takes 1.2 s.
+constexpr double look_s = 6.0;  // To look left, right and ahead again.
 constexpr double look_aside_rad =
-    1.0471975511965976;  // 60 degrees: with a field of 90, 210 in all.
-constexpr double way_back_m = 3.0;
-constexpr double back_speed_m_s = 1.0;  // Slower than whatever it lost its way at.
-constexpr double back_s = way_back_m / back_speed_m_s + 1.0;
+    1.0471975511965976;                 // 60 degrees: with a field of view of 90, 210 in all.
+constexpr double back_m = 3.0;          // Flown back along the own track.
+constexpr double back_speed_m_s = 1.0;  // Slower than the flight in which the pose was lost.
+constexpr double back_s = back_m / back_speed_m_s + 1.0;
 constexpr double patience_s = stop_s + 2.0 * look_s + back_s + 2.0;
 constexpr double trail_step_m = 0.1;
-constexpr std::size_t trail_points = 50;
+constexpr std::size_t trail_points = 50;  // 5 m, more than is flown back.
 
 double look_aside(double since_s) {
   constexpr double full_turn_rad = 6.283185307179586;
@@ -54,8 +55,8 @@ void LocalizationWatch::passed(const PoseEstimate& estimate) {
 
 const PoseEstimate& LocalizationWatch::passed_before(double path_m) const {
   std::size_t i = trail_.size() - 1;
-  for (double back_m = 0.0; i > 0 && back_m < path_m; --i) {
-    back_m += (trail_[i].X_WB.translation() - trail_[i - 1].X_WB.translation()).norm();
+  for (double flown_m = 0.0; i > 0 && flown_m < path_m; --i) {
+    flown_m += (trail_[i].X_WB.translation() - trail_[i - 1].X_WB.translation()).norm();
   }
   return trail_[i];
 }
@@ -66,8 +67,7 @@ std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height
   }
   const double since_s = to_seconds(now - *lost_since_);
   const double back_since_s = since_s - stop_s - look_s;
-  const PoseEstimate& at =
-      passed_before(std::clamp(back_since_s * back_speed_m_s, 0.0, way_back_m));
+  const PoseEstimate& at = passed_before(std::clamp(back_since_s * back_speed_m_s, 0.0, back_m));
   Setpoint setpoint;
   setpoint.stamp = now;
   search_height_W_m_ = search_height_W_m_.value_or(height_W_m);

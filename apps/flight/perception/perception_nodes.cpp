@@ -12,8 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The paper's deliveries ran ORB-SLAM2 beside the map even when ground truth steered; its load on
-// the cores is charged, its pose is not used.
+// MAVBench's deliveries ran ORB-SLAM2 beside the map even when ground truth steered the vehicle.
+// Its load on the cores is charged, but nothing uses a pose from it.
 void add_slam_load(Graph& graph, const VehicleTopics& vehicle) {
   NodeSpec spec;
   spec.name = "slam_load";
@@ -46,7 +46,7 @@ void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> c
     if (!frame || !knobs) {
       return work;
     }
-    // A tenth of the interval as tolerance: a 20 Hz camera satisfies a 20 Hz knob.
+    // A tenth of the interval is tolerance, so that a camera at 20 Hz satisfies a knob at 20 Hz.
     const double interval_s = 0.9 / knobs->value("map.rate_hz");
     if (*last && to_seconds(frame->captured - **last) < interval_s) {
       return work;
@@ -75,7 +75,7 @@ class Map {
     const auto knobs = job.latest(mission_.knobs);
     const auto pose = frame ? poses_.at(frame->captured) : std::nullopt;
     const auto where = job.latest(topics_.localization.status);
-    if (!pose || !knobs || (where && where->is_lost)) {  // Seen from nobody knows where.
+    if (!pose || !knobs || (where && where->is_lost)) {  // A frame without a pose is of no use.
       return Work{};
     }
     return insert(job, *frame, *pose, *knobs);

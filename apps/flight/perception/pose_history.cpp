@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto pose_memory = 3s;
+constexpr auto pose_memory = 3s;  // Chosen: a frame waits less for its mapping to begin.
 
 }  // namespace
 

@@ -8,10 +8,10 @@ namespace flyball {
 
 namespace {
 
-// The renderer exposes for sunlight. In the shade a camera opens up, until the mean is that of a
-// grey card: 18 % of the light is 118 in sRGB.
+// The renderer exposes for sunlight. In the shade a camera exposes longer, until the mean of the
+// image is that of a grey card: a reflectance of 18 % is 118 in sRGB.
 constexpr double metered_grey = 118.0;
-constexpr double most_gain = 4.0;
+constexpr double most_gain = 4.0;  // Chosen: two stops.
 
 double luma_of(const std::uint8_t* rgb) {
   return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];

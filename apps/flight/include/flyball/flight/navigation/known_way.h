@@ -18,7 +18,7 @@ struct KnownWay {
 
 /// How much longer the path is than the straight line between its ends. @pre The path has at least
 /// one waypoint.
-[[nodiscard]] double detour_m(const std::vector<Vec3>& way_W);
+[[nodiscard]] double detour_m(const std::vector<Vec3>& path_W);
 
 /// The waypoints of `way`, with `start_W` in place of the first one. The second waypoint is left
 /// out when the start has already passed it and the line to the third is free. The caller must

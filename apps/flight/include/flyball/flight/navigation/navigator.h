@@ -74,7 +74,7 @@ class Navigator {
   [[nodiscard]] bool steps_back();
   void go_back(MissionTime now, Duration dt, double error_m);
   void plan_failed(MissionTime now, const PlannedPath& planned);
-  [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& way_W) const;
+  [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& path_W) const;
   void plan_refused(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool awaits_finer_map(MissionTime now) const;
   [[nodiscard]] PlanQuery query();

@@ -63,17 +63,17 @@ class TargetFollower {
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
 
  private:
-  struct Rumour {
+  struct Measurement {
     Vec3 place_W{Vec3::Zero()};
     MissionTime at{};
   };
   /// Empty for a measurement that is ignored.
-  [[nodiscard]] std::optional<Rumour> measured(const Target& target,
-                                               const PoseEstimate& pose) const;
-  [[nodiscard]] bool can_be_at(const Rumour& measured) const;
-  [[nodiscard]] bool is_said_again(const Rumour& measured) const;
-  void begin_at(const Rumour& measured);
-  void believe(const Rumour& measured);
+  [[nodiscard]] std::optional<Measurement> measured(const Target& target,
+                                                    const PoseEstimate& pose) const;
+  [[nodiscard]] bool can_be_at(const Measurement& measured) const;
+  [[nodiscard]] bool is_repeated(const Measurement& measured) const;
+  void begin_at(const Measurement& measured);
+  void believe(const Measurement& measured);
   [[nodiscard]] Vec3 follow(double age_s, double dt_s, Setpoint& setpoint);
   [[nodiscard]] Vec3 search(MissionTime now, double dt_s, Setpoint& setpoint);
   void face(const Vec3& place_W, double dt_s, Setpoint& setpoint);
@@ -92,7 +92,7 @@ class TargetFollower {
   Vec3 p_W_{Vec3::Zero()};  ///< Of the vehicle, as commanded.
   Vec3 v_W_{Vec3::Zero()};
   double yaw_rad_{};
-  std::optional<Rumour> rumour_{};
+  std::optional<Measurement> candidate_{};  ///< A detection that has not been repeated yet.
   double side_{1.0};  ///< Side to which the person goes, seen from the vehicle: 1 left, -1 right.
 };
 
