@@ -21,8 +21,8 @@ namespace flyball {
 namespace {
 
 // The issue is what a policy does once it has had time to notice: the first 50 are not counted.
-constexpr std::uint64_t first_promise = 51;
-constexpr std::uint64_t last_promise = 450;
+constexpr std::uint64_t first_bound = 51;
+constexpr std::uint64_t last_bound = 450;
 
 struct DriftOptions {
   FlightOptions flight{};
@@ -39,7 +39,7 @@ struct Entry : PlannedFlight {
 
 /// What all seeds of one policy under one event came to.
 struct Outcome {
-  DriftCount promises{};
+  DriftCount latency_bounds{};
   std::size_t flights{};
   std::size_t succeeded{};
   std::size_t collisions{};
@@ -86,9 +86,9 @@ Status add(const Entry& entry, double at_s, Outcome& outcome) {
   outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
   outcome.energy_j += picture->summary.energy_total_j();
   const DriftCount count =
-      count_promises(*record, MissionTime{from_seconds(at_s)}, first_promise, last_promise);
-  outcome.promises.decisions += count.decisions;
-  outcome.promises.late += count.late;
+      count_bounds(*record, MissionTime{from_seconds(at_s)}, first_bound, last_bound);
+  outcome.latency_bounds.decisions += count.decisions;
+  outcome.latency_bounds.late += count.late;
   return Done{};
 }
 
@@ -100,19 +100,19 @@ std::string to_text(const DriftOptions& options,
                     const std::vector<DriftCase>& cases,
                     const std::vector<Outcome>& outcomes) {
   std::vector<std::vector<std::string>> lines{
-      {"event", "policy", "late", "of promises", "share", "succeeded", "collisions", "energy kJ"}};
+      {"event", "policy", "late", "of bounds", "share", "succeeded", "collisions", "energy kJ"}};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& one = outcomes[i];
-    lines.push_back({cases[i / options.policies.size()].name,
-                     options.policies[i % options.policies.size()],
-                     std::to_string(one.promises.late), std::to_string(one.promises.decisions),
-                     percent(one.promises.late_share()),
-                     std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
-                     std::to_string(one.collisions),
-                     rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
+    lines.push_back(
+        {cases[i / options.policies.size()].name, options.policies[i % options.policies.size()],
+         std::to_string(one.latency_bounds.late), std::to_string(one.latency_bounds.decisions),
+         percent(one.latency_bounds.late_share()),
+         std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
+         std::to_string(one.collisions),
+         rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
   }
-  std::string text = "Promises " + std::to_string(first_promise) + " to " +
-                     std::to_string(last_promise) + " after the event, over all seeds:\n" +
+  std::string text = "Latency bounds " + std::to_string(first_bound) + " to " +
+                     std::to_string(last_bound) + " after the event, over all seeds:\n" +
                      aligned(lines);
   for (const DriftCase& drift : cases) {
     text += drift.name + ": " + drift.description + "\n";
@@ -128,9 +128,9 @@ std::string to_json(const DriftOptions& options,
     const Outcome& one = outcomes[i];
     all.push_back({{"event", cases[i / options.policies.size()].name},
                    {"policy", options.policies[i % options.policies.size()]},
-                   {"promises", one.promises.decisions},
-                   {"late", one.promises.late},
-                   {"late_share", one.promises.late_share()},
+                   {"latency_bounds", one.latency_bounds.decisions},
+                   {"late", one.latency_bounds.late},
+                   {"late_share", one.latency_bounds.late_share()},
                    {"flights", one.flights},
                    {"succeeded", one.succeeded},
                    {"collisions", one.collisions},
@@ -197,7 +197,7 @@ int drift(const DriftOptions& options) {
 
 void add_drift(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
-      "drift", "counts the promises that policies break after the computer has changed");
+      "drift", "counts the latency bounds that policies violate after the computer has changed");
   const auto options = std::make_shared<DriftOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
   add_contest(*command, options->policies, options->seeds);

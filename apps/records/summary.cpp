@@ -63,9 +63,9 @@ void read_kernels(const Json& json, Summary& summary) {
   }
 }
 
-Json promises_json(const Summary& summary) {
+Json bounds_json(const Summary& summary) {
   Json levels = Json::array();
-  for (const LevelBounds& level : summary.promises) {
+  for (const LevelBounds& level : summary.latency_bounds) {
     levels.push_back({{"resolution_m", level.resolution_m},
                       {"issued", level.issued},
                       {"late", level.late},
@@ -74,12 +74,12 @@ Json promises_json(const Summary& summary) {
   return levels;
 }
 
-void read_promises(const Json& json, Summary& summary) {
+void read_bounds(const Json& json, Summary& summary) {
   for (const Json& level : json) {
     const Json& most = level.at("most_late");
-    summary.promises.push_back({level.at("resolution_m").get<double>(), count_in(level, "issued"),
-                                count_in(level, "late"),
-                                most.is_null() ? std::nullopt : std::optional{most.get<double>()}});
+    summary.latency_bounds.push_back(
+        {level.at("resolution_m").get<double>(), count_in(level, "issued"), count_in(level, "late"),
+         most.is_null() ? std::nullopt : std::optional{most.get<double>()}});
   }
 }
 
@@ -128,7 +128,8 @@ void read_computing(const Json& json, Summary& summary) {
   if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
     summary.hottest_c = hottest.get<double>();
   }
-  read_promises(json.at("promises"), summary);
+  // In older summaries the key is `promises`.
+  read_bounds(json.at(json.contains("latency_bounds") ? "latency_bounds" : "promises"), summary);
   read_kernels(json.at("kernels"), summary);
   for (const auto& [name, value] : json.at("quality").items()) {
     summary.quality[name] = number(value);
@@ -176,7 +177,7 @@ std::string to_json(const Summary& summary, int indent) {
       {"maps", summary.maps},
       {"bound_overruns", summary.bound_overruns},
       {"budget_use_p50", summary.budget_use_p50},
-      {"promises", promises_json(summary)},
+      {"latency_bounds", bounds_json(summary)},
       {"decision_host_us",
        {{"p50", summary.decision_host_us_p50}, {"p99", summary.decision_host_us_p99}}},
       {"throttle_events", summary.throttle_events},

@@ -183,7 +183,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.maps = maps.budget_use.size();
   summary.bound_overruns = maps.overruns;
   summary.budget_use_p50 = quantile(maps.budget_use, 0.5);
-  summary.promises = flight.governor->bound_levels();
+  summary.latency_bounds = flight.governor->bound_levels();
   summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
   summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
   summary.throttle_events = flight.drift->throttle_events();

@@ -23,7 +23,8 @@ std::vector<std::string> event(int number,
 }
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
-  if (row.at("channel").get_ref<const std::string&>() == "promise") {
+  const auto& channel = row.at("channel").get_ref<const std::string&>();
+  if (channel == "latency_bound" || channel == "promise") {  // Older records have the latter.
     record.push_back(
         {MissionTime{seconds_in(row, "t_s")}, count_in(row, "issued"), count_in(row, "late")});
   }
@@ -50,7 +51,7 @@ DriftRecord drift_record(const MemoryRecorder& trace) {
     const auto count = [&row](std::size_t field) {
       return static_cast<std::uint64_t>(std::get<std::int64_t>(row.fields[field].value));
     };
-    if (row.channel == "promise") {
+    if (row.channel == "latency_bound") {
       record.push_back({row.at, count(0), count(1)});
     }
   }
@@ -74,15 +75,15 @@ Result<DriftRecord> read_drift_record(const std::string& run_folder) {
   return record;
 }
 
-DriftCount count_promises(const DriftRecord& record,
-                          MissionTime event,
-                          std::uint64_t first,
-                          std::uint64_t last) {
+DriftCount count_bounds(const DriftRecord& record,
+                        MissionTime event,
+                        std::uint64_t first,
+                        std::uint64_t last) {
   // Those that were issued before the event and were still open count from it on, too.
-  PromiseRow before;
+  BoundRow before;
   DriftCount count;
-  PromiseRow previous;
-  for (const PromiseRow& row : record) {
+  BoundRow previous;
+  for (const BoundRow& row : record) {
     if (row.at < event) {
       before = row;
     } else if (row.issued >= before.issued + first && row.issued <= before.issued + last) {

@@ -27,8 +27,8 @@ WorldResult result_of(const std::vector<Summary>& flights,
   const std::string& first = world.comparison.rows.front().policy;
   for (const ComparisonRow& row : world.comparison.rows) {
     world.decisions.push_back(decisions_of(flights, row.policy, bounds));
-    for (PromiseFigures& level : promises_of(flights, row.policy)) {
-      world.promises.push_back(std::move(level));
+    for (BoundFigures& level : bound_figures(flights, row.policy)) {
+      world.latency_bounds.push_back(std::move(level));
     }
     if (row.policy != first) {
       world.differences.push_back(difference_of(flights, {row.policy, first}));
@@ -78,13 +78,14 @@ Json json_of(const WorldResult& world) {
       json["differences"].push_back(json_of(difference));
     }
   }
-  json["promises"] = Json::array();
-  for (const PromiseFigures& level : world.promises) {
-    json["promises"].push_back({{"policy", level.policy},
-                                {"resolution_m", level.resolution_m},
-                                {"issued", level.issued},
-                                {"late", level.late},
-                                {"most_late", level.most_late ? Json(*level.most_late) : Json()}});
+  json["latency_bounds"] = Json::array();
+  for (const BoundFigures& level : world.latency_bounds) {
+    json["latency_bounds"].push_back(
+        {{"policy", level.policy},
+         {"resolution_m", level.resolution_m},
+         {"issued", level.issued},
+         {"late", level.late},
+         {"most_late", level.most_late ? Json(*level.most_late) : Json()}});
   }
   return json;
 }
@@ -136,13 +137,13 @@ std::string decisions_text(const WorldResult& world) {
   return aligned(lines);
 }
 
-std::string promises_text(const WorldResult& world) {
-  if (world.promises.empty()) {
+std::string bounds_text(const WorldResult& world) {
+  if (world.latency_bounds.empty()) {
     return {};
   }
   std::vector<std::vector<std::string>> lines{
-      {"promises of latency", "cells m", "issued", "late", "late %", "at most %"}};
-  for (const PromiseFigures& level : world.promises) {
+      {"latency bounds", "cells m", "issued", "late", "late %", "at most %"}};
+  for (const BoundFigures& level : world.latency_bounds) {
     const auto most = level.most_percent();
     lines.push_back({level.policy, rounded(level.resolution_m, 2), std::to_string(level.issued),
                      std::to_string(level.late), rounded(level.late_percent(), 1),
@@ -199,7 +200,7 @@ std::string to_text(const std::vector<WorldResult>& worlds) {
     text +=
         (text.empty() ? "" : "\n") + to_text(world.comparison) +
         differences_text("less " + world.comparison.rows.front().policy, world.differences, false) +
-        differences_text("pairs", world.pairs, true) + decisions_text(world) + promises_text(world);
+        differences_text("pairs", world.pairs, true) + decisions_text(world) + bounds_text(world);
   }
   return text;
 }

@@ -111,15 +111,15 @@ PairedDifference difference_of(const std::vector<Summary>& flights, const Policy
   return difference;
 }
 
-std::vector<PromiseFigures> promises_of(const std::vector<Summary>& flights,
+std::vector<BoundFigures> bound_figures(const std::vector<Summary>& flights,
                                         const std::string& policy) {
-  std::map<double, PromiseFigures> levels;
+  std::map<double, BoundFigures> levels;
   for (const Summary& flight : flights) {
-    for (const LevelBounds& level : flight.promises) {
+    for (const LevelBounds& level : flight.latency_bounds) {
       if (flight.policy != policy || level.issued == 0) {
         continue;
       }
-      PromiseFigures& figures = levels[level.resolution_m];
+      BoundFigures& figures = levels[level.resolution_m];
       const bool is_bounded = level.most_late && (figures.issued == 0 || figures.most_late);
       figures.most_late = is_bounded
                               ? std::optional{figures.most_late.value_or(0.0) + *level.most_late}
@@ -130,7 +130,7 @@ std::vector<PromiseFigures> promises_of(const std::vector<Summary>& flights,
       figures.late += level.late;
     }
   }
-  std::vector<PromiseFigures> all;
+  std::vector<BoundFigures> all;
   for (const auto& [resolution_m, figures] : levels) {
     all.push_back(figures);
   }

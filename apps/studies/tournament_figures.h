@@ -14,7 +14,7 @@ namespace flyball {
 [[nodiscard]] PairedDifference difference_of(const std::vector<Summary>& flights,
                                              const PolicyPair& pair);
 /// Level by level, over all flights of the policy, also those that failed.
-[[nodiscard]] std::vector<PromiseFigures> promises_of(const std::vector<Summary>& flights,
+[[nodiscard]] std::vector<BoundFigures> bound_figures(const std::vector<Summary>& flights,
                                                       const std::string& policy);
 
 }  // namespace flyball

@@ -72,15 +72,15 @@ std::string differences_html(const std::string& head,
   return table + "</table></div>\n";
 }
 
-std::string promises_html(const WorldResult& world) {
-  if (world.promises.empty()) {
+std::string bounds_html(const WorldResult& world) {
+  if (world.latency_bounds.empty()) {
     return {};
   }
   std::string table =
-      "<h3>Promises of latency</h3><div class=\"table\"><table><tr><th>policy</th><th>cells "
+      "<h3>Latency bounds</h3><div class=\"table\"><table><tr><th>policy</th><th>cells "
       "m</th><th>issued</th>"
       "<th>late</th><th>late %</th><th>at most %</th></tr>\n";
-  for (const PromiseFigures& level : world.promises) {
+  for (const BoundFigures& level : world.latency_bounds) {
     const auto most = level.most_percent();
     table += "<tr><td>" + html_text(level.policy) + "</td><td>" + rounded(level.resolution_m, 2) +
              "</td><td>" + std::to_string(level.issued) + "</td><td>" + std::to_string(level.late) +
@@ -160,8 +160,7 @@ std::string world_html(const WorldResult& world) {
          to_html(world.comparison) +
          differences_html("Less " + world.comparison.rows.front().policy, world.differences,
                           false) +
-         differences_html("Pairs", world.pairs, true) + decisions_html(world) +
-         promises_html(world) +
+         differences_html("Pairs", world.pairs, true) + decisions_html(world) + bounds_html(world) +
          "</div>\n<div class=\"panel\"><h3>Energy over time; dashed: what nothing beats in "
          "both</h3>" +
          pareto_of(world) + "</div>\n<div class=\"panel plots\">" + plots_of(world) + "</div>\n";
@@ -226,8 +225,8 @@ std::string tournament_page(const std::string& title, const std::vector<WorldRes
   }
   return page +
          "<footer>Medians with 95 % bootstrap intervals over succeeded flights. Flights are "
-         "simulated in closed loop on a modeled computer. That nothing is hit is promised as long "
-         "as obstacles stand still, the map is sound and the brake model holds.</footer>\n"
+         "simulated in closed loop on a modeled computer. The guard prevents collisions as "
+         "long as obstacles stand still, the map is sound and the brake model holds.</footer>\n"
          "</body></html>\n";
 }
 

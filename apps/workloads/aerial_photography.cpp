@@ -87,7 +87,7 @@ class AerialPhotography final : public Workload {
       // saw: somebody who turns round, or a view that swings.
       if (const auto sighting = job.take(target_.sighting)) {
         if (const auto pose = poses_.at(sighting->frame.captured)) {
-          follower_.sight(*sighting, *pose);
+          follower_.detected(*sighting, *pose);
         }
       }
       const auto target = job.take(target_.target);
@@ -95,7 +95,7 @@ class AerialPhotography final : public Workload {
         return;
       }
       if (const auto pose = poses_.at(target->frame.captured)) {
-        follower_.see(*target, *pose);
+        follower_.tracked(*target, *pose);
       }
       if (target->box && has_started_) {
         tracked_.on_target(target->frame.captured);

@@ -37,7 +37,7 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.maps = 55;
   summary.bound_overruns = 3;
   summary.budget_use_p50 = 0.66;
-  summary.promises = {{0.15, 40, 2, 3.5}, {0.3, 10, 1, std::nullopt}};
+  summary.latency_bounds = {{0.15, 40, 2, 3.5}, {0.3, 10, 1, std::nullopt}};
   summary.decision_host_us_p50 = 1.5;
   summary.decision_host_us_p99 = 2.75;
   summary.throttle_events = 2;

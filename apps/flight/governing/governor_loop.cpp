@@ -91,7 +91,7 @@ void GovernorLoop::tick(JobContext& job) {
   }
   record(job, looks);
   decide(job);
-  record_promises(job);
+  record_bounds(job);
   publish_knobs(job);
 }
 
@@ -118,11 +118,11 @@ void GovernorLoop::publish_knobs(JobContext& job) {
   }
 }
 
-void GovernorLoop::record_promises(JobContext& job) {
+void GovernorLoop::record_bounds(JobContext& job) {
   const std::optional<BoundCount> count = governor_.bounds();
-  if (count && count->issued != promises_) {
-    promises_ = count->issued;
-    log(job, parts_.mission, "promise",
+  if (count && count->issued != settled_bounds_) {
+    settled_bounds_ = count->issued;
+    log(job, parts_.mission, "latency_bound",
         {{"issued", static_cast<std::int64_t>(count->issued)},
          {"late", static_cast<std::int64_t>(count->late)},
          {"factor", count->factor}});

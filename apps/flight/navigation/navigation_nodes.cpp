@@ -109,7 +109,7 @@ PlannedPath smoothed(const PlanAnswer& answer,
   PlannedPath planned;
   planned.id = answer.id;
   planned.failure = answer.failure;
-  planned.way = {answer.waypoints_W, answer.body};
+  planned.path = {answer.waypoints_W, answer.body};
   planned.iterations = answer.iterations;
   if (!planned.failure.empty()) {
     return planned;

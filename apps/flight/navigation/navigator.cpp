@@ -208,7 +208,7 @@ void Navigator::start_from_path(PlanQuery& query) {
 
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   if (joins_) {  // A known path could not be joined; no search has failed, so one is made now.
-    want_plan(now, "the way does not join: " + planned.failure);
+    want_plan(now, "the path cannot be joined: " + planned.failure);
     return;
   }
   ++failures_;
@@ -238,8 +238,8 @@ bool Navigator::is_worth_joining(const std::vector<Vec3>& path_W) const {
 void Navigator::plan_refused(MissionTime now, const PlannedPath& planned) {
   const bool is_late = follower_.s_m() > splice_m_;
   refusals_ += is_late && !joins_ && refusals_ == 0 ? 0 : 1;
-  if (refusals_ < most_refusals && is_worth_joining(planned.way.waypoints_W)) {
-    known_ = planned.way;
+  if (refusals_ < most_refusals && is_worth_joining(planned.path.waypoints_W)) {
+    known_ = planned.path;
   }
   want_plan(now, is_late ? "too late for the plan" : "too fast for the plan");
 }

@@ -96,14 +96,14 @@ bool TargetFollower::is_repeated(const Measurement& measured) const {
          (measured.place_W - candidate_->place_W).norm() <= wrong_by_m + reach_m_s * dt_s;
 }
 
-void TargetFollower::see(const Target& target, const PoseEstimate& pose) {
+void TargetFollower::tracked(const Target& target, const PoseEstimate& pose) {
   const auto measurement = measured(target, pose);
   if (measurement && seen_ && can_be_at(*measurement)) {
     believe(*measurement);
   }
 }
 
-void TargetFollower::sight(const Target& target, const PoseEstimate& pose) {
+void TargetFollower::detected(const Target& target, const PoseEstimate& pose) {
   const auto measurement = measured(target, pose);
   if (!measurement) {
     return;

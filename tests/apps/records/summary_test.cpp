@@ -24,9 +24,20 @@ TEST(Summary, reads_back_what_was_written) {
   EXPECT_EQ(read.kernels.at("octomap").calls, 123U);
   EXPECT_EQ(read.quality.at("area_covered_percent"), 97.25);
   EXPECT_EQ(read.policy_trouble, "threw: <enough>");
-  ASSERT_EQ(read.promises.size(), 2U);
-  EXPECT_EQ(read.promises[0].most_late, 3.5);
-  EXPECT_FALSE(read.promises[1].most_late);
+  ASSERT_EQ(read.latency_bounds.size(), 2U);
+  EXPECT_EQ(read.latency_bounds[0].most_late, 3.5);
+  EXPECT_FALSE(read.latency_bounds[1].most_late);
+}
+
+TEST(Summary, reads_latency_bounds_under_the_key_of_older_files) {
+  const Summary written = made_summary("two_level", 1);
+  const std::string key = "\"latency_bounds\"";
+  std::string older = to_json(written);
+  ASSERT_NE(older.find(key), std::string::npos);
+  older.replace(older.find(key), key.size(), "\"promises\"");
+  Summary read;
+  ASSERT_TRUE(from_json(older, read));
+  EXPECT_EQ(to_json(read), to_json(written));
 }
 
 TEST(Summary, every_status_and_failure_reads_back) {
@@ -90,7 +101,7 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "maps",
                               "bound_overruns",
                               "budget_use_p50",
-                              "promises",
+                              "latency_bounds",
                               "decision_host_us",
                               "throttle_events",
                               "hottest_c",

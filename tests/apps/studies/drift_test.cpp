@@ -18,29 +18,36 @@ MissionTime after(double s) {
   return MissionTime{from_seconds(s)};
 }
 
-TEST(Drift, promises_are_counted_from_the_event_on) {
+TEST(Drift, bounds_are_counted_from_the_event_on) {
   DriftRecord record;
   for (std::uint64_t i = 1; i <= 100; ++i) {  // Every fourth one is late.
     record.push_back({after(static_cast<double>(i)), i, i / 4});
   }
-  const DriftCount count = count_promises(record, after(20.5), 11, 30);
+  const DriftCount count = count_bounds(record, after(20.5), 11, 30);
   EXPECT_EQ(count.decisions, 20U);  // 31 to 50.
   EXPECT_EQ(count.late, 50U / 4U - 30U / 4U);
-  EXPECT_EQ(count_promises(record, after(20.5), 71, 500).decisions, 10U) << "the mission ended";
-  EXPECT_EQ(count_promises(record, after(500.0), 1, 9).decisions, 0U);
+  EXPECT_EQ(count_bounds(record, after(20.5), 71, 500).decisions, 10U) << "the mission ended";
+  EXPECT_EQ(count_bounds(record, after(500.0), 1, 9).decisions, 0U);
 }
 
 TEST(Drift, a_damaged_record_is_refused) {
   const ScratchFolder folder;
-  const auto read = [&folder](const std::string& counts) {
-    static_cast<void>(folder.file("trace.jsonl", "{\"channel\":\"promise\"," + counts + "}\n"));
+  const auto read = [&folder](const std::string& counts, const std::string& channel) {
+    static_cast<void>(
+        folder.file("trace.jsonl", "{\"channel\":\"" + channel + "\"," + counts + "}\n"));
     return read_drift_record(folder.path());
   };
-  ASSERT_TRUE(read("\"t_s\":1.5,\"issued\":7,\"late\":1").ok());
+  for (const char* channel :
+       {"latency_bound", "promise"}) {  // The latter is that of older records.
+    const auto sound = read("\"t_s\":1.5,\"issued\":7,\"late\":1", channel);
+    ASSERT_TRUE(sound.ok()) << channel;
+    ASSERT_EQ(sound->size(), 1U) << channel;
+    EXPECT_EQ(sound->front().issued, 7U) << channel;
+  }
   for (const char* counts :
        {"\"t_s\":1e300,\"issued\":7,\"late\":1", "\"t_s\":-1,\"issued\":7,\"late\":1",
         "\"t_s\":1.5,\"issued\":-7,\"late\":1", "\"t_s\":1.5,\"issued\":7,\"late\":1e30"}) {
-    const auto damaged = read(counts);
+    const auto damaged = read(counts, "latency_bound");
     ASSERT_FALSE(damaged.ok()) << counts;
     EXPECT_NE(damaged.error().message.find("trace.jsonl\": "), std::string::npos)
         << damaged.error().message;
@@ -70,7 +77,7 @@ MissionRecord flown_with(const std::string& policy, const DriftCase& drift) {
 }
 
 DriftCount late_after(const MissionRecord& record) {
-  return count_promises(drift_record(*record.trace), after(event_s), 51, 450);
+  return count_bounds(drift_record(*record.trace), after(event_s), 51, 450);
 }
 
 // The share that is asked for is 5 %.

@@ -98,22 +98,22 @@ TEST(Tournament, measures_pairs_that_were_asked_for_by_each_other) {
             std::string::npos);
 }
 
-TEST(Tournament, holds_promises_against_what_was_stated_level_by_level) {
+TEST(Tournament, holds_bounds_against_what_was_stated_level_by_level) {
   std::vector<Summary> flights{flight("hills", "first", 1, 100), flight("hills", "first", 2, 100)};
   flights[1].status = MissionStatus::failed;
   const std::vector<WorldResult> worlds = tournament_of(flights);
-  ASSERT_EQ(worlds[0].promises.size(), 2U);
-  const PromiseFigures& fine = worlds[0].promises[0];
+  ASSERT_EQ(worlds[0].latency_bounds.size(), 2U);
+  const BoundFigures& fine = worlds[0].latency_bounds[0];
   EXPECT_EQ(fine.resolution_m, 0.15);
-  EXPECT_EQ(fine.issued, 80U) << "a flight that failed promised, too";
+  EXPECT_EQ(fine.issued, 80U) << "a flight that failed stated bounds, too";
   EXPECT_DOUBLE_EQ(fine.late_percent(), 5.0);
   EXPECT_DOUBLE_EQ(*fine.most_percent(), 100.0 * 7.0 / 80.0);
-  EXPECT_FALSE(worlds[0].promises[1].most_percent()) << "nothing is stated there";
-  PromiseFigures few = fine;
+  EXPECT_FALSE(worlds[0].latency_bounds[1].most_percent()) << "nothing is stated there";
+  BoundFigures few = fine;
   few.issued = 3;
   EXPECT_EQ(few.most_percent(), 100.0) << "more than all cannot be late";
-  EXPECT_NE(to_text(worlds).find("promises of latency"), std::string::npos);
-  EXPECT_NE(tournament_page("Tournament", worlds).find("Promises of latency"), std::string::npos);
+  EXPECT_NE(to_text(worlds).find("latency bounds"), std::string::npos);
+  EXPECT_NE(tournament_page("Tournament", worlds).find("Latency bounds"), std::string::npos);
 }
 
 TEST(Tournament, counts_how_often_heat_took_clocks_away_where_it_is_known) {

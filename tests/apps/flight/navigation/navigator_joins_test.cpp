@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of a way that was found and cannot be flown into.
+// What becomes of a path that was found but cannot be joined.
 #include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
@@ -19,14 +19,14 @@ TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks
   ASSERT_FALSE(late->known.has_value());
   trip.tick(40);
   PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
-  planned.way = {{late->start_W, Vec3{30, 0.1, 1.5}, late->goal_W}, {0.4, 0.2}};
+  planned.path = {{late->start_W, Vec3{30, 0.1, 1.5}, late->goal_W}, {0.4, 0.2}};
   trip.navigator.path_planned(trip.now, planned);
   const double speed_m_s = trip.navigator.follower().speed_m_s();
   ASSERT_GT(speed_m_s, 1.0) << "it has not stopped yet";
   const auto again = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(again.has_value());
   ASSERT_TRUE(again->known.has_value());
-  EXPECT_EQ(again->known->waypoints_W, planned.way.waypoints_W);
+  EXPECT_EQ(again->known->waypoints_W, planned.path.waypoints_W);
   EXPECT_EQ(again->known->body.radius_m, 0.4);
   EXPECT_GT(again->start_W.x(), trip.navigator.follower().position_W().x());
   trip.navigator.path_planned(trip.now,
@@ -44,9 +44,9 @@ TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
     trip.tick(ticks);
     PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
     const Vec3 aside_W = 0.5 * (late->start_W + late->goal_W) + Vec3{0, 60, 0};
-    planned.way = {{late->start_W, aside_W, late->goal_W}, {0.4, 0.2}};
+    planned.path = {{late->start_W, aside_W, late->goal_W}, {0.4, 0.2}};
     const double cost_s =
-        detour_m(planned.way.waypoints_W) /
+        detour_m(planned.path.waypoints_W) /
         trip.rig.situation().speed_limit_m_s(trip.navigator.follower().position_W());
     ASSERT_GT(cost_s, 6.0);
     ASSERT_LT(cost_s, 30.0);
@@ -57,12 +57,12 @@ TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
   }
 }
 
-TEST(NavigatorJoins, plans_anew_where_a_known_way_does_not_join_and_counts_no_failure) {
+TEST(NavigatorJoins, plans_anew_where_a_known_path_does_not_join_and_counts_no_failure) {
   Trip trip;
   const auto late = trip.fly_until_blocked();
   trip.tick(40);
   PlannedPath planned{late->id, straight(late->start_W, late->goal_W), ""};
-  planned.way = {{late->start_W, late->goal_W}, {0.4, 0.2}};
+  planned.path = {{late->start_W, late->goal_W}, {0.4, 0.2}};
   trip.navigator.path_planned(trip.now, planned);
   const auto joined = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(joined->known.has_value());

@@ -60,9 +60,9 @@ class Follower : public testing::Test {
       pose.X_WB = X_WL;
       const Target target = seen(now, person_W, X_WL);
       if (i % 17 == 0) {  // A detector that takes .34 s.
-        follower.sight(target, pose);
+        follower.detected(target, pose);
       }
-      follower.see(target, pose);
+      follower.tracked(target, pose);
       setpoint = follower.tick(now, 20ms);
     }
     return setpoint;
@@ -153,16 +153,16 @@ class Searching : public Follower {
 };
 
 TEST_F(Searching, stops_to_look_again_at_a_person_where_they_can_hardly_be) {
-  follower.sight(seen(now, foot_W, X_WL), pose);
+  follower.detected(seen(now, foot_W, X_WL), pose);
   EXPECT_LT(off_rad(unseen(1.0)), 0.05);
-  const Setpoint later = unseen(2.0);  // A rumour only.
+  const Setpoint later = unseen(2.0);  // It was not repeated.
   EXPECT_NEAR(std::abs(later.yaw_rate_rad_s), FollowSettings{}.search_rate_rad_s, 1e-9);
 }
 
 TEST_F(Searching, follows_on_when_the_person_was_seen_there_twice) {
-  follower.sight(seen(now, foot_W, X_WL), pose);
+  follower.detected(seen(now, foot_W, X_WL), pose);
   now += 350ms;
-  follower.sight(seen(now, foot_W + Vec3{0.3, 0.0, 0.0}, X_WL), pose);
+  follower.detected(seen(now, foot_W + Vec3{0.3, 0.0, 0.0}, X_WL), pose);
   const Setpoint after = unseen(2.5);
   EXPECT_LT(off_rad(after), 0.05);
   EXPECT_GT((after.p_WB - last.p_WB).dot((foot_W - last.p_WB).normalized()), 1.0);
@@ -171,7 +171,7 @@ TEST_F(Searching, follows_on_when_the_person_was_seen_there_twice) {
 TEST_F(Searching, believes_no_tracker_that_holds_on_to_something_elsewhere) {
   for (int i = 0; i < 20; ++i) {
     now += 50ms;
-    follower.see(seen(now, foot_W, X_WL), pose);
+    follower.tracked(seen(now, foot_W, X_WL), pose);
   }
   EXPECT_NEAR(std::abs(unseen(0.02).yaw_rate_rad_s), FollowSettings{}.search_rate_rad_s, 1e-9);
 }
@@ -183,7 +183,7 @@ TEST_F(Follower, is_not_drawn_away_by_one_false_sighting) {
   X_WL.translation() = before.p_WB;
   PoseEstimate pose;
   pose.X_WB = X_WL;
-  follower.sight(seen(now, {15.0, 3.0, 0.0}, X_WL), pose);
+  follower.detected(seen(now, {15.0, 3.0, 0.0}, X_WL), pose);
   const Setpoint after = unseen(1.0);
   EXPECT_LT((after.p_WB - before.p_WB).norm(), 0.3);
 }
@@ -207,7 +207,7 @@ TEST_F(Follower, tells_the_distance_from_the_ground_not_from_the_size_of_the_box
   target.box->y_px += 0.15 * target.box->height_px;
   target.box->height_px *= 0.7;
   follower.start(hover());
-  follower.sight(target, hover());
+  follower.detected(target, hover());
   (void)unseen(0.02);
   // It aims at the middle of the person that it believes in.
   EXPECT_NEAR(follower.gimbal().tilt_rad, std::atan2(4.5 - 0.875, 9.0), 0.02);
@@ -220,7 +220,7 @@ TEST_F(Follower, does_not_go_back_to_what_it_was_told_late) {
   X_WL.translation() = before.p_WB;
   PoseEstimate pose;
   pose.X_WB = X_WL;
-  follower.see(seen(MissionTime{9s}, {7.0, 5.0, 0.0}, X_WL), pose);
+  follower.tracked(seen(MissionTime{9s}, {7.0, 5.0, 0.0}, X_WL), pose);
   EXPECT_NEAR(unseen(0.02).yaw_rate_rad_s, before.yaw_rate_rad_s, 0.05);
 }
 
@@ -229,7 +229,7 @@ TEST_F(Follower, never_wants_more_than_its_acceleration) {
   Vec3 before = Vec3::Zero();
   for (int i = 0; i < 100; ++i) {
     now += 20ms;
-    follower.sight(seen(now, {40.0, i < 50 ? 9.0 : -9.0, 0.0}, hover().X_WB), hover());
+    follower.detected(seen(now, {40.0, i < 50 ? 9.0 : -9.0, 0.0}, hover().X_WB), hover());
     const Setpoint next = follower.tick(now, 20ms);
     EXPECT_LE((next.v_WB - before).norm(), 0.02 * FollowSettings{}.max_acceleration_m_s2 + 1e-9);
     before = next.v_WB;

@@ -23,12 +23,12 @@ TEST(View, has_grey_and_depth_through_one_lens) {
   world.has_ground = false;
   world.boxes.push_back({Vec3{-4, 5, 0}, Vec3{0, 6, 10}});  // Ahead, to the left.
   const DepthCamera depth{world, spec, 1};
-  const auto eye = ColourCamera::make(world, colour_beside(spec));
-  ASSERT_TRUE(eye) << eye.error().message;
+  const auto rgb = ColourCamera::make(world, colour_beside(spec));
+  ASSERT_TRUE(rgb) << rgb.error().message;
   Pose X_WC = kit::circle_pose(0.0);
   X_WC.translation() = Vec3{0.0, 0.0, 5.0};
   const MissionTime now{from_seconds(2.0)};
-  View view{depth.frame(X_WC, now, 3), (*eye)->frame({X_WC, Pose::Identity()}, now, 3),
+  View view{depth.frame(X_WC, now, 3), (*rgb)->frame({X_WC, Pose::Identity()}, now, 3),
             Pose::Identity()};
   const VisualFrame frame = visual_frame(view);
   EXPECT_EQ(frame.captured, now);

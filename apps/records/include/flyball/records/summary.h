@@ -47,11 +47,11 @@ struct Summary {
   double latency_p50_s{};         ///< Sensor to command.
   double latency_p95_s{};
   double latency_max_s{};
-  std::uint64_t maps{};                 ///< Published; each had a latency bound.
-  std::uint64_t bound_overruns{};       ///< Maps that violated their bound.
-  double budget_use_p50{};              ///< Latency over its bound.
-  std::vector<LevelBounds> promises{};  ///< Empty for a policy that states no bounds.
-  double decision_host_us_p50{};        ///< One decision of the governor, on the host.
+  std::uint64_t maps{};                       ///< Published; each had a latency bound.
+  std::uint64_t bound_overruns{};             ///< Maps that violated their bound.
+  double budget_use_p50{};                    ///< Latency over its bound.
+  std::vector<LevelBounds> latency_bounds{};  ///< Empty for a policy that states no bounds.
+  double decision_host_us_p50{};              ///< One decision of the governor, on the host.
   double decision_host_us_p99{};
   std::uint64_t throttle_events{};    ///< How often heat lowered the granted clock.
   std::optional<double> hottest_c{};  ///< Of the computer; empty without a thermal model.
@@ -72,7 +72,7 @@ struct Summary {
 };
 
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
-/// {name: {...}}`, `quality {name: number}` and `promises`, one object for each level.
+/// {name: {...}}`, `quality {name: number}` and `latency_bounds`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
 /// `failed in 3 of 400 decisions and was replaced by safe settings there: threw: no more`; empty
 /// where it never failed.

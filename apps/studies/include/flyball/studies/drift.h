@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// How well a policy keeps its latency bounds ("promises") while the computer changes: the events,
-/// and the count of violations after them.
+/// How well a policy keeps its latency bounds ("latency_bounds") while the computer changes: the
+/// events, and the count of violations after them.
 
 #include "flyball/runtime/recorder.h"
 #include "flyball/runtime/result.h"
@@ -27,14 +27,14 @@ struct DriftCase {
 [[nodiscard]] std::vector<DriftCase> drift_cases(double at_s);
 
 /// The count of a policy's latency bounds at one moment, as recorded.
-struct PromiseRow {
+struct BoundRow {
   MissionTime at{};
   std::uint64_t issued{};  ///< Bounds that were settled until now.
   std::uint64_t late{};    ///< How many of them were violated.
 };
 
-/// All rows of channel `promise` in a record, in order.
-using DriftRecord = std::vector<PromiseRow>;
+/// All rows of channel `latency_bound` in a record, in order.
+using DriftRecord = std::vector<BoundRow>;
 
 [[nodiscard]] DriftRecord drift_record(const MemoryRecorder& trace);
 /// The same for a flight on disk.
@@ -50,9 +50,9 @@ struct DriftCount {
     return decisions == 0 ? 0.0 : static_cast<double>(late) / static_cast<double>(decisions);
   }
 };
-[[nodiscard]] DriftCount count_promises(const DriftRecord& record,
-                                        MissionTime event,
-                                        std::uint64_t first,
-                                        std::uint64_t last);
+[[nodiscard]] DriftCount count_bounds(const DriftRecord& record,
+                                      MissionTime event,
+                                      std::uint64_t first,
+                                      std::uint64_t last);
 
 }  // namespace flyball

@@ -49,8 +49,8 @@ struct DecisionFigures {
   std::optional<std::uint64_t> throttle_events{};  ///< In all; empty: its heat is not known.
 };
 
-/// The promises that a policy made at one level of map resolution, in all its flights.
-struct PromiseFigures {
+/// The latency bounds that a policy stated at one level of map resolution, in all its flights.
+struct BoundFigures {
   std::string policy;
   double resolution_m{};
   std::uint64_t issued{};
@@ -76,7 +76,7 @@ struct WorldResult {
   std::vector<PairedDifference> differences{};  ///< Without the first policy.
   std::vector<PairedDifference> pairs{};        ///< Those that were asked for, and flew here.
   std::vector<DecisionFigures> decisions{};     ///< In the order of the comparison's rows.
-  std::vector<PromiseFigures> promises{};       ///< Of policies that make some.
+  std::vector<BoundFigures> latency_bounds{};   ///< Of policies that make some.
   /// Whether one of the policies' energies is set against a bound.
   [[nodiscard]] bool has_bound() const;
   /// Whether one of the computers could have become too hot.

@@ -84,7 +84,7 @@ class GovernorLoop {
   void decide(JobContext& job);
   void publish_knobs(JobContext& job);
   void record(JobContext& job, bool is_whole);
-  void record_promises(JobContext& job);
+  void record_bounds(JobContext& job);
   void apply(JobContext& job, const Decision& decision);
   void note_moved_wishes(JobContext& job);
   void note_fallback(JobContext& job);
@@ -110,7 +110,7 @@ class GovernorLoop {
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
   std::string trouble_{};
-  std::uint64_t promises_{};  ///< Latency bounds that were settled and recorded.
+  std::uint64_t settled_bounds_{};  ///< Latency bounds that were settled and recorded.
   Fallback fallback_{Fallback::none};
   std::string why_{};              ///< Reason of the last fallback that was recorded.
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.

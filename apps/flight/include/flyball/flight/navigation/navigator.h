@@ -96,8 +96,8 @@ class Navigator {
   double splice_m_{};
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
-  std::optional<KnownWay> known_{};  ///< The path of the last of these plans.
-  bool joins_{};                     ///< The pending plan is that path, joined from elsewhere.
+  std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
+  bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
   int failures_{};  ///< Plans in a row that have failed.
   int replans_{};

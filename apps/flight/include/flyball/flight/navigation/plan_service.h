@@ -4,7 +4,7 @@
 /// @file
 /// The messages between the navigator and what plans for it.
 
-#include "flyball/flight/navigation/known_way.h"
+#include "flyball/flight/navigation/known_path.h"
 #include "flyball/runtime/trajectory.h"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct PlanQuery {
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
-  std::optional<KnownWay> known{};
+  std::optional<KnownPath> known{};
 };
 
 struct PlanAnswer {
@@ -44,7 +44,7 @@ struct PlannedPath {
   Trajectory trajectory{};
   std::string failure{};
   bool map_moved_on{};  ///< It failed on a newer map than it was planned on: plan again at once.
-  KnownWay way{};       ///< The path that the trajectory follows.
+  KnownPath path{};     ///< The path that the trajectory follows.
   double iterations{};  ///< Iterations that the search took.
 };
 

@@ -55,10 +55,10 @@ class TargetFollower {
   /// A tracker's measurement. It is ignored without a box, when it is older than the last one, or
   /// when the person cannot be there, because trackers hold on to trees, too. `pose` is the pose at
   /// the capture.
-  void see(const Target& target, const PoseEstimate& pose);
+  void tracked(const Target& target, const PoseEstimate& pose);
   /// A detector's measurement. A detection where the person cannot be counts only when it is
   /// repeated.
-  void sight(const Target& target, const PoseEstimate& pose);
+  void detected(const Target& target, const PoseEstimate& pose);
   [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
 

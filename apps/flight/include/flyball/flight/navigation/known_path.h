@@ -11,7 +11,7 @@
 
 namespace flyball {
 
-struct KnownWay {
+struct KnownPath {
   std::vector<Vec3> waypoints_W{};
   Cylinder body{};  ///< The body, with its tube, that the path was planned for.
 };
@@ -20,12 +20,12 @@ struct KnownWay {
 /// one waypoint.
 [[nodiscard]] double detour_m(const std::vector<Vec3>& path_W);
 
-/// The waypoints of `way`, with `start_W` in place of the first one. The second waypoint is left
+/// The waypoints of `path`, with `start_W` in place of the first one. The second waypoint is left
 /// out when the start has already passed it and the line to the third is free. The caller must
 /// still check that the first edge of the result is free.
 /// @pre The path has at least two waypoints.
 [[nodiscard]] std::vector<Vec3> joined_to(const Vec3& start_W,
-                                          const KnownWay& way,
+                                          const KnownPath& path,
                                           const OccupancyView& map);
 
 }  // namespace flyball
