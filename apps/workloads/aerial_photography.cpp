@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Aerial photography: take off, find a person, follow until the person is lost. Dataflow as in
-// MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and real-time tracker,
-// PID. It flies without a map: the scenario declares the space above the park clear.
+// Aerial photography: the vehicle takes off, finds a person, and follows until the person is lost.
+// The dataflow is that of MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and
+// real-time tracker, PID. It flies without a map, because the scenario declares the space above the
+// park clear.
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
@@ -52,7 +53,7 @@ class AerialPhotography final : public Workload {
  private:
   enum class Stage : std::uint8_t { ready, climbing, following, done };
 
-  /// The node `control`: all that it touches is its own.
+  /// The node `control`, which shares nothing with others but messages.
   class Control {
    public:
     Control(const AerialPhotography& mission, const FollowSettings& settings)
@@ -83,8 +84,8 @@ class AerialPhotography final : public Workload {
 
    private:
     void look(JobContext& job) {
-      // Older than what a tracker says, but all there is when none could hold whom the detector
-      // saw: somebody who turns round, or a view that swings.
+      // A detection is older than what a tracker says, but it is all there is when no tracker could
+      // hold the person, because they turned round or the view swung.
       if (const auto sighting = job.take(target_.sighting)) {
         if (const auto pose = poses_.at(sighting->frame.captured)) {
           follower_.detected(*sighting, *pose);
@@ -208,7 +209,7 @@ class AerialPhotography final : public Workload {
   TargetTopics target_{};
   Topic<TrackedTime> tracked_topic_{};
 
-  // Of the node `mission` alone.
+  // The node `mission` alone uses these.
   std::optional<Legs> legs_{};
   TargetLog log_{};
   double tracked_s_{};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 3-D mapping of an unknown volume: take off, fly from next-best view to next-best view until
-// enough of what can be known is known, or nothing is left to see; then fly home and land. Dataflow
-// as in MAVBench (MICRO 2018), figure of 3-D mapping.
+// 3-D mapping of an unknown volume: the vehicle takes off and flies from next-best view to next-best
+// view until enough of what can be known is known, or no view would show more. Then it flies home and
+// lands. The dataflow is that of MAVBench (MICRO 2018), figure of 3-D mapping.
 
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/exploration/known_share.h"
@@ -18,7 +18,7 @@ using namespace flyball;
 using namespace std::chrono_literals;
 
 constexpr auto estimating_period = 1s;
-constexpr double cell_m = 0.15;  // Of the estimate: as thin as walls are.
+constexpr double cell_m = 0.15;  // Cells of the estimate are as thin as the walls.
 
 class Mapping final : public Workload {
  public:

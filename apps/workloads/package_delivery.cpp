@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Package delivery, there and back: take off, fly to the goal, land, leave the payload, take off,
-// fly home, land. Dataflow as in MAVBench (MICRO 2018), figure of package delivery.
+// Package delivery, there and back: the vehicle takes off, flies to the goal, lands, leaves the
+// payload, takes off, flies home and lands. The dataflow is that of MAVBench (MICRO 2018), figure of
+// package delivery.
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"

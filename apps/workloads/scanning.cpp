@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scanning: take off, photograph an area in lanes from above, fly home, land. Dataflow as in
-// MAVBench (MICRO 2018), figure of scanning: GPS, lawnmower path, smoothing, path tracking; no
-// camera that looks ahead and no map. So nothing is known to be free but what the scenario
-// declares: the world names a height that nothing reaches (`open_above_m`), the flight keeps above
-// it, and the guard holds the vehicle inside that space as it does inside a map. That the
-// declaration is true is the world's promise; a collision still ends the mission. Take-off and
-// landing are upright over the start, where the world keeps every height free.
+// Scanning: the vehicle takes off, photographs an area in lanes from above, flies home and lands. The
+// dataflow is that of MAVBench (MICRO 2018), figure of scanning: GPS, lawnmower path, smoothing, path
+// tracking, without a forward camera and without a map. So only space that the scenario declares is
+// known to be free: the world names a height that nothing reaches (`open_above_m`), the vehicle flies
+// above it, and the guard holds the vehicle inside that space as it would inside a map. If the
+// declaration is wrong, a collision ends the mission as in any other. Take-off and landing are
+// vertical over the start, where the world keeps every height free.
 
 #include "flyball/flight/exploration/ground_coverage.h"
 #include "flyball/flight/exploration/ground_pictures.h"
@@ -60,8 +60,8 @@ class Scanning final : public Workload {
     return Done{};
   }
 
-  /// Without a map to be corrected by, a fix is wrong by what its receiver is: the tube around the
-  /// reference has room for three standard deviations.
+  /// No map corrects the error of a GPS fix, so the tube around the reference has room for three
+  /// standard deviations of it.
   void adapt(Brief& brief) const override {
     brief.maps_obstacles = false;
     brief.tube.at_rest_m += 3.0 * brief.settings.fix_error_m;
@@ -95,11 +95,11 @@ class Scanning final : public Workload {
 
   /// Where the lanes lie along the path.
   struct Lanes {
-    double out_m{};   ///< Before and
-    double back_m{};  ///< behind them.
+    double out_m{};   ///< Arc length at which the lanes begin.
+    double back_m{};  ///< Arc length at which they end.
   };
 
-  /// All that is known to be free: what lies higher than anything stands.
+  /// The space that is known to be free: all that lies higher than any obstacle.
   [[nodiscard]] std::shared_ptr<const OccupancyView> declared_space(Mapper& mapper) const {
     const Site& site = brief_->site;
     const double ceiling_m = site.bounds_W.max.z();
@@ -157,7 +157,7 @@ class Scanning final : public Workload {
     return work;
   }
 
-  /// The camera stores its pictures by itself, which takes no time on board.
+  /// The camera stores its pictures itself, which takes no time of the computer.
   void add_pictures(Graph& graph, Topic<NavigatorState> navigator) {
     NodeSpec spec;
     spec.name = "pictures";
@@ -178,7 +178,8 @@ class Scanning final : public Workload {
     });
   }
 
-  /// From when the picture's edge reaches the first lane until it leaves the last one.
+  /// Pictures count from the place where their edge reaches the first lane to the place where it
+  /// leaves the last one.
   [[nodiscard]] bool is_over_area(const NavigatorState& navigator, const Lanes& lanes) const {
     if (!navigator.has_path()) {
       return false;
@@ -290,10 +291,10 @@ class Scanning final : public Workload {
   Topic<MapRevision> map_{};
   Aabb area_W_{};
 
-  // Of the node `mission` alone.
+  // The node `mission` alone uses these.
   std::optional<Guidance> guidance_{};
   std::optional<Legs> legs_{};
-  GroundCoverage seen_{};  ///< By the poses that the vehicle believes.
+  GroundCoverage seen_{};  ///< Computed from the poses that the vehicle believes.
   Stage stage_{Stage::ready};
 };
 

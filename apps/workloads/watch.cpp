@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Watching a place: the vehicle hovers, or stands with its rotors off, and keeps its map of what
-// the camera sees up to date for a time. Then nothing that it computes makes it any faster: all
-// that is asked of the computer is that the news is not too old. Graph of nodes as in package
-// delivery, so that it could depart at once.
+// the camera sees up to date for a time. Lower latency does not make it any faster, so the computer
+// only has to keep the map recent enough. The graph of nodes is that of package delivery, so that
+// the vehicle could depart at once.
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr double least_height_m = 0.5;  // Below it, the ground's cells reach into the body.
+constexpr double least_height_m = 0.5;  // Below it, cells of the ground overlap the body.
 
 class Watch final : public Workload {
  public:
