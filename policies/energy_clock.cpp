@@ -7,11 +7,11 @@
 // enough.
 
 #include "flyball/governors/energy_search.h"
+#include "flyball/governors/idle.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
-#include "flyball/governors/resting.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/registry.h"
@@ -65,7 +65,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
                             "policy \"energy_clock\": " + search.error().message};
     }
     search_.emplace(std::move(*search));
-    resting_.emplace(given.number("rest_s"));
+    idle_.emplace(given.number("rest_s"));
     return flyball::Done{};
   }
 
@@ -86,13 +86,13 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
     const double cells_m = nearest_cells_m(seen.map_resolution_m);
-    if (const auto within_s = resting_->allowed_s(seen)) {
-      return search_->rest(cells_m, range_m_, *within_s, resting_->raised_by(), seen.now).clock_hz;
+    if (const auto within_s = idle_->allowed_s(seen)) {
+      return search_->idle(cells_m, range_m_, *within_s, idle_->raised_by(), seen.now).clock_hz;
     }
     flyball::Surroundings around = flyball::limits_of(seen);
     // Indoors ways are short and views end at walls: there latency limits the speed long before
     // the map's range would say so.
-    around.sight_m = flyball::shown_free_m(seen);
+    around.visibility_m = flyball::shown_free_m(seen);
     around.coarsest_m = around.finest_m = cells_m;
     // Plans are not in the model.
     around.needs_top_clock = !flyball::flies_at_limit(seen) || seen.planner_failures > 0;
@@ -113,7 +113,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
   std::vector<double> cells_m_{};
   double range_m_{};
   std::optional<flyball::EnergySearch> search_{};
-  std::optional<flyball::Resting> resting_{};
+  std::optional<flyball::Idle> idle_{};
   flyball::WaitingShare waiting_{};
 };
 

@@ -12,13 +12,15 @@
 namespace flyball {
 namespace {
 
-constexpr double least_speed_m_s = 0.05;  // below it, joules per metre say nothing
-constexpr double smoothing = 0.1;         // of the load beside the map: some seconds of decisions
-constexpr double too_slow = 1e3;  // Dearer than all that is quick enough, yet cheaper than nothing.
+constexpr double least_speed_m_s = 0.05;  // Chosen: near zero, energy per metre means nothing.
+constexpr double smoothing = 0.1;  // Chosen: the load beside the map is a mean over some seconds.
+constexpr double too_slow = 1e3;   // A factor on the price of settings that respond too late: any
+                                   // other is cheaper, but one of them is better than none.
 enum Axis : std::size_t { resolution, range, clock_axis };
 
-// At the mission's own limit of speed settings are equal but for milliwatts: there the sooner one.
-// The limit holds against the best of all: from pair to pair small losses would add up.
+// At the mission's own speed limit many settings differ by milliwatts only. Among them the search
+// takes the one with the shortest response. Each is compared with the best of all, because small
+// losses would add up from pair to pair.
 constexpr double equal = 1e-3;
 
 bool is_positive(double x) {
@@ -95,7 +97,7 @@ MapSetting EnergySearch::setting(std::size_t point) const {
   return {values[resolution], values[range], values[clock_axis]};
 }
 
-// The nearest one, for a map that somebody else has set.
+// The nearest level, because somebody else may have set the cells of the map.
 std::size_t EnergySearch::level(double resolution_m) const {
   const auto& levels = points_.axes()[resolution].values;
   std::size_t best = 0;
@@ -135,16 +137,16 @@ void EnergySearch::learn(const Observation& seen) {
   }
 }
 
-/// A board that is too hot grants less than was asked for, and a governor takes its time: a map is
-/// made at the clocks that were seen, not at the one that was wished for.
+/// A board that is too hot grants a lower clock than was asked for, and a governor may change it
+/// later. So a map counts with the clocks that were observed, not with the one that was asked for.
 void EnergySearch::note_clock(const Observation& seen) {
   const double hz = seen.frequency.value();
-  const bool is_told = hz > 1e6 && hz < 1e12;  // Else a fault of whoever observes.
+  const bool is_told = hz > 1e6 && hz < 1e12;  // Anything else is a fault of the observation.
   clock_factors_ += settings_.clock.factor(is_told ? seen.frequency : Hertz{in_force_.clock_hz});
   ++looks_;
 }
 
-/// At which a map would take as long as at those that were seen.
+/// The clock at which a map would take as long as at the observed ones together.
 Hertz EnergySearch::mean_clock() const {
   return Hertz{1e9 * settings_.clock.a / (clock_factors_ / looks_ - settings_.clock.b)};
 }
@@ -158,7 +160,7 @@ void EnergySearch::learn_latency(const Observation& seen) {
   const Hertz clock = mean_clock();
   bound_.regrant(ticket_, settings_.clock.factor(clock) / settings_.clock.factor(issued_at_));
   if (!is_new) {
-    // The next map begins with the next frame: until then nothing is late.
+    // The next map begins with the next frame, so nothing is late before that.
     bound_.expire(seen.now - from_seconds(settings_.frame_s));
     return;
   }
@@ -190,7 +192,7 @@ BoundCount EnergySearch::bounds() const {
 }
 
 std::vector<LevelBounds> EnergySearch::bound_levels() const {
-  constexpr double worst = 4.0;  // Above the factor 3 of the drifts that are tried.
+  constexpr double worst = 4.0;  // Above the factor of 3 that `flyball drift` tries.
   std::vector<LevelBounds> levels;
   for (std::size_t i = 0; i < bound_.levels(); ++i) {
     const QuantileTracker& one = bound_.tracker(i);
@@ -207,9 +209,10 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const double bound_s = latency_s * bound_.tracker(level(setting.resolution_m)).factor();
   EnergyEstimate best;
   best.setting = setting;
-  // The next map comes about as late as this one did, at the soonest with the next frame.
+  // The next map takes about as long as this one did, and begins with the next frame at the
+  // earliest.
   best.response_s = bound_s + std::max(bound_s, settings_.frame_s) + settings_.reaction_s;
-  const double distance_m = free_ahead_m(settings_, setting, around.sight_m);
+  const double distance_m = free_ahead_m(settings_, setting, around.visibility_m);
   const double safe_m_s = limit.speed_m_s(best.response_s, distance_m);
   best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
   const Watts rotor_w = rotors_.power(best.speed_m_s);
@@ -217,7 +220,7 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const bool switches = setting.resolution_m != in_force_.resolution_m;
   const double shows_m = distance_m - best.speed_m_s * best.response_s;
   best.joules_per_m =
-      way_over_line(settings_, setting.resolution_m, shows_m) *
+      path_over_line(settings_, setting.resolution_m, shows_m) *
           joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
       (switches ? settings_.switching_j / std::max(settings_.horizon_m, distance_m) : 0.0) +
       (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
@@ -231,7 +234,7 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
 bool EnergySearch::is_allowed(const MapSetting& candidate,
                               const Surroundings& around,
                               double least_range_m) const {
-  // Where nothing is fine enough, the finest is the best there is.
+  // If no level is fine enough, the finest one is allowed.
   const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
   return candidate.resolution_m <= coarsest_m && candidate.resolution_m >= around.finest_m &&
@@ -270,7 +273,7 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
 
 EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now) {
   EnergyEstimate best = best_of(around, around.least_range_m);
-  if (!std::isfinite(best.joules_per_m)) {  // No level that is fine enough reaches so far.
+  if (!std::isfinite(best.joules_per_m)) {  // No allowed level has such a range.
     best = best_of(around, 0.0);
   }
   FLYBALL_ASSERT(std::isfinite(best.joules_per_m), "no setting of %zu is finite", points_.size());
@@ -278,7 +281,7 @@ EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now)
   return best;
 }
 
-MapSetting EnergySearch::rest(
+MapSetting EnergySearch::idle(
     double resolution_m, double range_m, double within_s, std::size_t raised_by, MissionTime now) {
   const std::vector<double>& clocks_hz = points_.axes()[clock_axis].values;
   const double factor = bound_.tracker(level(resolution_m)).factor();
@@ -289,7 +292,7 @@ MapSetting EnergySearch::rest(
   }
   const std::size_t chosen = std::min(slowest + raised_by, clocks_hz.size() - 1);
   for (EnergyEstimate& none : estimates_) {
-    none.joules_per_m = std::numeric_limits<double>::infinity();  // No metre is made.
+    none.joules_per_m = std::numeric_limits<double>::infinity();  // The vehicle makes no progress.
   }
   put_in_force({resolution_m, range_m, std::min(clocks_hz[chosen], most_clock_hz_)}, now);
   return in_force_;

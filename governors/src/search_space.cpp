@@ -41,12 +41,14 @@ std::vector<double> ranges_between(double least_m, double most_m) {
   return ranges_m;
 }
 
-double free_ahead_m(const EnergySearchSettings& price, const MapSetting& setting, double sight_m) {
+double free_ahead_m(const EnergySearchSettings& price,
+                    const MapSetting& setting,
+                    double visibility_m) {
   const double shown_m = std::max(0.0, setting.range_m - setting.resolution_m);
-  return std::min(shown_m, sight_m) - price.margin_m;
+  return std::min(shown_m, visibility_m) - price.margin_m;
 }
 
-double way_over_line(const EnergySearchSettings& price, double resolution_m, double shows_m) {
+double path_over_line(const EnergySearchSettings& price, double resolution_m, double shows_m) {
   if (price.spacing_m <= 0.0) {
     return 1.0;
   }
@@ -64,12 +66,12 @@ Surroundings limits_of(const Observation& seen) {
   around.speed_limit_m_s =
       std::isfinite(limit_m_s) && limit_m_s > 0.0 ? std::min(limit_m_s, 100.0) : usual_m_s;
   around.deceleration_m_s2 = brakes_m_s2 > 0.1 && brakes_m_s2 < 100.0 ? brakes_m_s2 : usual_m_s2;
-  around.sight_m = std::numeric_limits<double>::max();
+  around.visibility_m = std::numeric_limits<double>::max();
   return around;
 }
 
 bool flies_at_limit(const Observation& seen) {
-  constexpr double nearly = 0.9;  // The reference eases towards it.
+  constexpr double nearly = 0.9;  // The reference approaches its limit gradually.
   return seen.phase == MissionPhase::cruise &&
          seen.speed_m_s >= nearly * limits_of(seen).speed_limit_m_s;
 }

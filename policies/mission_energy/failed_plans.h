@@ -12,20 +12,20 @@
 
 namespace flyball {
 
-/// Large cells shut openings that nobody has seen yet: the vehicle finds out by a plan that fails,
-/// and stops. Counts such failures over the way that was flown with large cells. It begins with
-/// half a failure in 250 m: rare enough that large cells are tried, so little that the first one
-/// tells. Nothing allocates.
+/// Large cells close openings that nobody has seen yet. The vehicle finds that out when a plan
+/// fails, and stops. This class counts such failures per metre flown with large cells. It begins
+/// with half a failure in 250 m (chosen: rare enough that large cells are tried, and so small that
+/// the first failure outweighs it). Nothing allocates.
 class FailedPlans {
  public:
-  /// @param in_large_cells  Whether the map has had them since the last look.
+  /// @param in_large_cells  Whether the map has had large cells since the last call.
   void note(const Observation& seen, bool in_large_cells);
   /// [1/m].
-  [[nodiscard]] double per_m() const { return failures_ / way_m_; }
+  [[nodiscard]] double per_m() const { return failures_ / flown_m_; }
 
  private:
   double failures_{0.5};
-  double way_m_{250.0};
+  double flown_m_{250.0};
   std::uint32_t in_a_row_{};
   std::optional<MissionTime> last_{};
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The least joules per metre of progress. MissionWay says what the way ahead allows, EnergySearch
-// looks through settings of map and clock; the latter learns latency and rotor power in flight.
-// Where the vehicle waits, or flies without a map, only the clock is left to save.
+// The least energy per metre of progress. MissionLimits says which settings the path ahead allows;
+// EnergySearch compares the settings of map and clock, and learns latency and rotor power in
+// flight. While the vehicle is idle, only the clock is chosen.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
@@ -12,7 +12,7 @@
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
-#include "mission_way.h"
+#include "mission_limits.h"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -27,7 +27,7 @@ class MissionEnergy final : public flyball::Policy,
                             public flyball::ComparesOptions {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    auto all = flyball::MissionWay::parameters();
+    auto all = flyball::MissionLimits::parameters();
     const std::vector<flyball::ParameterSpec> own{
         {"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; learned later."},
         {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."},
@@ -53,33 +53,33 @@ class MissionEnergy final : public flyball::Policy,
     if (!power) {
       return power.error();
     }
-    auto way = flyball::MissionWay::make(self, given, knobs);
-    if (!way) {
-      return way.error();
+    auto limits = flyball::MissionLimits::make(self, given, knobs);
+    if (!limits) {
+      return limits.error();
     }
-    const auto settings = search_settings(given, way->spacing_m());
+    const auto settings = search_settings(given, limits->spacing_m());
     if (!settings) {
       return settings.error();
     }
     const auto levels =
-        way->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(*settings, levels, way->ranges_m(), knobs, *power);
+        limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
+    auto search = flyball::EnergySearch::make(*settings, levels, limits->ranges_m(), knobs, *power);
     if (!search) {
       return refused(search.error().message);
     }
-    way_.emplace(std::move(*way));
+    limits_.emplace(std::move(*limits));
     search_.emplace(std::move(*search));
     return flyball::Done{};
   }
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
     search_->learn(seen);
-    const auto within_s = way_->rests_s(seen);
-    const MapSetting& home = way_->home();
-    const MapSetting best = within_s ? search_->rest(home.resolution_m, home.range_m, *within_s,
-                                                     way_->rest_raised_by(), seen.now)
+    const auto within_s = limits_->idle_map_s(seen);
+    const MapSetting& home = limits_->home();
+    const MapSetting best = within_s ? search_->idle(home.resolution_m, home.range_m, *within_s,
+                                                     limits_->idle_raised_by(), seen.now)
                                      : search_->choose(surroundings(seen), seen.now).setting;
-    return way_->wish(seen, best);
+    return limits_->wish(seen, best);
   }
 
   [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
@@ -113,7 +113,7 @@ class MissionEnergy final : public flyball::Policy,
   }
 
   [[nodiscard]] flyball::Surroundings surroundings(const Observation& seen) noexcept {
-    flyball::Surroundings around = way_->look(seen, search_->in_force());
+    flyball::Surroundings around = limits_->look(seen, search_->in_force());
     if (deceleration_m_s2_ > 0.0) {
       around.deceleration_m_s2 = deceleration_m_s2_;
     }
@@ -121,7 +121,7 @@ class MissionEnergy final : public flyball::Policy,
   }
 
   double deceleration_m_s2_{};
-  std::optional<flyball::MissionWay> way_{};
+  std::optional<flyball::MissionLimits> limits_{};
   std::optional<flyball::EnergySearch> search_{};
 };
 

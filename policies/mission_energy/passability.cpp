@@ -9,10 +9,11 @@
 namespace flyball {
 namespace {
 
-constexpr double standing_m_s = 0.1;
-constexpr double behind_the_gap_m = 3.0;  // What a plan through it needs to know.
-constexpr Duration settled = std::chrono::seconds{1};
-constexpr double farthest_m = 30.0;  // No gap is looked for farther ahead.
+// Chosen by hand.
+constexpr double standing_m_s = 0.1;      // Slower than any cruise.
+constexpr double behind_the_gap_m = 3.0;  // A plan through a gap needs to know the space behind it.
+constexpr Duration settled = std::chrono::seconds{1};  // Then a map holds several frames.
+constexpr double farthest_m = 30.0;  // Longer than the scan for gaps, which reaches 24 m.
 constexpr double rounding_m = 1e-9;
 
 }  // namespace
@@ -34,8 +35,8 @@ double Passability::least_m(std::size_t level) const {
   return settings_.body_m + (settings_.retry_m > 0.0 ? 2.0 * levels_m_[level] : 0.0);
 }
 
-// Comparisons with what is not a number are false, so it leaves the finest level. Finer cells than
-// the map's show at least as much.
+// A comparison with NaN is false, so an observation without sense gives the finest level. Cells
+// that are finer than the map's leave gaps at least as wide as the map shows them.
 std::size_t Passability::open_level(const Observation& seen) const {
   for (std::size_t level = levels_m_.size(); level-- > 1 && seen.map_resolution_m > 0.0;) {
     const double coarser_m = std::max(0.0, levels_m_[level] - seen.map_resolution_m);
@@ -46,7 +47,8 @@ std::size_t Passability::open_level(const Observation& seen) const {
   return 0;
 }
 
-// Coarse cells beside an obstacle are not known free: among them the vehicle would have to stop.
+// Coarse cells beside an obstacle do not become known free, so the vehicle would have to stop
+// there.
 std::size_t Passability::clear_level(const Observation& seen, std::size_t open) const {
   std::size_t level = open;
   while (level > 0 &&
@@ -56,8 +58,8 @@ std::size_t Passability::clear_level(const Observation& seen, std::size_t open) 
   return level;
 }
 
-// A plan takes a while, and where far frames of fine cells take longest of all, near ones get more
-// time first.
+// A plan takes a while. With a lattice of levels, where frames of fine cells with a long range take
+// longest of all, frames with a short range get more time before a long range is asked for.
 Passability::Standing Passability::standing(const Observation& seen) {
   const bool stands = seen.phase == MissionPhase::cruise && !(seen.speed_m_s > standing_m_s);
   standing_since_ = stands ? standing_since_.value_or(seen.now) : std::optional<MissionTime>{};
@@ -69,8 +71,8 @@ Passability::Standing Passability::standing(const Observation& seen) {
   return stood >= longer * settings_.patience ? Standing::for_good : Standing::stuck;
 }
 
-// Finest cells show what is near only; on the way there, and to find out at first what a plan
-// failed for that is farther off, the next ones do.
+// The finest cells have a short range. So while a gap is still far away, and after a first failed
+// plan without an obstacle nearby, the next coarser level is used.
 std::size_t Passability::needed_level(const Observation& seen, Standing standing) const {
   const bool has_near = settings_.near_m > 0.0;
   const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
@@ -88,13 +90,13 @@ bool Passability::is_far_off(const Observation& seen) const {
   return settings_.near_m > 0.0 && seen.nearest_obstacle_m > settings_.near_m;
 }
 
-void Passability::count_way(const Observation& seen) {
+void Passability::count_path(const Observation& seen) {
   const double elapsed_s = last_judged_ ? to_seconds(seen.now - *last_judged_) : 0.0;
   last_judged_ = seen.now;
-  const double way_m = seen.speed_m_s * elapsed_s;
+  const double flown_m = seen.speed_m_s * elapsed_s;
   for (double* on_m : {&gap_on_m_, &failed_on_m_}) {
-    if (!(way_m <= 0.0)) {  // What is no number ends it: the gap itself still counts.
-      *on_m = way_m < *on_m ? *on_m - way_m : 0.0;
+    if (!(flown_m <= 0.0)) {  // NaN ends the distance; the gap itself still counts.
+      *on_m = flown_m < *on_m ? *on_m - flown_m : 0.0;
     }
   }
 }
@@ -107,8 +109,8 @@ void Passability::need_until_past(const Observation& seen, Standing standing) {
   }
 }
 
-// It was near enough to be seen, and finest cells, in a map of more than one frame, do not show it:
-// coarse ones had filled it in, or the way leads elsewhere by now.
+// The gap is near enough to be seen, and a map of the finest cells with more than one frame does
+// not show it. So coarse cells had made it up, or the path leads elsewhere by now.
 bool Passability::is_gone(const Observation& seen) {
   const bool is_finest = seen.map_resolution_m <= levels_m_.front() + rounding_m;
   finest_since_ = is_finest ? finest_since_.value_or(seen.now) : std::optional<MissionTime>{};
@@ -118,7 +120,7 @@ bool Passability::is_gone(const Observation& seen) {
 
 Passability::Verdict Passability::judge(const Observation& seen) {
   const Standing stands = standing(seen);
-  count_way(seen);
+  count_path(seen);
   const std::size_t needed = needed_level(seen, stands);
   const bool is_gap_gone = is_gone(seen);
   if (settings_.near_m > 0.0 && needed == 0) {

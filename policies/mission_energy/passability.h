@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How coarse a map may be before it closes the way ahead.
+/// How coarse a map may be before it closes the gaps ahead.
 
 #include "flyball/runtime/observation.h"
 #include "flyball/runtime/time.h"
@@ -14,31 +14,34 @@
 namespace flyball {
 
 struct PassabilitySettings {
-  double body_m{0.71};  ///< Widest part of the vehicle with its tube at a crawl, both sides.
-  Duration least{};     ///< A finer level that was needed stays at least this long.
-  Duration patience{};  ///< Standing in cruise for so long, there is something that is not seen.
-  /// Largest cells where a plan has failed or the vehicle stands; 0: no such limit.
+  double body_m{0.71};  ///< Width of the vehicle with its tube at a crawl, both sides together.
+  Duration least{};     ///< A finer level that was needed is kept at least this long.
+  Duration patience{};  ///< A vehicle that stands this long in cruise lacks a view of something.
+  /// Largest cells after a plan has failed or while the vehicle stands; 0: no such limit.
   double retry_m{};
-  /// Farther off than this a shut gap is not looked at in finest cells yet; 0: as soon as it shows.
+  /// A closed gap gets the finest cells once it is nearer than this; 0: as soon as it shows.
   double near_m{};
 };
 
-/// Passability is local: the coarsest level whose cells leave the narrowest gap ahead open. An
-/// occupied cell blocks with its full cube, so cells of r show a gap of width w as w - 2 r at the
-/// worst; a map of q that shows it as w' promises that r >= q shows at least w' - 2 (r - q). A gap
-/// that is shut at q may be open in finer cells, and only they can tell, so they are asked for as
-/// soon as it is in sight: before it is reached, and before a plan fails for it. A plan that failed
-/// and a vehicle that stands ask for them too; a vehicle that still stands asks to see farther, so
-/// it never stands for ever before a gap that it could pass.
+/// Finds the coarsest level whose cells leave the narrowest gap ahead open. An occupied cell blocks
+/// with its full cube, so cells of size r show a gap of width w as w - 2 r at the worst. If a map
+/// of cells of q shows it as w', cells of r >= q show at least w' - 2 (r - q).
 ///
-/// What needed finer cells needs them until the vehicle is past it: finer cells show less far, and
-/// a wall that they do not show yet looks like an open way. Where they show that it is not there,
-/// they are not needed any longer. Nothing allocates after construction.
+/// A gap that is closed in cells of q may be open in finer ones, and only they can tell. So finer
+/// cells are asked for as soon as the gap shows, before the vehicle reaches it and before a plan
+/// fails. They are also asked for when a plan has failed and when the vehicle stands. If it still
+/// stands then, a longer range is asked for, so that it never stands for ever before a gap that it
+/// could pass.
+///
+/// A gap that needed finer cells keeps them until the vehicle is behind it. The reason is that the
+/// range of finer cells is shorter, and a wall that they do not show yet looks like open space. The
+/// finer cells are given up earlier if they show that there is no such gap. Nothing allocates after
+/// construction.
 class Passability {
  public:
   struct Verdict {
     std::size_t coarsest_level{};
-    double look_m{};  ///< The map must reach so far; 0: as far as is worth it.
+    double look_m{};  ///< The range that the map must have; 0: the search chooses it.
   };
 
   /// @param levels_m  Cell sizes, finest first. @pre Not empty.
@@ -55,17 +58,17 @@ class Passability {
   [[nodiscard]] std::size_t needed_level(const Observation& seen, Standing standing) const;
   [[nodiscard]] bool is_far_off(const Observation& seen) const;
   [[nodiscard]] bool is_gone(const Observation& seen);
-  void count_way(const Observation& seen);
+  void count_path(const Observation& seen);
   [[nodiscard]] Standing standing(const Observation& seen);
 
   PassabilitySettings settings_;
   std::vector<double> levels_m_;
   std::size_t level_;
-  MissionTime needed_at_{};  ///< The last time that no coarser level would have done.
-  std::size_t retry_level_;  ///< The coarsest one that `retry_m` allows.
-  double gap_on_m_{};        ///< Finest cells are needed for so long a way: until a gap is past,
-  double failed_on_m_{};     ///< or where a plan failed.
-  std::optional<MissionTime> finest_since_{};  ///< The map has had finest cells.
+  MissionTime needed_at_{};  ///< The last time that a coarser level would have closed a gap.
+  std::size_t retry_level_;  ///< The coarsest level that `retry_m` allows.
+  double gap_on_m_{};        ///< Distance for which a gap still needs the finest cells, ...
+  double failed_on_m_{};     ///< ... and for which a failed plan does.
+  std::optional<MissionTime> finest_since_{};  ///< Since when the map has the finest cells.
   std::optional<MissionTime> last_judged_{};
   std::optional<MissionTime> standing_since_{};
 };

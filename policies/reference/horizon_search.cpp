@@ -64,7 +64,7 @@ bool HorizonSearch::is_allowed(std::size_t point, const Stretch& here) const {
 std::size_t HorizonSearch::fastest(std::size_t point, const Stretch& here) const {
   const Surroundings& around = *here.around;
   const SpeedLimit limit{around.deceleration_m_s2};
-  const double distance_m = free_ahead_m(price_, points_[point], around.sight_m);
+  const double distance_m = free_ahead_m(price_, points_[point], around.visibility_m);
   const double v_m_s = std::min(limit.speed_m_s(response_s(here.frame_s[point]), distance_m),
                                 around.speed_limit_m_s);
   const auto index = static_cast<std::size_t>(v_m_s / settings_.speed_step_m_s + rounding);
@@ -86,10 +86,10 @@ double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t
   const MapSetting& one = points_[point];
   const double v_m_s = 0.5 * speed(speeds);
   const double shows_m =
-      free_ahead_m(price_, one, around.sight_m) - v_m_s * response_s(here.frame_s[point]);
-  const double way = way_over_line(price_, one.resolution_m, shows_m);
+      free_ahead_m(price_, one, around.visibility_m) - v_m_s * response_s(here.frame_s[point]);
+  const double ratio = path_over_line(price_, one.resolution_m, shows_m);
   const double large_j_m = one.resolution_m > around.large_m ? around.large_j_m : 0.0;
-  return here.length_m * (way * (rotor_w_[speeds] + computer_w_[point]) / v_m_s + large_j_m);
+  return here.length_m * (ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s + large_j_m);
 }
 
 /// The least over all speeds at the end of the stretch; `never` where none is within reach.

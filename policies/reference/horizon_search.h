@@ -16,22 +16,22 @@ namespace flyball {
 struct HorizonSettings {
   std::size_t places{16};        ///< At most; with steps of 4 m they reach 60 m.
   double speed_step_m_s{0.5};    ///< Of the lattice of speeds.
-  double most_speed_m_s{20.0};   ///< Its end.
-  double accelerates_m_s2{3.0};  ///< As a reference does without need.
-  double bound_over_true{1.1};   ///< The bound that limits speed, over the largest of late.
+  double most_speed_m_s{20.0};   ///< The highest speed of the lattice.
+  double accelerates_m_s2{3.0};  ///< The path follower's usual acceleration.
+  double bound_over_true{1.1};   ///< The navigator's bound over the largest latency measured.
 };
 
 /// Dynamic programming over arc length s, speed v and setting c:
 ///
 ///     V(s, v, c) = min over v', c' of E(s, (v + v') / 2, c) + switching(c, c') + V(s + ds, v', c')
-///     E = ds (P_rotor(v) + P_computer(c)) / v * way [+ price of large cells]
+///     E = ds (P_rotor(v) + P_computer(c)) / v * l [+ price of large cells]
 ///
 /// v <= v_c(s), eq. 2 for the true duration of a frame at s; v' within braking and acceleration of
-/// v; c no coarser than what is passable at s. `way` as in `EnergySearch`. Nothing allocates after
+/// v; c no coarser than what is passable at s. l is that of `EnergySearch`. Nothing allocates after
 /// construction.
 class HorizonSearch {
  public:
-  /// @param search  Whose points are gone through; its rotors and computer are asked.
+  /// @param search  Gives the points, and the power of rotors and computer.
   HorizonSearch(const HorizonSettings& settings, const EnergySearch& search);
 
   /// The settings whose durations a `Foresight` must tell, in this order.
@@ -39,7 +39,8 @@ class HorizonSearch {
   /// @param truth   Its places are ascending, the first one here.
   /// @param around  What limits the search at each of these places.
   /// @param speed_m_s  Now.
-  /// @return        The setting for now, with joules per metre over all the way; empty where no
+  /// @return        The setting for now, with energy per metre over the whole horizon; empty where
+  /// no
   ///                setting leads to the end.
   /// @pre Search and settings are those of the construction; two places at least.
   [[nodiscard]] std::optional<EnergyEstimate> choose(const EnergySearch& search,
@@ -51,7 +52,7 @@ class HorizonSearch {
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
 
  private:
-  /// A stretch of way on which nothing changes but speed.
+  /// A stretch of path on which nothing changes but speed.
   struct Stretch {
     double length_m{};
     const Surroundings* around{};

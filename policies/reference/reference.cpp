@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is to be approached: mission_energy's way and prices, but true durations of the jobs to
-// come in place of learned ones, and all of the next 60 m weighed at once. A simulator alone can
-// tell it (UsesForesight); told nothing, it decides by what it has learned, for the next metre.
-// In the field there is nobody to ask.
+// A bound for other policies to approach. It has the limits and prices of mission_energy, but knows
+// the true durations of the jobs to come instead of learning them, and optimizes the next 60 m at
+// once. Only a simulator can tell these durations (UsesForesight), so the policy is of no use in
+// the field. Without them it decides like mission_energy, for the next metre.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
@@ -14,7 +14,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "horizon_search.h"
-#include "mission_energy/mission_way.h"
+#include "mission_energy/mission_limits.h"
 #include <algorithm>
 #include <optional>
 
@@ -24,17 +24,21 @@ using flyball::MapSetting;
 using flyball::Observation;
 using flyball::Surroundings;
 
-constexpr double behind_m = 3.0;       // A gap that is past, by so much, is past.
-constexpr double beside_m = 6.0;       // Large cells end what is free before obstacles so near do,
-constexpr double look_ahead_m = 12.0;  // here and so far on: as observations count density.
-constexpr double zone_ahead_m = 20.0;
+// The vehicle must be this far beyond a gap before the gap stops limiting the cell size (as in
+// Passability).
+constexpr double behind_m = 3.0;
+// Observations count obstacles within this radius, here and up to this far ahead. Near them, large
+// cells end known-free space earlier than the obstacles do.
+constexpr double beside_m = 6.0;
+constexpr double look_ahead_m = 12.0;
+constexpr double zone_ahead_m = 20.0;  // Observations tell of speed limits up to here.
 
 class Reference final : public flyball::Policy,
                         public flyball::ComparesOptions,
                         public flyball::UsesForesight {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    auto all = flyball::MissionWay::parameters();
+    auto all = flyball::MissionLimits::parameters();
     all.push_back({"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; untold."});
     all.push_back({"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."});
     return all;
@@ -53,21 +57,21 @@ class Reference final : public flyball::Policy,
     if (!power) {
       return power.error();
     }
-    auto way = flyball::MissionWay::make(self, given, knobs);
-    if (!way) {
-      return way.error();
+    auto limits = flyball::MissionLimits::make(self, given, knobs);
+    if (!limits) {
+      return limits.error();
     }
     flyball::EnergySearchSettings settings;
-    settings.spacing_m = way->spacing_m();
+    settings.spacing_m = limits->spacing_m();
     const auto levels =
-        way->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(settings, levels, way->ranges_m(), knobs, *power);
+        limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
+    auto search = flyball::EnergySearch::make(settings, levels, limits->ranges_m(), knobs, *power);
     if (!search) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             self + ": " + search.error().message};
     }
     levels_m_ = search->points().axes().front().values;
-    way_.emplace(std::move(*way));
+    limits_.emplace(std::move(*limits));
     search_.emplace(std::move(*search));
     horizon_.emplace(flyball::HorizonSettings{}, *search_);
     around_.resize(flyball::HorizonSettings{}.places);
@@ -81,7 +85,7 @@ class Reference final : public flyball::Policy,
     search_->learn(seen);
     const MapSetting best = chosen(seen);
     truth_ = nullptr;
-    return way_->wish(seen, best);
+    return limits_->wish(seen, best);
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
@@ -91,12 +95,12 @@ class Reference final : public flyball::Policy,
  private:
   [[nodiscard]] MapSetting chosen(const Observation& seen) noexcept {
     was_told_ = false;
-    if (const auto within_s = way_->rests_s(seen)) {
-      const MapSetting& home = way_->home();
-      return search_->rest(home.resolution_m, home.range_m, *within_s, way_->rest_raised_by(),
+    if (const auto within_s = limits_->idle_map_s(seen)) {
+      const MapSetting& home = limits_->home();
+      return search_->idle(home.resolution_m, home.range_m, *within_s, limits_->idle_raised_by(),
                            seen.now);
     }
-    const Surroundings here = way_->look(seen, search_->in_force());
+    const Surroundings here = limits_->look(seen, search_->in_force());
     if (truth_ != nullptr && truth_->places.size() >= 2 &&
         truth_->places.size() <= around_.size() && truth_->is_whole(horizon_->points().size())) {
       look_ahead(seen, here);
@@ -109,7 +113,8 @@ class Reference final : public flyball::Policy,
     return search_->choose(here, seen.now).setting;
   }
 
-  /// Here as the way is judged in flight, with its memory; farther on as the map shows it now.
+  /// The limits here are those of MissionLimits with its memory; farther on they are what the map
+  /// shows now.
   void look_ahead(const Observation& seen, const Surroundings& here) noexcept {
     const auto& places = truth_->places;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -118,7 +123,7 @@ class Reference final : public flyball::Policy,
         continue;
       }
       Surroundings& there = around_[i];
-      const bool is_near = places[i].ahead_m <= way_->near_m();
+      const bool is_near = places[i].ahead_m <= limits_->near_m();
       there.least_range_m = is_near ? here.least_range_m : 0.0;
       there.speed_limit_m_s =
           std::min(places[i].speed_limit_m_s, flyball::HorizonSettings{}.most_speed_m_s);
@@ -133,14 +138,14 @@ class Reference final : public flyball::Policy,
     double coarsest_m = levels_m_.back();
     for (const flyball::PlaceAhead& other : places) {
       const double on_m = other.ahead_m - places[place].ahead_m;
-      if (on_m >= -behind_m && on_m <= way_->near_m()) {
+      if (on_m >= -behind_m && on_m <= limits_->near_m()) {
         coarsest_m = std::min(coarsest_m, open_m(other.opening_m, seen.map_resolution_m));
       }
       const bool is_beside = on_m >= 0.0 && on_m <= look_ahead_m && other.obstacle_m < beside_m;
       const bool is_slow =
-          on_m >= 0.0 && on_m <= zone_ahead_m && other.speed_limit_m_s <= way_->narrow_m_s();
+          on_m >= 0.0 && on_m <= zone_ahead_m && other.speed_limit_m_s <= limits_->narrow_m_s();
       if (is_beside || is_slow) {
-        coarsest_m = std::min(coarsest_m, way_->large_m());
+        coarsest_m = std::min(coarsest_m, limits_->large_m());
       }
     }
     return coarsest_m;
@@ -151,7 +156,7 @@ class Reference final : public flyball::Policy,
   [[nodiscard]] double open_m(double opening_m, double map_resolution_m) const noexcept {
     for (std::size_t i = levels_m_.size(); i-- > 1;) {
       const double r_m = levels_m_[i];
-      const double least_m = way_->body_m() + (way_->is_lattice() ? 2.0 * r_m : 0.0);
+      const double least_m = limits_->body_m() + (limits_->is_lattice() ? 2.0 * r_m : 0.0);
       if (opening_m - 2.0 * std::max(0.0, r_m - map_resolution_m) >= least_m) {
         return r_m;
       }
@@ -160,7 +165,7 @@ class Reference final : public flyball::Policy,
   }
 
   std::vector<double> levels_m_{};
-  std::optional<flyball::MissionWay> way_{};
+  std::optional<flyball::MissionLimits> limits_{};
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::HorizonSearch> horizon_{};
   std::vector<Surroundings> around_{};

@@ -30,7 +30,7 @@ EnergySearch search(double fine_most_range_m = 25.0) {
 Surroundings open_space() {
   Surroundings around;
   around.speed_limit_m_s = 10.0;
-  around.sight_m = 1e9;
+  around.visibility_m = 1e9;
   around.coarsest_m = 0.80;
   return around;
 }
@@ -60,7 +60,7 @@ TEST(EnergySearch, reaches_as_far_as_it_must_where_a_level_can) {
   EnergySearch one = search();
   Surroundings around = open_space();
   around.coarsest_m = 0.15;
-  around.sight_m = 7.0;  // Nothing to win beyond.
+  around.visibility_m = 7.0;  // Nothing to win beyond.
   EXPECT_EQ(one.choose(around, {}).setting.range_m, 7.0);
   around.least_range_m = 11.0;
   EXPECT_EQ(one.choose(around, {}).setting.range_m, 12.0);
@@ -117,9 +117,10 @@ TEST(EnergySearch, its_speed_is_that_of_equation_2_for_its_response) {
 TEST(EnergySearch, a_switch_pays_over_what_is_seen_ahead_and_ten_metres_at_least) {
   EnergySearch one = search();
   const MapSetting coarse{0.80, 12.0, top_hz};
-  for (const auto& [sight_m, over_m] : {std::pair{1e9, 12.0 - 0.80 - 0.5}, std::pair{6.0, 10.0}}) {
+  for (const auto& [visibility_m, over_m] :
+       {std::pair{1e9, 12.0 - 0.80 - 0.5}, std::pair{6.0, 10.0}}) {
     Surroundings around = open_space();
-    around.sight_m = sight_m;
+    around.visibility_m = visibility_m;
     one.put_in_force({0.15, 12.0, top_hz}, {});
     const double switching_j_m = one.estimate(coarse, around).joules_per_m;
     one.put_in_force(coarse, {});
@@ -151,7 +152,7 @@ TEST(EnergySearch, of_settings_that_are_equally_cheap_takes_the_one_that_respond
 TEST(EnergySearch, a_range_buys_nothing_beyond_what_the_world_lets_see) {
   EnergySearch one = search();
   Surroundings walled = open_space();
-  walled.sight_m = 6.0;
+  walled.visibility_m = 6.0;
   EXPECT_EQ(one.choose(walled, {}).setting.range_m, 7.0);
 }
 

@@ -32,7 +32,7 @@ struct Made {
         horizon{{}, search} {
     Surroundings open;
     open.speed_limit_m_s = 6.0;
-    open.sight_m = 1e9;
+    open.visibility_m = 1e9;
     open.coarsest_m = 0.80;
     open.deceleration_m_s2 = deceleration_m_s2;
     around.assign(places, open);
@@ -87,7 +87,7 @@ TEST(HorizonSearch, in_the_open_holds_the_limit_of_speed_at_the_cheapest_clock_t
   EXPECT_EQ(one.choose(6.0).setting, (MapSetting{0.80, 12.0, 1e9}));
 }
 
-// At a speed that does not change, the sum over the way is that of one metre times its length.
+// At a speed that does not change, the sum over the path is that of one metre times its length.
 TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
   Made one;
   one.around.assign(places, [&] {

@@ -21,17 +21,20 @@ namespace flyball {
 
 struct EnergySearchSettings {
   double deceleration_m_s2{6.0};
-  double reaction_s{0.14};   ///< t_b: the guard's tick, a command's age and the brake's lag.
-  double margin_m{0.5};      ///< Body and tracking tube, off the distance.
-  double frame_s{0.05};      ///< Between two frames of the camera.
-  double switching_j{60.0};  ///< Of a change of resolution: another map starts with one frame.
-  double horizon_m{10.0};    ///< Over which a switch must pay, at least.
-  /// Way per obstacle that is passed; 0: none is.
+  double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
+  double margin_m{0.5};     ///< Body and tracking tube, off the distance.
+  double frame_s{0.05};     ///< Between two frames of the camera.
+  /// What a change of resolution costs, because the other map starts with one frame. Chosen: a stop
+  /// of .2 s at 300 W.
+  double switching_j{60.0};
+  double horizon_m{10.0};  ///< A switch must pay for itself within this distance, at least.
+  /// Mean length of path from obstacle to obstacle; 0: there are none.
   double spacing_m{};
-  double half_width_m{5.0};  ///< Of such an obstacle: half a room, or RoboRun's blocks and spaces.
+  double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of two of
+                             ///< RoboRun's blocks and the space between them.
   QuantileTracker::Settings bound{0.05, 0.05, 0.1};
   ClockScaling clock{0.9, 0.05};
-  double learn_s{};  ///< Mission time after which latency is not learned any more; 0: it always is.
+  double learn_s{};  ///< Latency is learned until this mission time; 0: always.
 };
 
 /// A resolution that the map may have, and what is known of its cost before the first flight.
@@ -39,7 +42,7 @@ struct SearchLevel {
   double resolution_m{};
   double latency_s{};    ///< From capture to the published map at `range_m` and `clock_hz`.
   double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
-  double most_range_m{25.0};  ///< Depth noise there is still below half a cell.
+  double most_range_m{25.0};  ///< Up to here depth noise is below half a cell.
   double range_m{7.0};
   double clock_hz{};  ///< 0: the highest that there is.
 };
@@ -50,16 +53,18 @@ struct Surroundings {
   double least_range_m{};      ///< Of the map; the longest that a level allows counts as enough.
   double most_range_m{1e9};    ///< Of the map; the shortest range is always allowed.
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
-  double sight_m{};  ///< Beyond this the world, not the range, ends what is known to be free.
-  /// Nothing that responds later if anything is sooner, as it was learned or as it was expected
-  /// before: rooms end most rays, and the open behind the next door does not.
+  /// How far the camera can see before the world, not the range, ends the view.
+  double visibility_m{};
+  /// No setting whose response is longer may be chosen if there is one with a shorter response.
+  /// Both the learned response and the one that was expected before the flight count, because walls
+  /// end most rays in a room, but not in the open space behind the next door.
   double most_response_s{1e9};
-  double coarsest_m{};     ///< Largest cell with which the way ahead is passable.
-  double large_m{1e9};     ///< Cells beyond this may shut what turns up next, and have a price:
-  double large_j_m{};      ///< failed plans per metre times what one costs.
-  double finest_m{};       ///< No smaller one: somebody else chooses the cells, or 0.
-  WaitingShare waits{};    ///< Makes lower clocks dearer.
-  bool needs_top_clock{};  ///< Plans are sought: they are not in the model.
+  double coarsest_m{};   ///< The largest cells with which the path ahead is passable.
+  double large_m{1e9};   ///< Cells larger than this may close a gap that nobody has seen yet, ...
+  double large_j_m{};    ///< ... and have this price: failed plans per metre times what one costs.
+  double finest_m{};     ///< The smallest cells that may be chosen; 0: any.
+  WaitingShare waits{};  ///< Raises the price of lower clocks.
+  bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
 };
 
 /// A setting with what is expected of it.
@@ -68,22 +73,24 @@ struct EnergyEstimate {
   double response_s{};  ///< delta of eq. 2: bounds on latency and interval, and t_b.
   double speed_m_s{};
   double joules_per_m{};      ///< With the share of switching.
-  double watts_per_second{};  ///< Worth of one second of latency; 0 where it limits nothing.
+  double watts_per_second{};  ///< What one second of latency costs; 0 where it limits nothing.
 };
 
-/// Exact search of a small lattice for the least
+/// Exact search of a small lattice for the least energy per metre of progress
 ///
-///     J = (P_rotor(v) + P_computer) / v * way + switching / max(horizon, d) [+ large cells' price]
-///     way = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, sight) - v delta
+///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) [+ price of large cells]
+///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
-/// An obstacle of half width w that shows s ahead makes the way longer by the second term, and
-/// by a cell that its border fills: so cells have a price and sight a worth where the mission, not
-/// latency, limits the speed.
+/// Here v is the speed of MAVBench's eq. 2 for the calibrated bound on latency, and d is the
+/// distance that the camera shows; nothing is assumed about the world beyond it. l is the length of
+/// the path over that of the straight line: an obstacle of half width w that comes into view s
+/// ahead makes the path longer by sqrt(s^2 + w^2) - s, and by the cell that its border fills. So
+/// small cells and a long range are worth something even where the mission, not latency, limits the
+/// speed.
 ///
-/// with v from MAVBench's eq. 2 for the calibrated bound on latency, and d its distance: as far as
-/// is seen, the world stays as it is. Of settings that take less than a thousandth more than the
-/// best, the one that responds soonest. Latency and rotor power are learned from observations, and
-/// so is what the computer may take before it gets too hot (`ThermalLimit`): clocks beyond that are
+/// Among settings that take less than a thousandth more than the best, the search takes the one
+/// with the shortest response. It learns latency and rotor power from observations, and also how
+/// much power the computer may take before it gets too hot (`ThermalLimit`); clocks beyond that are
 /// not chosen. Nothing allocates after `make`.
 class EnergySearch {
  public:
@@ -96,36 +103,37 @@ class EnergySearch {
                                    const KnobSettings& knobs,
                                    const PowerCost& computer);
 
-  /// What the newest map, the rotors, the cores and the thermometer show of the setting that is in
-  /// force.
+  /// Learns from what the newest map, the rotors, the cores and the thermometer show of the setting
+  /// in force.
   void learn(const Observation& seen);
-  /// The best setting there is; it is taken to be in force from now on.
+  /// The best setting. It counts as in force from now on.
   [[nodiscard]] EnergyEstimate choose(const Surroundings& around, MissionTime now);
-  /// Where latency buys no speed: a map of these cells and this range at the lowest clock that
-  /// still makes it within `within_s`, or at the highest; `raised_by` clocks higher than that. (The
-  /// computer takes a constant, a part in proportion to its clock, and per operation the more the
-  /// higher the clock is: while time itself costs nothing, slower is cheaper.) In force from now
-  /// on.
-  [[nodiscard]] MapSetting rest(
+  /// The setting while the vehicle is idle (`Idle`): a map of these cells and this range, at the
+  /// lowest clock that still makes it within `within_s`, or the highest clock if none does, and
+  /// `raised_by` steps above that. The computer takes a constant power, a part in proportion to its
+  /// clock, and more per operation the higher the clock is. So while time costs nothing, a lower
+  /// clock is cheaper. The setting counts as in force from now on.
+  [[nodiscard]] MapSetting idle(
       double resolution_m, double range_m, double within_s, std::size_t raised_by, MissionTime now);
   [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
                                         const Surroundings& around) const;
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
-  /// For whoever chose a setting by himself.
+  /// For a policy that has chosen a setting by another rule.
   void put_in_force(const MapSetting& setting, MissionTime now);
   [[nodiscard]] const EnergySearchSettings& settings() const { return settings_; }
-  /// In level flight, as learned.
+  /// The learned power of the rotors in level flight.
   [[nodiscard]] Watts rotor_power(double speed_m_s) const { return rotors_.power(speed_m_s); }
-  /// While maps are made with this setting, each of which takes so long.
+  /// The power of the computer while maps with this setting take `map_s` each.
   [[nodiscard]] Watts computer_power(const MapSetting& setting, double map_s) const;
-  /// What the last `choose` expected of each setting; infinite joules where it was not allowed.
+  /// What the last `choose` expected of each setting; infinite energy where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
-  /// The highest that leaves the computer below its first trip; the top one where there is none.
+  /// The highest clock that keeps the computer below its first trip point; the highest of all on a
+  /// computer without one.
   [[nodiscard]] double most_clock_hz() const { return most_clock_hz_; }
   /// Of all levels; the factor is that of the level in force.
   [[nodiscard]] BoundCount bounds() const;
-  /// `most_late` where no map takes more than four times as long as predicted.
+  /// `most_late` holds where no map takes more than four times as long as predicted.
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
 
@@ -159,11 +167,11 @@ class EnergySearch {
   MapSetting in_force_{};
   MissionTime in_force_since_{};
   std::uint64_t revision_{};
-  LatencyBound::Ticket ticket_{};  ///< Of the next map; it was issued when the last one came.
+  LatencyBound::Ticket ticket_{};  ///< The next map's, issued when the last one came.
   MissionTime issued_{};
-  Hertz issued_at_{1e9};    ///< The clock that the ticket counts on.
-  double clock_factors_{};  ///< Sum over the looks since then, of the clocks that were granted.
-  int looks_{};
+  Hertz issued_at_{1e9};        ///< The clock that the ticket assumes.
+  double clock_factors_{};      ///< Sum over the observations since then, of the granted clocks.
+  int looks_{};                 ///< Number of these observations.
   double other_core_ghz_{2.5};  ///< Busy cores of everything but the map, times the clock.
 };
 

@@ -19,37 +19,39 @@ namespace flyball {
                                                       double fine_s,
                                                       double coarse_s);
 
-/// Five ranges, equal steps in proportion, as latency has it. @pre 0 < `least_m` < `most_m`.
+/// Five ranges with equal ratios between them, because latency grows with a power of the range.
+/// @pre 0 < `least_m` < `most_m`.
 [[nodiscard]] std::vector<double> ranges_between(double least_m, double most_m);
 
-/// d of eq. 2 that a setting promises: its range, or the world's end of sight if that is nearer,
-/// less body and tube. The last cells in range are not seen as a whole. (1.2 m cells end what is
-/// free .7 to 2.1 m before their range of 10 to 25 m, half a body's width included, those of .3 m
-/// .55 to .8 m.)
+/// The distance d of eq. 2 that a setting gives: its range, or the visibility if that is shorter,
+/// less body and tube. The camera does not see the last cells within the range as a whole, so they
+/// do not count as free. (With cells of 1.2 m and a range of 10 to 25 m, known-free space ends .7
+/// to 2.1 m before the range, half a body's width included; with cells of .3 m, .55 to .8 m.)
 [[nodiscard]] double free_ahead_m(const EnergySearchSettings& price,
                                   const MapSetting& setting,
-                                  double sight_m);
+                                  double visibility_m);
 
-/// The way over its straight line, as `EnergySearch` counts it: for cells of this size and what is
-/// shown so far ahead of where the vehicle can stop.
-[[nodiscard]] double way_over_line(const EnergySearchSettings& price,
-                                   double resolution_m,
-                                   double shows_m);
+/// The length of a path over that of its straight line, l of `EnergySearch`, for cells of this size
+/// and a view that reaches `shows_m` beyond the place where the vehicle can stop.
+[[nodiscard]] double path_over_line(const EnergySearchSettings& price,
+                                    double resolution_m,
+                                    double shows_m);
 
-/// Limits of speed and braking; usual ones where an observation says nothing of sense. All else is
-/// as `Surroundings` has it, with a world that lets see to any distance.
+/// The limits of speed and braking of an observation, or usual ones where its values make no sense.
+/// All else has its default, and visibility is unlimited.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);
 
-/// It cruises as fast as the mission lets it. Only there a second buys nothing: who is slower waits
-/// for a plan, or brakes for one or for its goal.
+/// Whether the vehicle cruises as fast as the mission allows. Only then does lower latency gain
+/// nothing: a slower vehicle waits for a plan, or brakes before its goal or for want of a plan.
 [[nodiscard]] bool flies_at_limit(const Observation& seen);
 
-/// What the newest map showed free along the committed path, from where its frame was taken [m]: d
-/// of eq. 2, but for body and tube. It ends with the path, too: before a place where the vehicle
-/// will stop anyway, latency makes it slower still. 0 where an observation says nothing of sense.
+/// How far the newest map showed the committed path as free, from the place where its frame was
+/// taken [m]: d of eq. 2, without the allowance for body and tube. It also ends where the path
+/// ends, because before a place where the vehicle will stop, latency slows it down further. 0 where
+/// the values of an observation make no sense.
 [[nodiscard]] double shown_free_m(const Observation& seen);
 
-/// What a search weighed and would allow, as a policy shows it: least joules per metre first.
+/// The settings that a search compared and allows, with the least energy per metre first.
 [[nodiscard]] std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed);
 
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How much of a flight goes by in waiting for the computer.
+/// How much of a flight the vehicle spends waiting for the computer.
 
 #include "flyball/runtime/observation.h"
 
@@ -10,14 +10,13 @@
 
 namespace flyball {
 
-/// The share w of the last minute of cruise in which the vehicle stood: it waits for a map, a plan
-/// or the next view then. A speed limit knows nothing of such waits, and of what was computed in
-/// flight some may come too late for them. If all of w grew as the computer slows down, a clock f
-/// would make the mission longer by
+/// The share w of the last minute of cruise in which the vehicle stood, because it waited for a
+/// map, a plan or the next view. A speed limit does not tell of such waits. If all of them grew as
+/// the computer slows down, a clock f would make the mission longer by the factor
 ///
 ///     1 + w (f_top / f - 1),
 ///
-/// and so much more energy per metre is what a lower clock must save before it is worth it.
+/// so a lower clock must save at least that much energy per metre.
 class WaitingShare {
  public:
   /// Once per decision.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way past obstacles as the search prices it.
+// How the search prices paths around obstacles.
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy_conformance.h"
 
@@ -24,7 +24,7 @@ EnergySearch search_with(const EnergySearchSettings& settings) {
 Surroundings slow_place() {
   Surroundings around;
   around.speed_limit_m_s = 1.0;
-  around.sight_m = 1e9;
+  around.visibility_m = 1e9;
   around.coarsest_m = 0.80;
   return around;
 }
@@ -39,7 +39,7 @@ EnergySearchSettings among_obstacles() {
   return settings;
 }
 
-TEST(EnergySearchWay, a_way_past_obstacles_is_longer_by_cells_and_by_what_shows_late) {
+TEST(EnergySearchDetour, a_way_past_obstacles_is_longer_by_cells_and_by_what_shows_late) {
   const EnergySearch one = search_with(among_obstacles());
   const EnergySearch plain = search_with({});
   const Surroundings slow = slow_place();
@@ -54,17 +54,17 @@ TEST(EnergySearchWay, a_way_past_obstacles_is_longer_by_cells_and_by_what_shows_
               1e-9);
 }
 
-TEST(EnergySearchWay, where_the_mission_is_slow_sees_far_in_the_finest_cells) {
+TEST(EnergySearchDetour, where_the_mission_is_slow_sees_far_in_the_finest_cells) {
   EnergySearch one = search_with(among_obstacles());
   Surroundings room = slow_place();
   EXPECT_EQ(one.choose(room, {}).setting.range_m, 12.0);
-  room.sight_m = 7.0;
+  room.visibility_m = 7.0;
   const MapSetting setting = one.choose(room, at(1.0)).setting;
   EXPECT_EQ(setting.range_m, 7.0);
   EXPECT_EQ(setting.resolution_m, 0.15);
 }
 
-TEST(EnergySearchWay, takes_nothing_that_responds_too_late_if_anything_is_sooner) {
+TEST(EnergySearchDetour, takes_nothing_that_responds_too_late_if_anything_is_sooner) {
   EnergySearch one = search_with(among_obstacles());
   Surroundings room = slow_place();
   room.coarsest_m = 0.15;
@@ -85,7 +85,7 @@ TEST(EnergySearchWay, takes_nothing_that_responds_too_late_if_anything_is_sooner
   }
 }
 
-TEST(EnergySearchWay, large_cells_pay_for_the_plans_that_fail_in_them) {
+TEST(EnergySearchDetour, large_cells_pay_for_the_plans_that_fail_in_them) {
   EnergySearch one = search_with({});
   Surroundings open = slow_place();
   open.speed_limit_m_s = 20.0;

@@ -22,44 +22,44 @@ EnergySearch search() {
                              *conformance_board().power);
 }
 
-TEST(EnergySearchRest, takes_the_lowest_clock_that_is_soon_enough) {
+TEST(EnergySearchIdle, takes_the_lowest_clock_that_is_soon_enough) {
   // t ~ .9 / f + .05 and the first bound is e^.1 times what is expected: .442 s at the top, .84 s
   // at 1 GHz, 1.64 s at .5 GHz.
   EnergySearch one = search();
-  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 0, {}).clock_hz, 1e9);
-  EXPECT_EQ(one.rest(0.15, 7.0, 1.7, 0, {}).clock_hz, 0.5e9);
-  EXPECT_EQ(one.rest(0.80, 7.0, 1.0, 0, {}).clock_hz, 0.25e9);
+  EXPECT_EQ(one.idle(0.15, 7.0, 1.0, 0, {}).clock_hz, 1e9);
+  EXPECT_EQ(one.idle(0.15, 7.0, 1.7, 0, {}).clock_hz, 0.5e9);
+  EXPECT_EQ(one.idle(0.80, 7.0, 1.0, 0, {}).clock_hz, 0.25e9);
 }
 
-TEST(EnergySearchRest, takes_the_highest_clock_where_none_is_soon_enough) {
-  EXPECT_EQ(search().rest(0.15, 7.0, 0.1, 0, {}).clock_hz, top_hz);
+TEST(EnergySearchIdle, takes_the_highest_clock_where_none_is_soon_enough) {
+  EXPECT_EQ(search().idle(0.15, 7.0, 0.1, 0, {}).clock_hz, top_hz);
 }
 
-TEST(EnergySearchRest, takes_the_lowest_clock_of_all_where_no_map_is_made) {
+TEST(EnergySearchIdle, takes_the_lowest_clock_of_all_where_no_map_is_made) {
   const double never = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(search().rest(0.15, 7.0, never, 0, {}).clock_hz, 0.25e9);
+  EXPECT_EQ(search().idle(0.15, 7.0, never, 0, {}).clock_hz, 0.25e9);
 }
 
-TEST(EnergySearchRest, is_raised_by_as_many_clocks_as_there_are_at_most) {
+TEST(EnergySearchIdle, is_raised_by_as_many_clocks_as_there_are_at_most) {
   EnergySearch one = search();
-  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 1, {}).clock_hz, 1.5e9);
-  EXPECT_EQ(one.rest(0.15, 7.0, 1.0, 9, {}).clock_hz, top_hz);
+  EXPECT_EQ(one.idle(0.15, 7.0, 1.0, 1, {}).clock_hz, 1.5e9);
+  EXPECT_EQ(one.idle(0.15, 7.0, 1.0, 9, {}).clock_hz, top_hz);
 }
 
-TEST(EnergySearchRest, is_in_force_and_weighs_no_joules_per_metre) {
+TEST(EnergySearchIdle, is_in_force_and_weighs_no_joules_per_metre) {
   EnergySearch one = search();
-  const MapSetting resting = one.rest(0.15, 7.0, 1.0, 0, {});
-  EXPECT_EQ(one.in_force(), resting);
+  const MapSetting idle = one.idle(0.15, 7.0, 1.0, 0, {});
+  EXPECT_EQ(one.in_force(), idle);
   for (const EnergyEstimate& weighed : one.weighed()) {
     EXPECT_TRUE(std::isinf(weighed.joules_per_m));
   }
 }
 
-TEST(EnergySearchRest, somebody_elses_cells_are_kept) {
+TEST(EnergySearchIdle, somebody_elses_cells_are_kept) {
   EnergySearch one = search();
   Surroundings around;
   around.speed_limit_m_s = 10.0;
-  around.sight_m = 1e9;
+  around.visibility_m = 1e9;
   around.coarsest_m = around.finest_m = 0.15;
   EXPECT_EQ(one.choose(around, {}).setting.resolution_m, 0.15);
   around.coarsest_m = around.finest_m = 0.80;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sight.h"
+#include "visibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,18 @@
 namespace flyball {
 namespace {
 
-constexpr double body_m = 0.6;    // With its tube at speed, half.
-constexpr double forgets = 0.25;  // Of looks 4 times a second: two thirds of the way in a second.
-constexpr double tries = 1.15;
+constexpr double body_m = 0.6;    // Half the width of the body with its tube at speed.
+constexpr double forgets = 0.25;  // Chosen: of 4 observations a second, two thirds in one second.
+constexpr double tries = 1.15;    // Chosen: the range doubles within five observations.
 constexpr double nearest_m = 1.0;
 constexpr double farthest_m = 1e3;
 
 }  // namespace
 
-void Sight::note(const Observation& seen, double range_m) {
+void Visibility::note(const Observation& seen, double range_m) {
   if (seen.map_revision != revision_) {
     revision_ = seen.map_revision;
-    captured_ = seen.now - std::max(seen.map_age, seen.latency);  // Not all tell the age.
+    captured_ = seen.now - std::max(seen.map_age, seen.latency);  // The age may be missing.
   }
   if (std::isfinite(range_m) && range_m != range_m_) {
     last_range_m_ = range_m_ > 0.0 ? range_m_ : range_m;
@@ -30,15 +30,16 @@ void Sight::note(const Observation& seen, double range_m) {
   if (seen.phase != MissionPhase::cruise || !std::isfinite(free_m)) {
     return;
   }
-  // The last cells are not seen as a whole, and where the way crosses them at an angle they reach
-  // as far back as their diagonal.
+  // The camera does not see the last cells as a whole. Where the path crosses them at an angle,
+  // they reach back by their diagonal.
   const double ends_m = body_m + std::sqrt(2.0) * std::max(0.0, seen.map_resolution_m);
   if (free_m >= seen_to_m - ends_m) {
-    sight_m_ = std::max(free_m, tries * sight_m_);
+    visibility_m_ = std::max(free_m, tries * visibility_m_);
   } else {
-    sight_m_ = free_m >= sight_m_ ? free_m : sight_m_ + forgets * (free_m - sight_m_);
+    visibility_m_ =
+        free_m >= visibility_m_ ? free_m : visibility_m_ + forgets * (free_m - visibility_m_);
   }
-  sight_m_ = std::clamp(sight_m_, nearest_m, farthest_m);
+  visibility_m_ = std::clamp(visibility_m_, nearest_m, farthest_m);
 }
 
 }  // namespace flyball

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/governors/resting.h"
+#include "flyball/governors/idle.h"
 
 #include <limits>
 
 namespace flyball {
 namespace {
 
-// Every mission begins with a moment of waiting, and the first map takes a while.
+// Chosen: every mission begins with a moment of waiting, in which the first map is made.
 constexpr double settle_s = 1.0;
-// More than a scenario declares free around the places of take-off and landing.
+// Larger than the space that a scenario declares free around the places of take-off and landing.
 constexpr double declared_m = 5.0;
 
 }  // namespace
 
-std::optional<double> Resting::patience_s(const Observation& seen) const {
+std::optional<double> Idle::patience_s(const Observation& seen) const {
   if (seen.phase == MissionPhase::wait) {
     return map_s_;
   }
-  // After a flight with maps the next one begins with the latencies of these: landing is no rest.
+  // A landing after a flight with maps does not count as idle, because the next flight begins with
+  // the latencies that are learned now.
   const bool is_blind = seen.map_revision == 0 &&
                         ((seen.phase == MissionPhase::cruise && seen.known_free_m > declared_m) ||
                          seen.phase == MissionPhase::land);
   return is_blind ? std::optional{std::numeric_limits<double>::infinity()} : std::nullopt;
 }
 
-std::optional<double> Resting::allowed_s(const Observation& seen) {
+std::optional<double> Idle::allowed_s(const Observation& seen) {
   const auto patience = patience_s(seen);
   if (!patience) {
     since_.reset();

@@ -2,10 +2,10 @@
 #pragma once
 
 /// @file
-/// What a mission's way allows to whoever searches for the least energy.
+/// Which settings the path ahead allows in a search for the least energy.
 
 #include "flyball/governors/energy_search.h"
-#include "flyball/governors/resting.h"
+#include "flyball/governors/idle.h"
 #include "flyball/runtime/decision.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
@@ -13,7 +13,7 @@
 
 #include "failed_plans.h"
 #include "passability.h"
-#include "sight.h"
+#include "visibility.h"
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,57 +21,59 @@
 namespace flyball {
 
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
-/// - The price of a failed plan: in coarse cells one that is not found soon is not there, and a
-///   long search for it would keep the vehicle standing; so it gets a small budget there, and how
-///   often that happens is a price of such cells (`FailedPlans`).
-/// - Sight: where the world ends what is known to be free, a longer range buys nothing.
-/// - The mission's own limit of speed, at which latency is worth nothing, but to see farther ahead
-///   still makes the way shorter.
+/// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
+/// a
+///   long search for it would keep the vehicle standing. So plans get a small budget there, and the
+///   rate of failures is a price of such cells (`FailedPlans`).
+/// - Visibility: where the world ends the view, a longer range gains nothing.
+/// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
+///   makes the path shorter.
 ///
-/// A mapper with a lattice of cells keeps what was hit at its finest level, so finer cells are
-/// there when they are asked for. Others start a map of their own: with them, what is narrow is
-/// looked at from nearby only, and two levels are used. Nothing allocates after `make`.
-class MissionWay {
+/// A mapper with a lattice of cells keeps all hits at its finest level, so finer cells are known as
+/// soon as they are asked for. Any other mapper starts a new map when the cells change. With such a
+/// mapper two levels are used, and narrow gaps are looked at from nearby only. Nothing allocates
+/// after `make`.
+class MissionLimits {
  public:
   /// A policy adds them to its own.
   [[nodiscard]] static std::vector<ParameterSpec> parameters();
   /// @param owner  For messages: `policy "mission_energy"`.
   /// @error `invalid_input` when parameters contradict each other or the knobs.
-  static Result<MissionWay> make(const std::string& owner,
-                                 const Parameters& given,
-                                 const KnobSettings& knobs);
+  static Result<MissionLimits> make(const std::string& owner,
+                                    const Parameters& given,
+                                    const KnobSettings& knobs);
 
-  /// What the search goes through.
+  /// The levels that the search compares.
   [[nodiscard]] std::vector<SearchLevel> levels(double fine_s, double coarse_s) const;
   [[nodiscard]] const std::vector<double>& ranges_m() const { return ranges_m_; }
-  /// Way per obstacle, for `EnergySearchSettings`.
+  /// Length of path per obstacle, for `EnergySearchSettings`.
   [[nodiscard]] double spacing_m() const;
 
-  /// How long a map may take where latency buys no speed; see `Resting`.
-  [[nodiscard]] std::optional<double> rests_s(const Observation& seen) {
-    return resting_.allowed_s(seen);
+  /// How long a map may take while the vehicle is idle; see `Idle`.
+  [[nodiscard]] std::optional<double> idle_map_s(const Observation& seen) {
+    return idle_.allowed_s(seen);
   }
-  [[nodiscard]] std::size_t rest_raised_by() const { return resting_.raised_by(); }
+  [[nodiscard]] std::size_t idle_raised_by() const { return idle_.raised_by(); }
   /// The map as the scenario has it.
   [[nodiscard]] const MapSetting& home() const { return home_; }
 
-  /// @param in_force  What the search has chosen last.
+  /// @param in_force  The setting that the search has chosen last.
   [[nodiscard]] Surroundings look(const Observation& seen, const MapSetting& in_force);
-  /// Of the next plan, with a map of this resolution [iterations].
+  /// Budget of the next plan, with a map of this resolution [iterations].
   [[nodiscard]] double plan_budget(const Observation& seen, double resolution_m) const;
   /// This setting, with its plan's budget.
   [[nodiscard]] Decision wish(const Observation& seen, const MapSetting& setting) const;
 
   /// Whether the mapper has several levels in one map.
   [[nodiscard]] bool is_lattice() const { return is_lattice_; }
-  /// Cells beyond this shut openings that nobody has seen yet.
+  /// Larger cells may close openings that nobody has seen yet.
   [[nodiscard]] double large_m() const { return large_m_; }
   [[nodiscard]] double body_m() const { return body_m_; }
   [[nodiscard]] double narrow_m_s() const { return narrow_m_s_; }
   [[nodiscard]] double near_m() const;
 
  private:
-  MissionWay(const Parameters& given, const KnobSettings& knobs, bool is_lattice);
+  MissionLimits(const Parameters& given, const KnobSettings& knobs, bool is_lattice);
   void limit_lattice(const Observation& seen,
                      bool near,
                      const MapSetting& in_force,
@@ -95,11 +97,11 @@ class MissionWay {
   MapSetting home_;
   std::vector<double> levels_m_;  ///< Finest first.
   std::vector<double> ranges_m_{};
-  Resting resting_;
+  Idle idle_;
   Passability passability_;
-  Sight sight_;
+  Visibility visibility_;
   FailedPlans failed_{};
-  bool seeks_door_{};  ///< A plan has failed before the narrow place that is near.
+  bool seeks_door_{};  ///< A plan has failed near a narrow place.
 };
 
 }  // namespace flyball

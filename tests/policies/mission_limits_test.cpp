@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mission_energy/mission_limits.h"
+
+#include "flyball/governors/policy_conformance.h"
+
+#include "cruising.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+Result<MissionLimits> made(const std::map<std::string, ParameterValue>& given = {},
+                           const KnobSettings& knobs = conformance_knobs()) {
+  const auto resolved = Parameters::resolve("policy", MissionLimits::parameters(), given);
+  return MissionLimits::make("policy \"mine\"", std::get<Parameters>(resolved), knobs);
+}
+
+std::string refusal(const std::map<std::string, ParameterValue>& given,
+                    const KnobSettings& knobs = conformance_knobs()) {
+  auto limits = made(given, knobs);
+  return limits ? "" : limits.error().message;
+}
+
+TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
+  auto limits = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
+  ASSERT_TRUE(limits.ok());
+  EXPECT_TRUE(limits->is_lattice());
+  std::vector<double> cells_m;
+  for (const SearchLevel& level : limits->levels(0.5, 0.1)) {
+    cells_m.push_back(level.resolution_m);
+  }
+  EXPECT_EQ(cells_m, (std::vector<double>{0.30, 0.60, 0.80}));
+}
+
+TEST(MissionLimits, says_what_contradicts_what) {
+  EXPECT_NE(refusal({{"fine_m", 0.80}, {"coarse_m", 0.15}}).find("below coarse_m"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"least_range_m", 20.0}, {"most_range_m", 10.0}}).find("below most_range_m"),
+            std::string::npos);
+  EXPECT_EQ(refusal({}, KnobSettings{}),
+            "policy \"mine\": there is no knob planner.budget, map.resolution_m, map.range_m; try: "
+            "flyball list knobs");
+}
+
+TEST(MissionLimits, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  const MapSetting coarse{0.80, 7.0, 2e9};
+  Observation seen = kit::cruising();
+  EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
+  seen.now += 250ms;
+  seen.speed_m_s = 4.0;
+  EXPECT_TRUE(limits->look(seen, coarse).needs_top_clock);
+}
+
+TEST(MissionLimits, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 1.20);
+  seen.speed_m_s = 0.0;
+  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
+}
+
+// Even where they cost no time.
+TEST(MissionLimits, takes_finest_cells_only_where_something_asks_for_them) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  EXPECT_EQ(limits->look(seen, {0.60, 7.0, 2e9}).finest_m, 0.30);
+  seen.now += 250ms;
+  seen.planner_failures = 2;
+  const Surroundings stuck = limits->look(seen, {0.60, 7.0, 2e9});
+  EXPECT_EQ(stuck.coarsest_m, 0.15);
+  EXPECT_LE(stuck.finest_m, 0.15);
+}
+
+constexpr MapSetting finest{0.15, 7.0, 2e9};
+constexpr MapSetting next_finest{0.30, 13.0, 2e9};
+
+// Nothing near says so: the mission's limit of speed does, 20 m ahead.
+TEST(MissionLimits, leaves_finest_cells_only_where_the_mission_is_fast_again) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  seen.speed_m_s = seen.speed_limit_m_s = 1.0;
+  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30);
+  EXPECT_EQ(limits->look(seen, finest).coarsest_m, 0.15);
+  seen.speed_limit_m_s = 6.0;
+  EXPECT_GE(limits->look(seen, finest).coarsest_m, 0.30);
+}
+
+TEST(MissionLimits, leaves_finest_cells_again_on_its_way_to_a_slow_place) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_GE(limits->look(seen, finest).coarsest_m, 0.30);
+}
+
+TEST(MissionLimits, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has_failed) {
+  auto limits = made();
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  seen.planner_failures = 1;
+  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30) << "it may be far off in the open";
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_EQ(limits->look(seen, next_finest).coarsest_m, 0.15);
+  seen.planner_failures = 0;
+  EXPECT_EQ(limits->look(seen, next_finest).coarsest_m, 0.15);
+  seen.speed_limit_m_s = 6.0;
+  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30);
+}
+
+TEST(MissionLimits, gives_plans_in_large_cells_little_and_those_in_fine_ones_more_each_time) {
+  auto limits = made({{"coarse_budget", 200.0}});
+  ASSERT_TRUE(limits.ok());
+  Observation seen = kit::cruising();
+  EXPECT_EQ(limits->plan_budget(seen, 0.80), 200.0);
+  EXPECT_EQ(limits->plan_budget(seen, 0.15), 10000.0);
+  seen.planner_failures = 1;
+  EXPECT_EQ(limits->plan_budget(seen, 0.15), 20000.0);
+  seen.planner_failures = 5;
+  EXPECT_EQ(limits->plan_budget(seen, 0.15), 40000.0);
+}
+
+}  // namespace
+}  // namespace flyball
