@@ -51,8 +51,8 @@ sigset_t awaited_signals() {
   return signals;
 }
 
-/// The rest of a process's life as a mission. Nothing here may ask for memory: this is a copy of a
-/// process that may have had threads.
+/// Runs the mission in the child and does not return. Nothing here may allocate memory, because
+/// this is a copy of a process that may have had threads.
 [[noreturn]] void become_mission(pid_t parent, int errors, char* const* argv) {
   // Whatever ends the parent, SIGKILL too, ends the mission.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -106,8 +106,8 @@ void collect(Children& running, const std::function<void(const ChildEnd&)>& ende
   }
 }
 
-/// Waits until a process ends or somebody wants all to end: then that signal, which the processes
-/// get, too; else 0.
+/// Waits until a process ends or a signal asks for the end of all. Returns that signal, which the
+/// processes get as well, or 0.
 int wait_for_signal(const sigset_t& signals, const Children& running) {
   const int signal = sigwaitinfo(&signals, nullptr);
   if (signal <= 0 || signal == SIGCHLD) {
@@ -124,7 +124,7 @@ int wait_for_signal(const sigset_t& signals, const Children& running) {
 int run_children(const std::vector<std::vector<std::string>>& arguments,
                  std::size_t jobs,
                  const std::function<void(const ChildEnd&)>& ended) {
-  std::signal(SIGCHLD, SIG_DFL);  // Who ignores it, as its caller may have, hears of no end.
+  std::signal(SIGCHLD, SIG_DFL);  // A caller may have ignored it; then no end would be reported.
   const sigset_t signals = awaited_signals();
   sigset_t before{};
   pthread_sigmask(SIG_BLOCK, &signals, &before);  // They wait for `sigwaitinfo`: none is lost.

@@ -16,7 +16,7 @@
 namespace flyball {
 namespace {
 
-/// Where the file system knows no locks nobody waits for anybody.
+/// On a file system without locks no process waits for another one.
 void lock(int folder, const std::string& path) {
   if (flock(folder, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
     return;
@@ -26,7 +26,7 @@ void lock(int folder, const std::string& path) {
   }
 }
 
-/// Whoever had the folder before may have removed it.
+/// The process that had the folder before may have removed it.
 bool is_still_there(int folder, const std::string& path) {
   struct stat held {};
   struct stat named {};
@@ -44,7 +44,7 @@ Result<ClaimedFolder> ClaimedFolder::claim(const std::string& path) {
     }
     const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0 && errno == ENOENT) {
-      continue;  // Whoever had it before has removed it since.
+      continue;  // The process that had it before has removed it since.
     }
     if (folder >= 0) {
       lock(folder, path);

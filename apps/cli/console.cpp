@@ -16,7 +16,7 @@
 namespace flyball {
 namespace {
 
-// A signal handler has nowhere else to leave its word.
+// A signal handler can only set a global variable.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -25,7 +25,7 @@ volatile std::sig_atomic_t interrupted = 0;
 int output_error = 0;
 
 void remember(int signal) {
-  if (interrupted != 0) {  // The second one has its usual effect.
+  if (interrupted != 0) {  // A second signal has its usual effect.
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

@@ -20,7 +20,7 @@
 namespace flyball {
 namespace {
 
-// The issue is what a policy does once it has had time to notice: the first 50 are not counted.
+// The first 50 bounds after an event are not counted, because a policy needs time to notice it.
 constexpr std::uint64_t first_bound = 51;
 constexpr std::uint64_t last_bound = 450;
 

@@ -21,7 +21,8 @@ Error failure_of(const PlannedFlight& flight, const ChildEnd& end) {
   return {ErrorCode::failed, name_of(flight) + ": " + why};
 }
 
-/// A mission without record. What is wrong with the input is wrong for many: it is said once.
+/// Reports a mission that left no record. An error in the input concerns many missions, so it is
+/// reported once.
 void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown) {
   Error error = failure_of(flight, end);
   if (end.exit_code == exit_bad_input) {
@@ -40,8 +41,8 @@ void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown)
                         : std::max(flown.exit_code, exit_mission_failed);
 }
 
-/// By how much comparisons step the physics, where otherwise than a single flight: nothing where
-/// the scenario does not say so, or where the step was chosen.
+/// The step of the physics in comparisons, if it differs from that of a single flight. Empty when
+/// the scenario does not name one, or when the user has chosen the step.
 std::optional<std::string> comparison_step(const LoadedScenario& loaded) {
   const auto entry = [&](const char* key) {
     return *std::find_if(loaded.entries.begin(), loaded.entries.end(),

@@ -79,7 +79,7 @@ int localize(const LocalizeOptions& options) {
   if (!recording) {
     return refuse({recording.error()});
   }
-  if (!options.out.empty()) {  // Before the work: a wrong place would cost it.
+  if (!options.out.empty()) {  // Checked first, because a wrong folder would waste the work.
     if (const Status written = write_tum_trajectory(options.out, {}); !written) {
       return refuse({written.error()});
     }

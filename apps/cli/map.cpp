@@ -80,7 +80,7 @@ int export_map(const MapOptions& options) {
   return exit_success;
 }
 
-/// Both mappers read the file: cell for cell it must be the same map.
+/// Both mappers read the file; each cell must have the same state in both.
 int import_map(const MapOptions& options) {
   const auto bricks = load("flyball", options.file);
   if (!bricks) {

@@ -65,7 +65,7 @@ Status check(const MapFromOptions& options) {
   return Done{};
 }
 
-/// Where a camera that looks ahead stands when it begins, if nobody says: level, at the origin.
+/// The pose at which a forward camera begins unless one is given: level, at the origin.
 Pose level_camera() {
   Pose X_WC = Pose::Identity();
   X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;

@@ -225,7 +225,7 @@ Fields explore_fields() {
       {"explore.most_iterations", &at<in, &E::most_iterations>, 1, 10000,
        "nodes while none of them shows anything new"},
       {"explore.discount_1_m", &at<in, &E::discount_1_m>, 0, 10,
-       "how fast a gain fades with the way to it"},
+       "how fast a gain falls with the length of the path to it"},
   };
 }
 
@@ -240,7 +240,7 @@ Fields computer_fields() {
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one plan may take"},
       {"planner.horizon_m", &at<&Scenario::planner, &PlannerSettings::horizon_m>, 0, 10000,
-       "a farther goal is approached through places on the way; 0: planned to at once"},
+       "a farther goal is approached through intermediate places; 0: planned to at once"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
        "the companion computer"},
       {"platform.cores", &at<&Scenario::platform, &PlatformSettings::cores>, 1, 256,

@@ -52,7 +52,7 @@ void FlightRecorder::record_job(const JobRecord& job) {
   auto& calls = calls_[node.cost];
   calls.mission_ms.push_back(1e3 * to_seconds(job.ended - job.started));
   calls.host_s += job.host_s;
-  // The two that run 100 and 50 times a second would drown the others.
+  // Two nodes run 100 and 50 times a second, and their rows would outnumber all others.
   if (node.name == "localize" || node.name == "follow") {
     return;
   }

@@ -24,11 +24,11 @@ class Judge {
 
   /// Called once a second of mission time.
   virtual void look(MissionTime /*now*/) {}
-  /// Why a success that the vehicle claims is none; `none`: it is one.
+  /// Why the judge rejects a success that the vehicle claims; `none` when it accepts it.
   [[nodiscard]] virtual MissionFailure objection() const { return MissionFailure::none; }
   /// The unit of a figure is its name's ending.
   [[nodiscard]] virtual std::map<std::string, double> figures() const { return {}; }
-  /// Pictures for the report: few, for each is kept whole.
+  /// Pictures for the report. There should be few, because each is kept in full.
   [[nodiscard]] virtual std::vector<MissionFrame> frames() const { return {}; }
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto memory = 5s;  // An estimate is some milliseconds old, on a slow computer more.
+constexpr auto memory = 5s;  // Chosen: estimates are some milliseconds old, even on slow computers.
 
 }  // namespace
 

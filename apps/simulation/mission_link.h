@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How the simulator and its referee meet the mission: through topics, like anybody else.
+/// How the simulator and its referee take part in the mission: through topics only.
 
 #include "flyball/flight/brief.h"
 #include "flyball/flight/mission_topics.h"

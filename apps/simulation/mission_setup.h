@@ -29,7 +29,7 @@ struct MissionSetup {
 /// from.
 [[nodiscard]] Brief brief_of(const Scenario& scenario, const MissionSetup& setup);
 
-/// For those who call kernels one by one, without a graph.
+/// For callers that use kernels one by one, without a graph.
 struct Workbench {
   Brief brief{};
   KnobsInForce knobs{};
@@ -41,8 +41,8 @@ struct Workbench {
 
 /// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
 [[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);
-/// For whoever asks about a mission that nobody governs: the policy is not even loaded, so a
-/// scenario of somebody else runs no code of theirs. `governor` is null.
+/// The same without a governor: `governor` is null. The policy is not even loaded, so a scenario
+/// from somebody else cannot run their code.
 [[nodiscard]] Result<MissionSetup> set_up_without_governor(const Scenario& scenario);
 
 }  // namespace flyball

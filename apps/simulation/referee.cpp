@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto check_period = 10ms;  // At 15 m/s, 15 cm between two looks at the true world.
+constexpr auto check_period = 10ms;  // At 15 m/s, the vehicle flies 15 cm between two checks.
 constexpr auto look_period = 1s;
 constexpr auto first_look = 100ms;  // A map that is being made is looked at a little later.
 constexpr double clearance_limit_m = 5.0;

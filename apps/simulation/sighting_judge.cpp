@@ -10,7 +10,7 @@ namespace flyball {
 namespace {
 
 constexpr double found_within_m = 1.0;  // Of a person, along the ground.
-constexpr double same_place_m = 1.0;    // A second look at what was taken for a person is no news.
+constexpr double same_place_m = 1.0;    // Nearer false detections count once.
 constexpr std::size_t most_frames = 6;  // For the report; the finding is the last of them.
 
 }  // namespace

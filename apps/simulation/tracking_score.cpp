@@ -12,7 +12,7 @@ namespace flyball {
 namespace {
 
 constexpr double least_overlap = 0.2;
-constexpr std::size_t most_cameras = 512;  // 25 s of a 20 Hz camera: no tracker is so late.
+constexpr std::size_t most_cameras = 512;  // 25 s at 20 Hz; no tracker is that late.
 constexpr double keep_every_s = 15.0;
 
 /// From the middle of the frame, 1 in its corners.

@@ -79,7 +79,7 @@ DriftCount count_bounds(const DriftRecord& record,
                         MissionTime event,
                         std::uint64_t first,
                         std::uint64_t last) {
-  // Those that were issued before the event and were still open count from it on, too.
+  // Bounds that were issued before the event and were still open then count as well.
   BoundRow before;
   DriftCount count;
   BoundRow previous;

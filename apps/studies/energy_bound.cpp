@@ -5,7 +5,7 @@
 #include "flyball/sim/rotor_power.h"
 
 #include "simulation/mission_setup.h"
-#include "studies/way_cells.h"
+#include "studies/path_cells.h"
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,8 @@
 namespace flyball {
 namespace {
 
-// Arrived is who is within .3 m of the goal and .1 m of the reference; so at both ends of a leg.
+// A vehicle has arrived within .3 m of the goal and .1 m of the reference. This holds at both ends
+// of a leg.
 constexpr double off_the_ends_m = 1.0;
 
 /// In steady level flight; a lower limit of the mean over any flight at this speed.
@@ -36,7 +37,7 @@ class LeastPower {
     VehicleState state;
     state.v_WB = {speed_m_s, 0.0, 0.0};
     state.rotor_rev_s = {100.0, 100.0, 100.0, 100.0};
-    // b8 counts the wind along the way: from whichever side is cheaper.
+    // b8 counts the wind along the path; the bound takes the cheaper direction.
     const double wind_m_s = std::hypot(settings_.wind_east_m_s, settings_.wind_north_m_s);
     return std::min(power.update(state, payload_kg, {wind_m_s, 0.0, 0.0}, 1.0),
                     power.update(state, payload_kg, {-wind_m_s, 0.0, 0.0}, 1.0));
@@ -68,7 +69,7 @@ double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
 
 /// The least of the zones that hold all of a cell, from its floor to its ceiling.
 double zone_limit_m_s(const World& world, const Aabb& cell_W, double limit_m_s) {
-  // Whoever keeps a speed looks at his limit in steps, and may be late by one.
+  // A vehicle compares its speed with the limit once in each step, so it may be late by one step.
   constexpr double border_m = 0.25;
   const Vec3 border{border_m, border_m, 0.0};
   const Vec3 low_W = (cell_W.min - border).cwiseMax(world.bounds_W.min);
@@ -88,13 +89,13 @@ double slowest_m_s(const World& world, double limit_m_s) {
   return limit_m_s;
 }
 
-/// @param end_j  Saved at most by whoever comes only near to the ends.
-Result<BoundedLeg> bound_leg(const std::optional<CheapestWay>& way, double end_j) {
-  if (!way) {
-    return Error{ErrorCode::failed, "no way leads from start to goal in this world"};
+/// @param end_j  The most energy that a flight saves by coming only near to the ends of the leg.
+Result<BoundedLeg> bound_leg(const std::optional<CheapestPath>& path, double end_j) {
+  if (!path) {
+    return Error{ErrorCode::failed, "no path leads from start to goal in this world"};
   }
-  return BoundedLeg{std::max(0.0, way->cost - end_j),
-                    std::max(0.0, way->length_m - off_the_ends_m)};
+  return BoundedLeg{std::max(0.0, path->cost - end_j),
+                    std::max(0.0, path->length_m - off_the_ends_m)};
 }
 
 }  // namespace
@@ -145,16 +146,16 @@ Result<EnergyBound> bound_energy(const Scenario& scenario) {
   const Airframe& airframe = setup->things.airframe;
   const LeastPower power{scenario, airframe, *setup->platform};
   const double fastest = fastest_m_s(scenario, *setup);
-  const WayCells cells{world, airframe.body()};
+  const PathCells cells{world, airframe.body()};
   EnergyBound bound;
   for (const bool is_out : {true, false}) {
     const double payload_kg = is_out ? scenario.vehicle.payload_kg : 0.0;
     const auto joules_per_m = [&](double v_m_s) { return power.watts(v_m_s, payload_kg) / v_m_s; };
-    const WayPrice price{
+    const PathPrice price{
         [&](const Aabb& cell_W) { return joules_per_m(zone_limit_m_s(world, cell_W, fastest)); },
         joules_per_m(fastest)};
-    const auto leg = bound_leg(cells.way(is_out ? world.start_W : world.goal_W,
-                                         is_out ? world.goal_W : world.start_W, price),
+    const auto leg = bound_leg(cells.path(is_out ? world.start_W : world.goal_W,
+                                          is_out ? world.goal_W : world.start_W, price),
                                off_the_ends_m * joules_per_m(slowest_m_s(world, fastest)));
     if (!leg) {
       return leg.error();

@@ -7,8 +7,8 @@
 
 #include "simulation/exploration_judge.h"
 #include "simulation/mission_setup.h"
+#include "studies/fit_localizer.h"
 #include "studies/fit_perception.h"
-#include "studies/fit_sight.h"
 
 namespace flyball {
 namespace {
@@ -68,7 +68,7 @@ class Exploration {
     return step.next;
   }
 
-  /// Along a plan, with looks on the way.
+  /// Flies along a plan and looks around at regular distances.
   Status move_to(const Viewpoint& next) {
     PlanQuery query;
     query.start_W = here_.p_W;
@@ -83,13 +83,14 @@ class Exploration {
     }
     const Path path = Path::polyline(plan.waypoints_W);
     for (double s_m = look_every_m; s_m < path.length_m(); s_m += look_every_m) {
-      const Path::Sample on_way = path.at(s_m);
-      const Viewpoint ahead{on_way.p_W, yaw_of(on_way.tangent_W)};
+      const Path::Sample on_path = path.at(s_m);
+      const Viewpoint ahead{on_path.p_W, yaw_of(on_path.tangent_W)};
       if (const Status seen = look(ahead); !seen) {
         return seen;
       }
-      if (scene_.sight_every > 0 && looks_++ % scene_.sight_every == 0) {
-        stretches_.push_back({looking(ahead.p_W, ahead.yaw_rad), scene_.speed_m_s, scene_.sight_s});
+      if (scene_.localizes_every > 0 && looks_++ % scene_.localizes_every == 0) {
+        stretches_.push_back(
+            {looking(ahead.p_W, ahead.yaw_rad), scene_.speed_m_s, scene_.localizes_s});
       }
     }
     here_ = next;
@@ -108,7 +109,7 @@ class Exploration {
   std::vector<Stretch> stretches_{};
   ExplorationLoads loads_{};
   int asked_{};
-  int looks_{};  ///< On ways.
+  int looks_{};  ///< Looks along paths.
 };
 
 Scenario exploration_of(const char* world) {

@@ -13,9 +13,10 @@ namespace flyball {
 struct ExplorationScene {
   Scenario scenario{};
   int most_views{};
-  int sight_every{};   ///< From one look on the way in so many a localizer sees the way ahead,
-  double sight_s{};    ///< for so long; never when `sight_every` is 0,
-  double speed_m_s{};  ///< at the speed that the world allows.
+  int localizes_every{};  ///< After so many looks along a path, a localizer sees the path ahead
+                          ///< once,
+  double localizes_s{};   ///< for so long; never when `localizes_every` is 0,
+  double speed_m_s{};     ///< at the speed that the world allows.
 };
 
 /// The shipped mapping_office, seed 1.

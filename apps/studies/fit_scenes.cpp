@@ -5,14 +5,14 @@
 #include "flyball/flight/navigation/plan_with_tubes.h"
 
 #include "simulation/mission_setup.h"
+#include "studies/fit_localizer.h"
 #include "studies/fit_perception.h"
-#include "studies/fit_sight.h"
 #include <algorithm>
 
 namespace flyball {
 namespace {
 
-constexpr int most_steps = 2000;  // A way that is blocked again and again ends here.
+constexpr int most_steps = 2000;  // A path that is blocked again and again ends here.
 
 Scenario delivery() {
   Scenario scenario;
@@ -46,8 +46,8 @@ class Delivery {
       if (const Status clear = check(); !clear) {
         return clear.error();
       }
-      if (step % scene_.sight_every == 0) {
-        stretches_.push_back({pose(), scene_.speed_m_s, scene_.sight_s});
+      if (step % scene_.localizes_every == 0) {
+        stretches_.push_back({pose(), scene_.speed_m_s, scene_.localizes_s});
       }
       s_m_ += scene_.step_m;
     }
@@ -80,7 +80,7 @@ class Delivery {
     return Done{};
   }
 
-  /// Leaves a way that is clear as far as the map knows.
+  /// Keeps a path that is clear as far as the map knows.
   Status check() {
     const double end_m = std::min(s_m_ + scene_.checked_m, path_.length_m());
     const Path ahead = Path::polyline({here_W(), path_.at(end_m).p_W});
@@ -97,8 +97,8 @@ class Delivery {
                                                  bench_.brief.narrow_body(), work);
   }
 
-  /// A planner draws lots, so one plan says little about its mean work: several are made, and the
-  /// last one is flown.
+  /// A planner samples at random, so one plan says little about its mean work. Several are made,
+  /// and the last one is flown.
   Status plan() {
     constexpr int plans_at_once = 8;
     PlanQuery query;
@@ -165,7 +165,7 @@ RoomsScene scene_b() {
   scene.row_pitch_m = 9.0;
   scene.column_pitch_m = 10.2;
   scene.headings = 4;
-  scene.sight_s = 1.5;
+  scene.localizes_s = 1.5;
   scene.speed_m_s = 1.0;
   return scene;
 }
@@ -226,7 +226,7 @@ Result<KernelLoads> record(const RoomsScene& scene) {
     }
     const int room = i / scene.headings;
     if (i % scene.headings == room % scene.headings) {
-      stretches.push_back({X_WB, scene.speed_m_s, scene.sight_s});
+      stretches.push_back({X_WB, scene.speed_m_s, scene.localizes_s});
     }
   }
   if (const Status seen = see(stretches, scene.scenario, setup->things.world, loads); !seen) {

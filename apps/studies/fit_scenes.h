@@ -23,16 +23,16 @@ struct KernelLoad {
 
 using KernelLoads = std::map<std::string, KernelLoad>;  ///< By the name on the price list.
 
-/// The outdoor part of a delivery, without dynamics: look, map, check the way to the goal, plan
+/// The outdoor part of a delivery, without dynamics: look, map, check the path to the goal, plan
 /// again where it is blocked, go on by a step. Ends where the world's speed zone, its building,
 /// begins.
 struct DeliveryScene {
   Scenario scenario{};
   double step_m{};
-  double checked_m{};            ///< Of the way ahead, in the check that is priced.
+  double checked_m{};            ///< Length of the path that the priced check looks at.
   double coarse_resolution_m{};  ///< Each frame is also counted at this resolution.
-  int sight_every{};             ///< From one step in so many a localizer sees the way ahead,
-  double sight_s{};              ///< for so long,
+  int localizes_every{};         ///< After so many steps a localizer sees the path ahead once,
+  double localizes_s{};          ///< for so long,
   double speed_m_s{};            ///< at the mean speed of `fixed_fine` there.
 };
 
@@ -49,9 +49,9 @@ struct RoomsScene {
   int columns{};                    ///< Along y.
   double row_pitch_m{};
   double column_pitch_m{};
-  int headings{};      ///< Evenly spread, the first along x.
-  double sight_s{};    ///< From each room's middle a localizer sees one way ahead for so long,
-  double speed_m_s{};  ///< at the speed that the delivery's zone allows.
+  int headings{};        ///< Evenly spread, the first along x.
+  double localizes_s{};  ///< From each room's middle a localizer sees straight ahead for so long,
+  double speed_m_s{};    ///< at the speed that the delivery's zone allows.
 };
 
 /// The shipped delivery_outdoor_to_indoor, seed 1, from take-off to the door.
@@ -61,7 +61,7 @@ struct RoomsScene {
 /// MAVBench's scanning: 100 x 100 m in five lanes.
 [[nodiscard]] Scenario paper_survey();
 
-/// @error `not_found`, `invalid_input` (the scenario), `failed` (a kernel, or no way to the goal).
+/// @error `not_found`, `invalid_input` (the scenario), `failed` (a kernel, or no path to the goal).
 [[nodiscard]] Result<DeliveryLoads> record(const DeliveryScene& scene);
 /// Perception only. Places that furniture takes are left out.
 [[nodiscard]] Result<KernelLoads> record(const RoomsScene& scene);

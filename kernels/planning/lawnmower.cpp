@@ -2,7 +2,7 @@
 //
 // Lanes to and fro, as one mows a lawn or ploughs a field (the boustrophedon of Choset and Pignon
 // 1997, doi:10.1007/978-1-4471-1273-0_32, in a single cell). Of the four corners to begin at, the
-// one with the shortest way from start to end is taken.
+// one with the shortest path from start to end is taken.
 
 #include "flyball/kernels/coverage_planner.h"
 #include "flyball/runtime/registry.h"

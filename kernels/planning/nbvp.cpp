@@ -32,7 +32,7 @@ constexpr double least_m3 = 0.1;  // A frontier's view that shows less is noise.
 struct Node {
   Viewpoint view{};
   int parent{-1};
-  double way_m{};
+  double path_m{};
   double own_m3{};
   double score_m3{};  ///< Eq. 3: along the branch, discounted.
 };
@@ -152,9 +152,9 @@ class Tree {
     Node added;
     added.view = view;
     added.parent = parent;
-    added.way_m = node(parent).way_m + (view.p_W - node(parent).view.p_W).norm();
+    added.path_m = node(parent).path_m + (view.p_W - node(parent).view.p_W).norm();
     added.own_m3 = flyball::is_spent(request_, view) ? 0.0 : gain_.gain_m3(view);
-    const double discount = std::exp(-request_.settings.discount_1_m * added.way_m);
+    const double discount = std::exp(-request_.settings.discount_1_m * added.path_m);
     added.score_m3 = node(parent).score_m3 + added.own_m3 * discount;  // eq. 3
     nodes_.push_back(added);
     const int index = static_cast<int>(nodes_.size()) - 1;

@@ -4,7 +4,7 @@
 // Probabilistic roadmap (Kavraki, Svestka, Latombe and Overmars 1996, doi:10.1109/70.508439) with
 // A* (Hart, Nilsson and Raphael 1968, doi:10.1109/TSSC.1968.300136) on it. It is built for one
 // question, for the map changes between two: as soon as start and goal are connected, the shortest
-// way over the roadmap is taken.
+// path over the roadmap is taken.
 //
 // Rejected: OMPL's PRM looks for the solution in a thread of its own, so its plan depends on the
 // host's load; its LazyPRM draws nearest neighbours from a process-wide seed.
@@ -76,7 +76,7 @@ class Roadmap {
   [[nodiscard]] bool is_connected() { return leader(start) == leader(goal); }
 
   /// @pre Start and goal are connected.
-  [[nodiscard]] std::vector<Vec3> shortest_way() const {
+  [[nodiscard]] std::vector<Vec3> shortest_path() const {
     std::vector<Vec3> points_W;
     const std::vector<std::size_t> before = search();
     for (std::size_t at = goal; at != start; at = before[at]) {
@@ -106,11 +106,11 @@ class Roadmap {
     std::vector<double> reached_m(milestones_.size(), far);
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const auto open_up = [&](std::size_t at, std::size_t from, double way_m) {
-      if (way_m < reached_m[at]) {
-        reached_m[at] = way_m;
+    const auto open_up = [&](std::size_t at, std::size_t from, double path_m) {
+      if (path_m < reached_m[at]) {
+        reached_m[at] = path_m;
         before[at] = from;
-        open.emplace(way_m + (milestones_[at].p_W - milestones_[goal].p_W).norm(), at);
+        open.emplace(path_m + (milestones_[at].p_W - milestones_[goal].p_W).norm(), at);
       }
     };
     open_up(start, start, 0.0);
@@ -146,7 +146,7 @@ flyball::StageResult search(std::size_t neighbours,
   }
   result.iterations = sampler.draws();
   if (roadmap.is_connected()) {
-    result.points_W = roadmap.shortest_way();
+    result.points_W = roadmap.shortest_path();
   }
   return result;
 }

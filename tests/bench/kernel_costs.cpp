@@ -19,8 +19,8 @@
 #include "maps/octomap_tree.h"
 #include "scenario/kernel_choice.h"
 #include "simulation/mission_setup.h"
+#include "studies/fit_localizer.h"
 #include "studies/fit_scenes.h"
-#include "studies/fit_sight.h"
 #include <algorithm>
 #include <cstdio>
 #include <map>

@@ -212,13 +212,13 @@ TEST(Flyball, looks_less_far_when_work_is_limited_and_no_less_near) {
   EXPECT_LT(less.count("traversals"), 1.1 * limit);
   EXPECT_GT(less.count("traversals"), 0.9 * limit);
   const auto place = kit::synthetic_scan(kit::Place::indoor, 0, range_m);
-  const Vec3 eye_W = place.X_WC.translation();
+  const Vec3 camera_W = place.X_WC.translation();
   for (double ahead_m = 0.3; ahead_m < 1.5; ahead_m += 0.1) {
-    const Vec3 p = eye_W + Vec3{ahead_m, 0.2 * ahead_m, 0.1 * ahead_m};
+    const Vec3 p = camera_W + Vec3{ahead_m, 0.2 * ahead_m, 0.1 * ahead_m};
     EXPECT_EQ(limited->view().state(p), all->view().state(p)) << ahead_m;
   }
-  EXPECT_EQ(limited->view().state(eye_W + Vec3{4.5, 0, 0}), CellState::unknown);
-  EXPECT_EQ(all->view().state(eye_W + Vec3{4.5, 0, 0}), CellState::free);
+  EXPECT_EQ(limited->view().state(camera_W + Vec3{4.5, 0, 0}), CellState::unknown);
+  EXPECT_EQ(all->view().state(camera_W + Vec3{4.5, 0, 0}), CellState::free);
 }
 
 TEST(Flyball, frees_declared_space_at_once_and_only_where_it_is_unknown) {

@@ -82,13 +82,13 @@ Consistency consistency(double step_m, double step_s) {
     DepthCameraSpec spec;
     spec.width_px = 224;
     spec.height_px = 168;
-    const kit::TexturedCamera eye{kit::circle_world(seed), spec, seed};
+    const kit::TexturedCamera rgbd{kit::circle_world(seed), spec, seed};
     const auto localizer = make();
     Work work;
     for (int i = 0; step_m * i < 20.0; ++i) {
       const Pose X_WC = kit::circle_pose(step_m * i);
       const auto fix = localizer->see(
-          eye.capture(X_WC, MissionTime{from_seconds(step_s * i)}, static_cast<std::uint64_t>(i)),
+          rgbd.capture(X_WC, MissionTime{from_seconds(step_s * i)}, static_cast<std::uint64_t>(i)),
           work);
       if (i > 0 && fix && fix->tracked) {
         const Vec3 miss = fix->X_WB.translation() - X_WC.translation();
@@ -172,7 +172,7 @@ TEST(VisualSlam, begins_a_young_map_anew_at_the_height_that_the_barometer_says) 
     (void)localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work);
   }
   clock.frames = 30;
-  Pose X_WC = kit::circle_pose(20.0);  // Nothing of what it knows is in sight.
+  Pose X_WC = kit::circle_pose(20.0);  // It sees nothing that it knows.
   const auto fix = localizer->see(clock.look(X_WC), work);
   ASSERT_TRUE(fix);
   EXPECT_TRUE(fix->tracked);

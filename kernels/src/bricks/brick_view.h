@@ -8,7 +8,7 @@
 /// cell without an obstacle every finest cell answers for itself: what was seen is free, the rest
 /// is unknown, except inside the cylinders that were declared clear. (So a coarse cell is free as a
 /// whole only when no part of it is unknown, and a switch to a coarser level forgets nothing.) A
-/// place that is not finite is unknown, a way there is blocked.
+/// place that is not finite is unknown, and a path there is blocked.
 
 #include "flyball/kernels/inflated_window.h"
 #include "flyball/runtime/occupancy.h"

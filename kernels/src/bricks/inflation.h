@@ -65,7 +65,7 @@ class Inflation {
 
   Source source_;
   Bits seen_{};       ///< What the map says.
-  Bits plane_{};      ///< One plane of it, on its way.
+  Bits plane_{};      ///< One plane of it, while it is computed.
   Bits before_{};     ///< The same, before it was widened.
   CellKey margin_{};  ///< Bricks before the window's first. Along x it is a whole word,
   int first_near_{};  ///< of which only the bricks from this

@@ -88,7 +88,7 @@ class LatticeMapper final : public Mapper {
     if (pending_ != nullptr) {
       map_.apply(pending_->bricks);
       if (keep_radius_m_ > 0.0) {
-        map_.drop_beyond(eye_W_, std::max(keep_radius_m_, range_m_), [this](const Chunk& chunk) {
+        map_.drop_beyond(camera_W_, std::max(keep_radius_m_, range_m_), [this](const Chunk& chunk) {
           if (forgotten_) {
             forgotten_->append(chunk);
           }
@@ -225,7 +225,7 @@ class LatticeMapper final : public Mapper {
                  const MapperSettings& settings,
                  int level,
                  Exact&& exact) {
-    eye_W_ = X_WC.translation();
+    camera_W_ = X_WC.translation();
     range_m_ = settings.range_m;
     const bool looks = cloud_C.camera && (level > 0 || front_end_ == FrontEnd::pyramid);
     const ScanMasks* stock = nullptr;
@@ -281,7 +281,7 @@ class LatticeMapper final : public Mapper {
   double range_m_{};  ///< Of the pending scan.
   const ScanMasks* pending_{};
   int pending_level_{};
-  Vec3 eye_W_{Vec3::Zero()};  ///< Of the pending scan.
+  Vec3 camera_W_{Vec3::Zero()};  ///< Of the pending scan.
 
  public:
   LatticeMapper() { begin(default_finest_m); }

@@ -12,8 +12,8 @@
 /// and nearest obstacle take it as it is.) A coarse map's free cube may hold a wall as well: a
 /// layer can name those that surely do not (scans/clear_cells.h), and then the others stand for
 /// unknown, too, where it answers for a finer map. What no map knows is unknown, except inside
-/// the cylinders that were declared clear. A place that is not finite is unknown, a way there is
-/// blocked.
+/// the cylinders that were declared clear. A place that is not finite is unknown, and a path there
+/// is blocked.
 
 #include "flyball/runtime/occupancy.h"
 

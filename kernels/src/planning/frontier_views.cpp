@@ -12,9 +12,9 @@ constexpr double cube_m = 1.2;
 constexpr double same_place_m = 0.4;
 constexpr double same_heading_rad = 0.35;
 constexpr double given_up_m = 0.5;
-// What a view costs beside the way to it (turning, mapping, the next decision) takes as long as
-// this way at indoor speed.
-constexpr double fixed_way_m = 3.0;
+// A view also takes time for turning, mapping and the next decision. Together that is as long as a
+// path of this length at indoor speed.
+constexpr double fixed_path_m = 3.0;
 constexpr std::size_t looked_at_together = 12;
 
 struct Gathered {
@@ -47,15 +47,15 @@ class Search {
   Search(const ExploreRequest& request, const StateGrid& grid, const StandingPlaces& places)
       : request_{request}, grid_{grid}, places_{places} {}
 
-  /// The nearest place from which the frontier is in sight.
+  /// The nearest place from which the frontier is visible.
   [[nodiscard]] std::optional<FrontierView> view_of(const Frontier& frontier) {
     const Vec3 target_W = grid_.centre(frontier.cell);
     for (const Place& place : places_.thinned()) {
-      const Vec3 eye_W = grid_.centre(place.cell);
-      const Viewpoint view{eye_W, yaw_of(target_W - eye_W)};
-      if (is_in_sight(target_W - eye_W) && !is_spent(request_, view) &&
-          grid_.sees(eye_W, frontier.cell, ray_cells_)) {
-        return FrontierView{view, place.way_m, 0.0};
+      const Vec3 camera_W = grid_.centre(place.cell);
+      const Viewpoint view{camera_W, yaw_of(target_W - camera_W)};
+      if (is_in_view(target_W - camera_W) && !is_spent(request_, view) &&
+          grid_.sees(camera_W, frontier.cell, ray_cells_)) {
+        return FrontierView{view, place.path_m, 0.0};
       }
     }
     return std::nullopt;
@@ -65,7 +65,7 @@ class Search {
  private:
   // The frontier's middle, and something behind it, lies in the field; half a metre away it does
   // not matter which cell of it is looked at.
-  [[nodiscard]] bool is_in_sight(const Vec3& to) const {
+  [[nodiscard]] bool is_in_view(const Vec3& to) const {
     constexpr double behind_m = 1.0;
     const double across_m = to.head<2>().norm();
     return across_m > 0.5 &&
@@ -79,8 +79,8 @@ class Search {
   double ray_cells_{};
 };
 
-double worth(double seen, double way_m) {
-  return seen / (way_m + fixed_way_m);
+double worth(double seen, double path_m) {
+  return seen / (path_m + fixed_path_m);
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
   std::vector<std::pair<double, FrontierView>> candidates;
   for (const Frontier& frontier : find_frontiers(grid, request.volume_W)) {
     if (const auto view = search.view_of(frontier)) {
-      candidates.emplace_back(worth(frontier.faces, view->way_m), *view);
+      candidates.emplace_back(worth(frontier.faces, view->path_m), *view);
     }
   }
   ray_cells += search.ray_cells();
@@ -142,7 +142,7 @@ std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
     FrontierView& view = candidates[i].second;
     view.gain_m3 = gain.gain_m3(view.view);
     if (view.gain_m3 >= least_gain_m3 &&
-        (!best || worth(view.gain_m3, view.way_m) > worth(best->gain_m3, best->way_m))) {
+        (!best || worth(view.gain_m3, view.path_m) > worth(best->gain_m3, best->path_m))) {
       best = view;
     }
   }

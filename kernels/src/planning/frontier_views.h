@@ -21,7 +21,7 @@ struct Frontier {
 
 struct FrontierView {
   Viewpoint view{};
-  double way_m{};
+  double path_m{};
   double gain_m3{};
 };
 

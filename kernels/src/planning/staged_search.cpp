@@ -19,7 +19,7 @@ constexpr double margin_m = 0.003;
 constexpr std::array<double, 2> box_margins_m{8.0, 20.0};
 
 /// Start and goal with `around_m` beside them, inside the bounds. The height is that of the bounds:
-/// a way over or under something is often the shortest. A vehicle that has drifted out of the
+/// a path over or under something is often the shortest. A vehicle that has drifted out of the
 /// bounds may still start.
 Aabb search_box(const PlanRequest& request, double around_m) {
   const Vec3 around{around_m, around_m, 0.0};

@@ -41,7 +41,7 @@ StandingPlaces::StandingPlaces(const StateGrid& grid,
                                const Cylinder& body,
                                const Aabb& bounds_W,
                                const Vec3& from_W)
-    : grid_{grid}, blocked_(grid.size(), false), way_(grid.size(), far) {
+    : grid_{grid}, blocked_(grid.size(), false), steps_(grid.size(), far) {
   block_near_obstacles(body);
   GridCell start{};
   if (find_start(bounds_W, from_W, start)) {
@@ -109,21 +109,21 @@ bool StandingPlaces::find_start(const Aabb& bounds_W, const Vec3& from_W, GridCe
   return best_m < most_off_m;
 }
 
-// Breadth first: the queue itself is sorted by way.
+// The search is breadth first, so the queue itself is sorted by length of path.
 void StandingPlaces::flood(const GridCell& start, const Aabb& bounds_W) {
   std::vector<GridCell> queue{start};
-  way_[grid_.index(start)] = 0;
+  steps_[grid_.index(start)] = 0;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const GridCell cell = queue[i];
-    const std::uint32_t way = way_[grid_.index(cell)];
+    const std::uint32_t steps = steps_[grid_.index(cell)];
     if (cell[0] % 2 == 0 && cell[1] % 2 == 0) {
-      thinned_.push_back({cell, way * grid_.cell_m()});
+      thinned_.push_back({cell, steps * grid_.cell_m()});
     }
     for (const GridCell& step : neighbours) {
       const GridCell next = sum(cell, step);
       cells_ += 1.0;
-      if (is_open(next, bounds_W) && way_[grid_.index(next)] == far) {
-        way_[grid_.index(next)] = way + 1;
+      if (is_open(next, bounds_W) && steps_[grid_.index(next)] == far) {
+        steps_[grid_.index(next)] = steps + 1;
         queue.push_back(next);
       }
     }

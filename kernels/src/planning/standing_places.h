@@ -12,7 +12,7 @@ namespace flyball {
 /// A cell in whose centre the body can stand.
 struct Place {
   GridCell cell{};
-  double way_m{};  ///< From the start, along the cells' edges.
+  double path_m{};  ///< From the start, along the cells' edges.
 };
 
 class StandingPlaces {
@@ -30,7 +30,7 @@ class StandingPlaces {
   /// Cells that the flood looked at.
   [[nodiscard]] double cells() const { return cells_; }
   [[nodiscard]] bool reaches(const GridCell& cell) const {
-    return grid_.contains(cell) && way_[grid_.index(cell)] != far;
+    return grid_.contains(cell) && steps_[grid_.index(cell)] != far;
   }
 
  private:
@@ -46,7 +46,7 @@ class StandingPlaces {
   const StateGrid& grid_;
   GridCell reach_{};  ///< Of the body, along each axis.
   std::vector<bool> blocked_{};
-  std::vector<std::uint32_t> way_{};  ///< In cells.
+  std::vector<std::uint32_t> steps_{};  ///< In cells.
   std::vector<Place> thinned_{};
   double cells_{};
 };

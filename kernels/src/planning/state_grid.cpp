@@ -27,9 +27,9 @@ GridCell StateGrid::cell_at(std::size_t index) const {
 }
 
 bool StateGrid::sees(const Vec3& from_W, const GridCell& cell, double& crossed) const {
-  return walk_cells(from_W, centre(cell), cell_m_, [&](const GridCell& on_way) {
+  return walk_cells(from_W, centre(cell), cell_m_, [&](const GridCell& on_ray) {
     crossed += 1.0;
-    return on_way == cell || at(on_way) != CellState::occupied;
+    return on_ray == cell || at(on_ray) != CellState::occupied;
   });
 }
 

@@ -45,9 +45,9 @@ double ViewGain::gain_m3(const Viewpoint& view) {
   return seen * grid_.cell_m() * grid_.cell_m() * grid_.cell_m();
 }
 
-// The cells of a column share their bearing, so what is out of sight costs little.
-double ViewGain::seen_in_column(const Vec3& eye_W, const Vec3& heading, GridCell cell, int top) {
-  const Vec3 to = grid_.centre(cell) - eye_W;
+// The cells of a column share their bearing, so columns outside of the view cost little.
+double ViewGain::seen_in_column(const Vec3& camera_W, const Vec3& heading, GridCell cell, int top) {
+  const Vec3 to = grid_.centre(cell) - camera_W;
   const double forward = heading.x() * to.x() + heading.y() * to.y();
   const double left = heading.x() * to.y() - heading.y() * to.x();
   const double spare_m2 = range_m_ * range_m_ - to.head<2>().squaredNorm();
@@ -60,7 +60,7 @@ double ViewGain::seen_in_column(const Vec3& eye_W, const Vec3& heading, GridCell
     if (std::abs(z_m) <= up_m) {
       cells_ += 1.0;
       const bool is_new = grid_.at(cell) == CellState::unknown;
-      seen += is_new && grid_.sees(eye_W, cell, ray_cells_) ? 1.0 : 0.0;
+      seen += is_new && grid_.sees(camera_W, cell, ray_cells_) ? 1.0 : 0.0;
     }
   }
   return seen;

@@ -27,7 +27,7 @@ class ViewGain {
 
  private:
   /// From `cell` up to the one at height `top`.
-  [[nodiscard]] double seen_in_column(const Vec3& eye_W,
+  [[nodiscard]] double seen_in_column(const Vec3& camera_W,
                                       const Vec3& heading,
                                       GridCell cell,
                                       int top);

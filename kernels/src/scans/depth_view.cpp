@@ -36,12 +36,12 @@ void DepthView::look(const PointCloud& cloud_C, const Pose& X_WC, double range_m
   aim(X_WC, range_m, {});
 }
 
-void DepthView::look(const Pose& X_WC, double range_m, SightMargins margins) {
+void DepthView::look(const Pose& X_WC, double range_m, ViewMargins margins) {
   depth_.finish(loops_);
   aim(X_WC, range_m, margins);
 }
 
-void DepthView::aim(const Pose& X_WC, double range_m, SightMargins margins) {
+void DepthView::aim(const Pose& X_WC, double range_m, ViewMargins margins) {
   margins_ = margins;
   const Eigen::Matrix3d R_CW = X_WC.linear().transpose();
   measure_cubes(R_CW, range_m);
@@ -152,28 +152,28 @@ bool DepthView::sees_through(const Eigen::Vector3f& centre_C, int level) const {
          centre_C.z() + extent.half.z() <= depth_.span(image.pixels(probe_.grid), texels).least;
 }
 
-Sight DepthView::sight_of(const Eigen::Vector3f& centre_C, int level) const {
+Visibility DepthView::visibility_of(const Eigen::Vector3f& centre_C, int level) const {
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();
   const float last_z = centre_C.z() + extent.half.z();
   const float squared_distance = centre_C.squaredNorm();
   if (last_z <= probe_.nearest_m || squared_distance > extent.squared_far) {
-    return Sight::none;
+    return Visibility::none;
   }
   if (first_z <= probe_.nearest_m) {
-    return Sight::part;
+    return Visibility::part;
   }
   const Image image = image_of(centre_C, extent);
   if (image.is_beside(probe_.grid)) {
-    return Sight::none;
+    return Visibility::none;
   }
   const DepthSpan behind = depth_.span(image.pixels(probe_.grid));
   if (first_z >= behind.most) {
-    return Sight::none;
+    return Visibility::none;
   }
   const bool is_whole = image.is_inside(probe_.grid) && squared_distance <= extent.squared_near &&
                         last_z <= behind.least;
-  return is_whole ? Sight::whole : Sight::part;
+  return is_whole ? Visibility::whole : Visibility::part;
 }
 
 }  // namespace flyball

@@ -12,14 +12,14 @@
 namespace flyball {
 
 /// How much of a block the camera sees through.
-enum class Sight : std::uint8_t {
+enum class Visibility : std::uint8_t {
   none,   ///< Behind every surface, out of view or out of range.
   part,   ///< Perhaps some.
   whole,  ///< All: in view, in range, and nearer than the least depth behind it.
 };
 
 /// How a block is held against an image.
-struct SightMargins {
+struct ViewMargins {
   double nearest_m{0.05};  ///< Nearer to the camera, a block's image has no bounds.
   double slack_m{0.0};     ///< Blocks are taken for wider by this to each side.
   /// The probe says yes only where the ray through the pixel at a cell's middle ends behind the
@@ -35,16 +35,17 @@ class DepthView {
   void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
   /// The same in two steps, for whoever has the depths of an image: returns where they go.
   float* begin(const Intrinsics& camera) { return depth_.begin(camera); }
-  void look(const Pose& X_WC, double range_m, SightMargins margins);
+  void look(const Pose& X_WC, double range_m, ViewMargins margins);
   /// The box in W around the camera and all that it sees within the range, and a margin.
   [[nodiscard]] Aabb box_of_view(const Pose& X_WC, double range_m, double margin_m) const;
   /// A cube of level 1..5 around a point of C.
-  [[nodiscard]] Sight sight_of(const Eigen::Vector3f& centre_C, int level) const;
-  /// `sight_of` looks up to the cube's own width beside it, where the ground may come nearer than
-  /// the cube. This looks closely, for several times as much work.
+  [[nodiscard]] Visibility visibility_of(const Eigen::Vector3f& centre_C, int level) const;
+  /// `visibility_of` looks up to the cube's own width beside it, where the ground may come nearer
+  /// than the cube. This looks closely, for several times as much work.
   [[nodiscard]] bool sees_through(const Eigen::Vector3f& centre_C, int level) const;
   /// Of the eight cubes in a cube of level 2..5.
-  [[nodiscard]] OctantSight sight_of_octants(const Eigen::Vector3f& centre_C, int level) const {
+  [[nodiscard]] OctantVisibility visibility_of_octants(const Eigen::Vector3f& centre_C,
+                                                       int level) const {
     return loops_.see_octants(octants_[static_cast<std::size_t>(level)], centre_C.data());
   }
   [[nodiscard]] std::uint32_t whole_octants(const Eigen::Vector3f& centre_C, int level) const {
@@ -74,14 +75,14 @@ class DepthView {
   };
   struct Image;
   [[nodiscard]] Image image_of(const Eigen::Vector3f& centre_C, const Extent& extent) const;
-  void aim(const Pose& X_WC, double range_m, SightMargins margins);
+  void aim(const Pose& X_WC, double range_m, ViewMargins margins);
   void measure_cubes(const Eigen::Matrix3d& R_CW, double range_m);
   void aim_octants(const Eigen::Matrix3d& R_CW);
   void aim_probe(const Eigen::Matrix3d& R_CW, double range_m);
 
   double finest_m_;
   const InnerLoops& loops_;
-  SightMargins margins_{};
+  ViewMargins margins_{};
   DepthPyramid depth_{};
   std::array<Extent, chunk_level + 1> extents_{};
   std::array<OctantProbe, chunk_level + 1> octants_{};  ///< By the level of the outer cube.

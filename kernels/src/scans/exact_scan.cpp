@@ -74,16 +74,17 @@ const ScanMasks& ExactScan::walk(const PointCloud& cloud_C, const Pose& X_WC, do
 
 void ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m) {
   const Eigen::Vector3f origin_W = X_WC.translation().cast<float>();
-  eye_W_ = origin_W.cast<double>();
-  const CellKey cell = lattice_.cell(eye_W_);
-  const Vec3 slack_m = eye_W_.cwiseAbs().unaryExpr([&](double m) { return slack_at(m + range_m); });
-  beside_ = borders_near(eye_W_, cell, 3.0 * slack_m);
+  camera_W_ = origin_W.cast<double>();
+  const CellKey cell = lattice_.cell(camera_W_);
+  const Vec3 slack_m =
+      camera_W_.cwiseAbs().unaryExpr([&](double m) { return slack_at(m + range_m); });
+  beside_ = borders_near(camera_W_, cell, 3.0 * slack_m);
   corner_m_ = 4.0 * slack_m.maxCoeff();
   const DepthImage& image = pixels.image.value();
-  ways_.look(image, pixels.reach_m, range_m);
-  ways_.lay_ends(X_WC, slack_m.maxCoeff(), view_.begin(image.camera), loops_);
+  image_rays_.look(image, pixels.reach_m, range_m);
+  image_rays_.lay_ends(X_WC, slack_m.maxCoeff(), view_.begin(image.camera), loops_);
   const double block_slack_m =
-      slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
+      slack_at(camera_W_.cwiseAbs().maxCoeff() + range_m + lattice_.cell_m(chunk_level));
   view_.look(X_WC, range_m, {block_slack_m, block_slack_m, true});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box_.half[axis] = static_cast<float>(0.5 * frame_.cell_m);
@@ -101,14 +102,15 @@ void ExactScan::look(const RangeImage& pixels, const Pose& X_WC, double range_m)
 
 void ExactScan::aim_ends(const CellKey& own, double range_m) {
   constexpr double share = 1.2e-7;  // of a place in W: what stock's floats may be off, twice
-  const Vec3 in_cell = eye_W_ - lattice_.cube(own, 0).min;
+  const Vec3 in_cell = camera_W_ - lattice_.cube(own, 0).min;
   ends_.range_m = static_cast<float>(range_m);
   ends_.cells_per_m = static_cast<float>(frame_.cells_per_m);
-  ends_.range_doubt_m = static_cast<float>(3.0 * slack_at(eye_W_.cwiseAbs().maxCoeff() + range_m));
+  ends_.range_doubt_m =
+      static_cast<float>(3.0 * slack_at(camera_W_.cwiseAbs().maxCoeff() + range_m));
   ends_.window = window_.chunks();
   // A cut moves its end along the ray by what the farthest coordinate's float is off.
   ends_.cut_doubt = static_cast<float>(frame_.cells_per_m * 2.0 * share *
-                                       (eye_W_.cwiseAbs().maxCoeff() + range_m));
+                                       (camera_W_.cwiseAbs().maxCoeff() + range_m));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto row = static_cast<int>(axis);
     for (std::size_t column = 0; column < 3; ++column) {
@@ -116,8 +118,9 @@ void ExactScan::aim_ends(const CellKey& own, double range_m) {
     }
     ends_.in_cell[axis] = static_cast<float>(in_cell(row));
     ends_.start[axis] = frame_.start[axis] - ends_.window.first[axis];
-    ends_.doubt[axis] = static_cast<float>(
-        frame_.cells_per_m * (2.0 * slack_at(range_m) + share * (std::abs(eye_W_(row)) + range_m)));
+    ends_.doubt[axis] =
+        static_cast<float>(frame_.cells_per_m * (2.0 * slack_at(range_m) +
+                                                 share * (std::abs(camera_W_(row)) + range_m)));
   }
 }
 
@@ -143,9 +146,9 @@ bool ExactScan::knows_corner() {
     return true;
   }
   constexpr int apart_px = 16;
-  for (int v = 0; v < ways_.height_px(); v += apart_px) {
-    for (int u = 0; u < ways_.width_px(); u += apart_px) {
-      free_pixel(v * ways_.width_px() + u);
+  for (int v = 0; v < image_rays_.height_px(); v += apart_px) {
+    for (int u = 0; u < image_rays_.width_px(); u += apart_px) {
+      free_pixel(v * image_rays_.width_px() + u);
     }
   }
   for (unsigned which = 1; which < 8; ++which) {
@@ -154,7 +157,7 @@ bool ExactScan::knows_corner() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const bool turns = (which >> axis & 1U) != 0;
       key[axis] += turns ? beside_[axis] : 0;
-      is_beside = is_beside && (!turns || ways_.any_towards(axis, beside_[axis]));
+      is_beside = is_beside && (!turns || image_rays_.any_towards(axis, beside_[axis]));
     }
     const CellKey cell{key[0], key[1], key[2]};
     if (is_beside && (window_.marks(window_.place_of_cell(cell)) >> bit_in_brick(cell) & 1U) == 0) {
@@ -174,8 +177,8 @@ void ExactScan::span_window(const Pose& X_WC) {
 
 /// Counts what rays cross, and marks hits.
 void ExactScan::settle() {
-  for (int v = 0; v < ways_.height_px(); ++v) {
-    for (int u = 0; u < ways_.width_px(); u += static_cast<int>(lanes)) {
+  for (int v = 0; v < image_rays_.height_px(); ++v) {
+    for (int u = 0; u < image_rays_.width_px(); u += static_cast<int>(lanes)) {
       settle_block(u, v);
     }
   }
@@ -185,12 +188,12 @@ void ExactScan::settle_block(int u, int v) {
   PointBlock points;
   PixelKinds kinds;
   RayEnds settled;
-  ways_.points_from(u, v, points, kinds, loops_);
+  image_rays_.points_from(u, v, points, kinds, loops_);
   loops_.settle_rays(points, kinds, ends_, settled);
   measured_ += count_bits(settled.rays);
   traversals_ += static_cast<std::size_t>(settled.steps);
   for (std::uint64_t left = settled.rays & ~settled.sure; left != 0; left &= left - 1) {
-    traversals_ += count_pixel(v * ways_.width_px() + u + static_cast<int>(lowest_bit(left)));
+    traversals_ += count_pixel(v * image_rays_.width_px() + u + static_cast<int>(lowest_bit(left)));
   }
   for (const std::int32_t at : settled.cells) {
     if (at >= 0) {
@@ -216,7 +219,7 @@ void ExactScan::walk_doubtful() {
 
 /// The ray of a pixel in OctoMap's arithmetic. Nothing where nothing was measured.
 std::optional<ExactScan::StockRay> ExactScan::stock_ray(int pixel) {
-  const auto end_C = ways_.point(pixel);
+  const auto end_C = image_rays_.point(pixel);
   if (!end_C) {
     return std::nullopt;
   }

@@ -19,9 +19,9 @@
 
 #include "bricks/mask_window.h"
 #include "depth_view.h"
+#include "image_rays.h"
 #include "maps/octomap_tree.h"
 #include "maps/ray_walk.h"
-#include "pixel_ways.h"
 #include "ray_scan.h"
 #include <optional>
 
@@ -48,7 +48,7 @@ class ExactScan {
  private:
   struct Block {
     Eigen::Vector3f centre_C;
-    Vec3 centre_W;      ///< From the eye.
+    Vec3 centre_W;      ///< From the camera.
     std::size_t place;  ///< Of its first brick in the window.
     int level;
   };
@@ -89,11 +89,11 @@ class ExactScan {
   const InnerLoops& loops_;
   RayScan rays_;
   DepthView view_;
-  PixelWays ways_{};
+  ImageRays image_rays_{};
   MaskWindow window_{};
   RayFrame frame_{};
-  Vec3 eye_W_{Vec3::Zero()};     ///< As the rays begin: rounded to floats.
-  std::array<int, 3> beside_{};  ///< The eye is as good as on these borders of its cell.
+  Vec3 camera_W_{Vec3::Zero()};  ///< As the rays begin: rounded to floats.
+  std::array<int, 3> beside_{};  ///< The camera is as good as on these borders of its cell.
   double corner_m_{};            ///< So near to them, at most.
   PoseRows rows_{};
   EndFrame ends_{};

@@ -10,7 +10,8 @@
 namespace flyball {
 
 void ExactScan::free_seen(const Pose& X_CW) {
-  if (traversals_ > 0) {  // The first cell of every ray that leaves it; it may lie behind the eye.
+  if (traversals_ >
+      0) {  // The first cell of every ray that leaves it; it may lie behind the camera.
     free_cell({frame_.start[0], frame_.start[1], frame_.start[2]});
   }
   for (int z = first_chunk_.z; z <= last_chunk_.z; ++z) {
@@ -25,12 +26,12 @@ void ExactScan::free_seen(const Pose& X_CW) {
 void ExactScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   const Aabb cube = lattice_.cube(chunk, chunk_level);
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
-  const Block block{(X_CW * centre_W).cast<float>(), centre_W - eye_W_, window_.place(chunk),
+  const Block block{(X_CW * centre_W).cast<float>(), centre_W - camera_W_, window_.place(chunk),
                     chunk_level};
-  const Sight sight = view_.sight_of(block.centre_C, block.level);
-  if (sight == Sight::whole && fills_pixels(block)) {
+  const Visibility visible = view_.visibility_of(block.centre_C, block.level);
+  if (visible == Visibility::whole && fills_pixels(block)) {
     window_.free_block(block.place, std::size_t{512});
-  } else if (sight != Sight::none) {
+  } else if (visible != Visibility::none) {
     free_inside(block);
   }
 }
@@ -56,13 +57,13 @@ void ExactScan::free_inside(const Block& block) {
     free_brick(block);
     return;
   }
-  const OctantSight sight = view_.sight_of_octants(block.centre_C, block.level);
+  const OctantVisibility visible = view_.visibility_of_octants(block.centre_C, block.level);
   const std::size_t bricks = std::size_t{1}
                              << 3 * static_cast<unsigned>(block.level - 1 - brick_level);
-  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+  for (std::uint64_t left = visible.whole | visible.part; left != 0; left &= left - 1) {
     const auto octant = static_cast<unsigned>(lowest_bit(left));
     const Block part = octant_of(block, octant, block.place + octant * bricks);
-    if ((sight.whole >> octant & 1U) != 0 && fills_pixels(part)) {
+    if ((visible.whole >> octant & 1U) != 0 && fills_pixels(part)) {
       window_.free_block(part.place, bricks);
     } else {
       free_inside(part);
@@ -71,16 +72,16 @@ void ExactScan::free_inside(const Block& block) {
 }
 
 void ExactScan::free_brick(const Block& brick) {
-  const OctantSight sight = view_.sight_of_octants(brick.centre_C, brick_level);
+  const OctantVisibility visible = view_.visibility_of_octants(brick.centre_C, brick_level);
   std::uint64_t free = 0;
-  if (sight.part != 0 && fills_pixels(brick)) {
+  if (visible.part != 0 && fills_pixels(brick)) {
     free = loops_.seen_cells(view_.probe(), brick.centre_C.data());
   }
-  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+  for (std::uint64_t left = visible.whole | visible.part; left != 0; left &= left - 1) {
     const auto octant = static_cast<unsigned>(lowest_bit(left));
     const Block eighth = octant_of(brick, octant, brick.place);
     const unsigned first_bit = (octant & 1U) * 2 + (octant >> 1U & 1U) * 8 + (octant >> 2U) * 32;
-    if ((sight.whole >> octant & 1U) != 0 && fills_pixels(eighth)) {
+    if ((visible.whole >> octant & 1U) != 0 && fills_pixels(eighth)) {
       free |= std::uint64_t{0x330033} << first_bit;
     } else {
       free |= crossed_cells(eighth, first_bit, free | window_.hits(brick.place));
@@ -99,9 +100,9 @@ std::uint64_t ExactScan::crossed_cells(const Block& eighth,
   if ((~settled >> first_bit & 0x330033) == 0) {
     return 0;
   }
-  const OctantSight sight = view_.sight_of_octants(eighth.centre_C, 1);
+  const OctantVisibility visible = view_.visibility_of_octants(eighth.centre_C, 1);
   std::uint64_t crossed = 0;
-  for (std::uint64_t left = sight.whole | sight.part; left != 0; left &= left - 1) {
+  for (std::uint64_t left = visible.whole | visible.part; left != 0; left &= left - 1) {
     const auto octant = static_cast<unsigned>(lowest_bit(left));
     const unsigned step = (octant & 1U) + (octant >> 1U & 1U) * 4 + (octant >> 2U) * 16;
     const std::uint64_t bit = std::uint64_t{1} << (first_bit + step);
@@ -109,7 +110,7 @@ std::uint64_t ExactScan::crossed_cells(const Block& eighth,
       continue;
     }
     const Block cell = octant_of(eighth, octant, eighth.place);
-    const bool is_whole = (sight.whole >> octant & 1U) != 0 && fills_pixels(cell);
+    const bool is_whole = (visible.whole >> octant & 1U) != 0 && fills_pixels(cell);
     crossed |= is_whole || is_crossed(cell) ? bit : 0;
   }
   return crossed;
@@ -131,9 +132,9 @@ bool ExactScan::is_crossed(const Block& cell) {
   }
   box_.depth = view_.nearest_depth_m(cell.centre_C, 0);
   const PixelBlock pixels = view_.pixels_around(cell.centre_C, 0);
-  const Crossing crossing = ways_.cross(box_, pixels, loops_);
+  const Crossing crossing = image_rays_.cross(box_, pixels, loops_);
   if (!crossing.is_sure && crossing.is_possible && !touches_eye(cell)) {
-    ways_.append_doubtful(box_, pixels, loops_, doubtful_px_);
+    image_rays_.append_doubtful(box_, pixels, loops_, doubtful_px_);
   }
   return crossing.is_sure;
 }

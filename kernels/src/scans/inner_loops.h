@@ -148,7 +148,7 @@ struct alignas(32) OctantProbe {
 };
 
 /// A bit for each octant; none where it is behind every surface, out of view or out of range.
-struct OctantSight {
+struct OctantVisibility {
   std::uint32_t whole;  ///< In view, in range, and nearer than the least depth behind it.
   std::uint32_t part;   ///< Perhaps some of it is seen.
 };
@@ -200,7 +200,7 @@ struct InnerLoops {
   /// than the depth of the pixel in which their centre is.
   std::uint64_t (*seen_cells)(const CellProbe& probe, const float* centre_C);
   /// What the image says about the eighths of the cube around `centre_C`.
-  OctantSight (*see_octants)(const OctantProbe& probe, const float* centre_C);
+  OctantVisibility (*see_octants)(const OctantProbe& probe, const float* centre_C);
   /// The same, when only those seen as a whole matter.
   std::uint32_t (*whole_octants)(const OctantProbe& probe, const float* centre_C);
   /// Where rays end, as depths: infinite beyond the range, 0 where nothing was measured.

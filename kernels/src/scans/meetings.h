@@ -80,7 +80,7 @@ struct PixelBlock {
   int v1;
 };
 
-/// A box in W, from the eye [m].
+/// A box in W, from the camera [m].
 struct BoxOfCell {
   std::array<float, 3> centre;
   std::array<float, 3> half;

@@ -99,10 +99,10 @@ void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   const Aabb cube = lattice_.cube(chunk, chunk_level);
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
   const Block block{(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level};
-  const Sight sight = view_.sight_of(block.centre_C, block.level);
-  if (sight == Sight::whole) {
+  const Visibility visible = view_.visibility_of(block.centre_C, block.level);
+  if (visible == Visibility::whole) {
     window_.free_block(block.place, bricks_in(chunk_level));
-  } else if (sight == Sight::part) {
+  } else if (visible == Visibility::part) {
     free_inside(block);
   }
 }
@@ -142,12 +142,12 @@ void PyramidScan::free_closely(const Block& block) {
 
 void PyramidScan::free_octants(const Block& block) {
   masks_.blocks += 8.0;
-  const OctantSight sight = view_.sight_of_octants(block.centre_C, block.level);
+  const OctantVisibility visible = view_.visibility_of_octants(block.centre_C, block.level);
   const std::size_t bricks = bricks_in(block.level - 1);
-  for (std::uint64_t left = sight.whole; left != 0; left &= left - 1) {
+  for (std::uint64_t left = visible.whole; left != 0; left &= left - 1) {
     window_.free_block(block.place + lowest_bit(left) * bricks, bricks);
   }
-  for (std::uint64_t left = sight.part; left != 0; left &= left - 1) {
+  for (std::uint64_t left = visible.part; left != 0; left &= left - 1) {
     const std::size_t octant = lowest_bit(left);
     free_inside({block.centre_C + view_.to_octant(block.level, static_cast<unsigned>(octant)),
                  block.place + octant * bricks, block.level - 1});

@@ -53,7 +53,7 @@ class RayScan {
   std::vector<PointBlock> ends_{};  ///< First those that were measured as hits.
   MarkWindow window_{};
   WindowAxes axes_{};
-  std::vector<std::uint32_t> places_{};  ///< Of sixteen rays on their way.
+  std::vector<std::uint32_t> places_{};  ///< Of sixteen rays that are being walked.
   ScanMasks masks_{};
   std::size_t traversals_{};
   std::size_t ambiguous_{};

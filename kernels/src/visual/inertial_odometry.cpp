@@ -100,7 +100,7 @@ void InertialOdometry::begin(MissionTime now) {
   constexpr double levelled_tilt_rad = 0.05;  // .5 m/s^2 of acceleration, or of bias.
   filter_.start(X_WB, X_WB_start_ ? placed_tilt_rad : levelled_tilt_rad);
   waiting_.clear();
-  now_ = last_sight_ = last_bound_ = now;
+  now_ = last_seen_ = last_bound_ = now;
   has_begun_ = true;
 }
 
@@ -193,10 +193,10 @@ std::optional<Innovation> InertialOdometry::told_by(const std::vector<Glimpse>& 
   if (!p_W) {
     return std::nullopt;
   }
-  Innovation sight = sight_innovation(filter_, glimpses, *p_W, ray_sigma);
-  const auto rows = static_cast<double>(sight.residual.size());
-  return filter_.surprise(sight) < chi_square_95(rows) ? std::optional{std::move(sight)}
-                                                       : std::nullopt;
+  Innovation innovation = landmark_innovation(filter_, glimpses, *p_W, ray_sigma);
+  const auto rows = static_cast<double>(innovation.residual.size());
+  return filter_.surprise(innovation) < chi_square_95(rows) ? std::optional{std::move(innovation)}
+                                                            : std::nullopt;
 }
 
 int InertialOdometry::use_tracks(double ray_sigma, Work& work) {
@@ -275,7 +275,7 @@ void InertialOdometry::look(const VisualFrame& frame,
     }
   }
   if (outcome.tracks >= enough_tracks) {
-    last_sight_ = frame.captured;
+    last_seen_ = frame.captured;
   }
   if (is_bound || outcome.believed > 0) {
     last_bound_ = frame.captured;
@@ -299,7 +299,7 @@ Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& wo
     look(frame, *points, outcome, work);
   }
   has_failed_ = has_failed_ || is_absurd(filter_);
-  outcome.tracked = makes_sense() && frame.captured - last_sight_ < blind_limit;
+  outcome.tracked = makes_sense() && frame.captured - last_seen_ < blind_limit;
   return outcome;
 }
 

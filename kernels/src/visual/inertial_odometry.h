@@ -6,7 +6,7 @@
 
 #include "visual/feature_tracks.h"
 #include "visual/inertial_filter.h"
-#include "visual/sight_update.h"
+#include "visual/landmark_update.h"
 #include "visual/standstill.h"
 #include <map>
 
@@ -22,7 +22,7 @@ struct OdometryOutcome {
 };
 
 /// Multi-state constraint Kalman filter: Mourikis & Roumeliotis 2007. Corners are followed from
-/// image to image; when one is out of sight, or as old as the window, it binds the poses that saw
+/// image to image; when one is out of view, or as old as the window, it binds the poses that saw
 /// it. Depth is used where the frame has it. No map and no loops: the error grows with the path.
 class InertialOdometry {
  public:
@@ -72,7 +72,7 @@ class InertialOdometry {
   ImuSample last_{};
   std::optional<Pose> X_WB_start_{};
   MissionTime now_{};
-  MissionTime last_sight_{};
+  MissionTime last_seen_{};
   MissionTime last_bound_{};  ///< Tracks, or that it stood, have corrected the filter.
   bool has_begun_{};
   bool has_moved_{};

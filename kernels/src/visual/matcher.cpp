@@ -79,7 +79,8 @@ bool is_inside(const CameraModel& camera, const Eigen::Vector2d& pixel) {
          pixel.y() < camera.height_px;
 }
 
-/// In which octave a landmark should show: nearer than at first sight, in a coarser one.
+/// The octave in which a landmark should show: a coarser one when it is nearer than in the first
+/// view.
 double octave_from(const Landmark& mark, double distance_m) {
   return mark.octave + std::log(mark.distance_m / distance_m) / std::log(octave_scale);
 }

@@ -15,7 +15,7 @@ namespace flyball {
 
 /// What corners show that hardly moved.
 struct SlowView {
-  double moved_ray{};  ///< Median of the corners' ways in the image, of z = 1.
+  double moved_ray{};  ///< Median of the corners' displacements in the image, of z = 1.
   double lasted_s{};   ///< Since the view that they are compared with.
   double depth_m{};    ///< Median of the corners' depths; 0 where none is known.
 };

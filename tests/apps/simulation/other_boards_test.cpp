@@ -87,7 +87,7 @@ class Truth {
         std::min(limit_m_s, SpeedLimit{deceleration_m_s2}.speed_m_s(response, ahead_m));
     const Watts computer =
         platform_.power({4, Hertz{setting.clock_hz}}, busy_cores(setting.clock_hz));
-    return way_over_line(price, setting.resolution_m, ahead_m - speed_m_s * response) *
+    return path_over_line(price, setting.resolution_m, ahead_m - speed_m_s * response) *
            joules_per_metre(Watts{vehicle_.rotor_w}, computer, speed_m_s);
   }
   /// All clocks are gone through: of those within a thousandth of the least energy, the one that

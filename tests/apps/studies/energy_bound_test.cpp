@@ -25,12 +25,12 @@ TEST(EnergyBound, over_open_ground_is_that_of_steady_flight) {
   ASSERT_EQ(bound->legs.size(), 2U);
   // Eq. 1 at 5 m/s, and the TX2 idle at its lowest clock (1.4 to 2.1 W are known of it).
   const double rotor_w = 251.7 - 2.595 * 5.0;
-  const double way_m = 2.0 * (200.0 / 1.0823922 - 1.0);
-  EXPECT_GE(bound->energy_j(), 0.99 * way_m * (rotor_w + 1.4) / 5.0);
-  EXPECT_LE(bound->energy_j(), 1.01 * way_m * (rotor_w + 2.1) / 5.0);
+  const double path_m = 2.0 * (200.0 / 1.0823922 - 1.0);
+  EXPECT_GE(bound->energy_j(), 0.99 * path_m * (rotor_w + 1.4) / 5.0);
+  EXPECT_LE(bound->energy_j(), 1.01 * path_m * (rotor_w + 2.1) / 5.0);
 }
 
-TEST(EnergyBound, a_payload_costs_on_the_way_out_only) {
+TEST(EnergyBound, a_payload_costs_on_the_outward_flight_only) {
   Scenario loaded = over_open_ground(100.0);
   loaded.vehicle.payload_kg = 1.0;
   const auto bound = bound_energy(loaded);

@@ -47,8 +47,8 @@ TEST(PlatformFit, is_fitted_on_the_outdoor_part_of_a_delivery) {
   EXPECT_EQ(scene.step_m, 3.0);
   EXPECT_EQ(scene.checked_m, 7.0);
   EXPECT_EQ(scene.coarse_resolution_m, 0.98);
-  EXPECT_EQ(scene.sight_every, 10);
-  EXPECT_EQ(scene.sight_s, 2.0);
+  EXPECT_EQ(scene.localizes_every, 10);
+  EXPECT_EQ(scene.localizes_s, 2.0);
   EXPECT_EQ(scene.speed_m_s, 4.0);
 }
 
@@ -60,7 +60,7 @@ TEST(PlatformFit, is_checked_in_the_middle_of_twelve_rooms) {
   EXPECT_EQ(scene.row_pitch_m, 9.0);
   EXPECT_EQ(scene.column_pitch_m, 10.2);
   EXPECT_EQ(scene.headings, 4);
-  EXPECT_EQ(scene.sight_s, 1.5);
+  EXPECT_EQ(scene.localizes_s, 1.5);
   EXPECT_EQ(scene.speed_m_s, 1.0);
 }
 

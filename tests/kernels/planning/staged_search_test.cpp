@@ -14,7 +14,7 @@ using flyball::SearchStage;
 using flyball::StageResult;
 using flyball::Vec3;
 
-PlanRequest long_way() {
+PlanRequest long_path() {
   PlanRequest request;
   request.start_W = {0, 0, 1.5};
   request.goal_W = {50, 10, 1.5};
@@ -25,7 +25,7 @@ PlanRequest long_way() {
 }
 
 TEST(StagedSearch, widens_its_box_and_spends_all_iterations) {
-  const auto stages = flyball::search_stages(long_way());
+  const auto stages = flyball::search_stages(long_path());
   ASSERT_EQ(stages.size(), 3U);
   EXPECT_EQ(stages[0].box_W.min, (Vec3{-8, -8, 0.5}));
   EXPECT_EQ(stages[0].box_W.max, (Vec3{58, 18, 4.0}));
@@ -38,7 +38,7 @@ TEST(StagedSearch, widens_its_box_and_spends_all_iterations) {
 }
 
 TEST(StagedSearch, leaves_out_boxes_that_are_no_smaller_than_the_bounds) {
-  PlanRequest request = long_way();
+  PlanRequest request = long_path();
   request.bounds_W = {{-5, -5, 0.5}, {55, 15, 4.0}};
   const auto stages = flyball::search_stages(request);
   ASSERT_EQ(stages.size(), 1U);
@@ -46,7 +46,7 @@ TEST(StagedSearch, leaves_out_boxes_that_are_no_smaller_than_the_bounds) {
 }
 
 TEST(StagedSearch, looks_for_shorter_paths_only_where_they_can_be) {
-  PlanRequest request = long_way();
+  PlanRequest request = long_path();
   request.goal_W = {40, 0, 1.5};
   request.shorter_than_m = 50;  // half axes of the ellipse: 25 m and 15 m
   const auto stages = flyball::search_stages(request);
@@ -70,7 +70,7 @@ TEST(StagedSearch, refuses_a_path_that_is_not_shorter_than_wanted) {
 }
 
 TEST(StagedSearch, lets_a_vehicle_start_that_has_drifted_out_of_bounds) {
-  PlanRequest request = long_way();
+  PlanRequest request = long_path();
   request.start_W = {0, 0, 4.1};
   for (const SearchStage& stage : flyball::search_stages(request)) {
     EXPECT_TRUE(stage.box_W.contains(request.start_W));

@@ -35,10 +35,10 @@ TEST(StandingPlaces, come_nearest_first_with_the_way_to_them) {
   const Flooded flooded{kit::two_rooms(), request};
   double last_m = 0.0;
   for (const Place& place : flooded.places.thinned()) {
-    EXPECT_GE(place.way_m, last_m);
-    last_m = place.way_m;
+    EXPECT_GE(place.path_m, last_m);
+    last_m = place.path_m;
     const Vec3 way = flooded.grid.centre(place.cell) - request.from.p_W;
-    EXPECT_NEAR(place.way_m, way.lpNorm<1>(), 0.5);
+    EXPECT_NEAR(place.path_m, way.lpNorm<1>(), 0.5);
   }
   EXPECT_GT(last_m, 8.0);
 }

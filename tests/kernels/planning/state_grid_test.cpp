@@ -24,11 +24,11 @@ TEST(StateGrid, sees_through_the_unknown_but_not_through_walls) {
   const kit::GridMap map = kit::two_rooms();
   const StateGrid grid{map, {{0, 0, 0}, {12, 6, 3}}};
   double crossed = 0.0;
-  const Vec3 eye_W{3.0, 3.0, 1.2};
-  EXPECT_TRUE(grid.sees(eye_W, grid.cell_of({9.0, 3.0, 1.2}), crossed));
+  const Vec3 camera_W{3.0, 3.0, 1.2};
+  EXPECT_TRUE(grid.sees(camera_W, grid.cell_of({9.0, 3.0, 1.2}), crossed));
   EXPECT_EQ(crossed, 41.0);
-  EXPECT_FALSE(grid.sees(eye_W, grid.cell_of({9.0, 0.5, 1.2}), crossed));
-  EXPECT_TRUE(grid.sees(eye_W, grid.cell_of({6.05, 0.5, 1.2}), crossed)) << "the wall itself";
+  EXPECT_FALSE(grid.sees(camera_W, grid.cell_of({9.0, 0.5, 1.2}), crossed));
+  EXPECT_TRUE(grid.sees(camera_W, grid.cell_of({6.05, 0.5, 1.2}), crossed)) << "the wall itself";
 }
 
 }  // namespace

@@ -42,17 +42,17 @@ TEST(DepthView, says_of_eight_cubes_at_once_no_more_than_of_each) {
     for (int i = 0; i < 4000; ++i) {
       const int level = 2 + i % 4;
       const Eigen::Vector3f centre_C = random_block(generator);
-      const OctantSight sight = (*view).sight_of_octants(centre_C, level);
-      ASSERT_EQ(sight.whole & sight.part, 0U);
-      ASSERT_EQ((*view).whole_octants(centre_C, level), sight.whole);
+      const OctantVisibility visible = (*view).visibility_of_octants(centre_C, level);
+      ASSERT_EQ(visible.whole & visible.part, 0U);
+      ASSERT_EQ((*view).whole_octants(centre_C, level), visible.whole);
       for (unsigned octant = 0; octant < 8; ++octant) {
-        const Sight expected =
-            (*view).sight_of(centre_C + (*view).to_octant(level, octant), level - 1);
-        const Sight seen = (sight.whole >> octant & 1U) != 0  ? Sight::whole
-                           : (sight.part >> octant & 1U) != 0 ? Sight::part
-                                                              : Sight::none;
+        const Visibility expected =
+            (*view).visibility_of(centre_C + (*view).to_octant(level, octant), level - 1);
+        const Visibility seen = (visible.whole >> octant & 1U) != 0  ? Visibility::whole
+                                : (visible.part >> octant & 1U) != 0 ? Visibility::part
+                                                                     : Visibility::none;
         // One scale for all eight: for the smaller ones it may be too coarse to be sure.
-        ASSERT_TRUE(seen == expected || seen == Sight::part) << "level " << level;
+        ASSERT_TRUE(seen == expected || seen == Visibility::part) << "level " << level;
         same += seen == expected ? 1 : 0;
         ++of_each[static_cast<int>(expected)];
       }
@@ -69,8 +69,8 @@ TEST(DepthView, says_of_eight_cubes_the_same_with_all_vector_instructions) {
     std::mt19937 generator{23};
     for (int i = 0; i < 2000; ++i) {
       const Eigen::Vector3f centre_C = random_block(generator);
-      const OctantSight a = (*portable).sight_of_octants(centre_C, 2 + i % 4);
-      const OctantSight b = (*wide).sight_of_octants(centre_C, 2 + i % 4);
+      const OctantVisibility a = (*portable).visibility_of_octants(centre_C, 2 + i % 4);
+      const OctantVisibility b = (*wide).visibility_of_octants(centre_C, 2 + i % 4);
       ASSERT_EQ(a.whole, b.whole);
       ASSERT_EQ(a.part, b.part);
       ASSERT_EQ((*wide).whole_octants(centre_C, 2 + i % 4), a.whole);
@@ -87,9 +87,9 @@ TEST(DepthView, sees_through_a_cube_only_where_every_pixel_behind_it_is_farther)
   int whole = 0;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector3f centre_C = random_block(generator);
-    const OctantSight sight = (*view).sight_of_octants(centre_C, 2);
+    const OctantVisibility visible = (*view).visibility_of_octants(centre_C, 2);
     for (unsigned octant = 0; octant < 8; ++octant) {
-      if ((sight.whole >> octant & 1U) == 0) {
+      if ((visible.whole >> octant & 1U) == 0) {
         continue;
       }
       ++whole;

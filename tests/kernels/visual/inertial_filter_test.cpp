@@ -4,8 +4,8 @@
 #include "flyball/runtime/random.h"
 
 #include "circle_flight.h"
+#include "visual/landmark_update.h"
 #include "visual/motion.h"
-#include "visual/sight_update.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ std::vector<Glimpse> glimpses_of(const InertialFilter& filter,
   return seen;
 }
 
-struct Sights {
+struct LandmarkViews {
   InertialFilter filter{{}};
   std::vector<Pose> X_WB_true{};
   kit::CircleRun run{3.0, 0.5, false};
@@ -85,7 +85,7 @@ struct Sights {
   static constexpr double end_s = 12.0 * pause_s;
 
   /// Three seconds with a bias that the filter does not know; ten poses in the last two and a half.
-  Sights() {
+  LandmarkViews() {
     filter.start(run.at(0.0).X_WB, 0.01);
     for (int i = 0; i < 12; ++i) {
       fly(filter, run, pause_s * i, pause_s * (i + 1), Vec3{0.08, -0.05, 0.0});
@@ -100,62 +100,63 @@ struct Sights {
     return ahead *
            Vec3{noise.uniform(4.0, 14.0), noise.uniform(-6.0, 6.0), noise.uniform(-2.0, 3.0)};
   }
-  std::optional<Innovation> sight(const Vec3& p_W) {
+  std::optional<Innovation> innovation(const Vec3& p_W) {
     const auto seen = glimpses_of(filter, X_WB_true, p_W, noise, ray_sigma);
     const auto place = triangulate(filter.window(), seen, 40.0 * ray_sigma);
-    return place ? std::optional{sight_innovation(filter, seen, *place, ray_sigma)} : std::nullopt;
+    return place ? std::optional{landmark_innovation(filter, seen, *place, ray_sigma)}
+                 : std::nullopt;
   }
 };
 
 TEST(InertialFilter, is_corrected_by_what_was_seen) {
-  Sights sights;
-  const double before_m = miss_m(sights.filter, sights.run, Sights::end_s);
-  const Vec3 v_before_WB = sights.filter.v_WB();
+  LandmarkViews views;
+  const double before_m = miss_m(views.filter, views.run, LandmarkViews::end_s);
+  const Vec3 v_before_WB = views.filter.v_WB();
   EXPECT_GT(before_m, 0.4);
   int used = 0;
   for (int i = 0; i < 60; ++i) {
-    if (const auto sight = sights.sight(sights.landmark())) {
-      used += sights.filter.believe(*sight) ? 1 : 0;
+    if (const auto innovation = views.innovation(views.landmark())) {
+      used += views.filter.believe(*innovation) ? 1 : 0;
     }
   }
   EXPECT_GT(used, 30);
-  EXPECT_LT(miss_m(sights.filter, sights.run, Sights::end_s), 0.35 * before_m);
+  EXPECT_LT(miss_m(views.filter, views.run, LandmarkViews::end_s), 0.35 * before_m);
   // The bias itself stays hidden: in three seconds a tilt of .08 / 9.8 rad looks the same.
-  const Vec3 v_true_WB = sights.run.at(Sights::end_s).v_WB;
-  EXPECT_LT((sights.filter.v_WB() - v_true_WB).norm(), 0.35 * (v_before_WB - v_true_WB).norm());
+  const Vec3 v_true_WB = views.run.at(LandmarkViews::end_s).v_WB;
+  EXPECT_LT((views.filter.v_WB() - v_true_WB).norm(), 0.35 * (v_before_WB - v_true_WB).norm());
 }
 
 TEST(InertialFilter, does_not_believe_what_contradicts_all_else) {
-  Sights sights;
+  LandmarkViews views;
   for (int i = 0; i < 60; ++i) {
-    if (const auto sight = sights.sight(sights.landmark())) {
-      (void)sights.filter.believe(*sight);
+    if (const auto innovation = views.innovation(views.landmark())) {
+      (void)views.filter.believe(*innovation);
     }
   }
-  auto wrong = sights.sight(sights.landmark());
+  auto wrong = views.innovation(views.landmark());
   while (!wrong) {
-    wrong = sights.sight(sights.landmark());
+    wrong = views.innovation(views.landmark());
   }
   wrong->residual.array() += 20.0;
-  const Vec3 before = sights.filter.X_WB().translation();
-  EXPECT_FALSE(sights.filter.believe(*wrong));
-  EXPECT_EQ(sights.filter.X_WB().translation(), before);
+  const Vec3 before = views.filter.X_WB().translation();
+  EXPECT_FALSE(views.filter.believe(*wrong));
+  EXPECT_EQ(views.filter.X_WB().translation(), before);
 }
 
 TEST(InertialFilter, comes_to_the_same_with_many_rows_at_once_as_one_after_another) {
-  Sights sights;
+  LandmarkViews views;
   std::vector<Innovation> all;
   while (all.size() < 20) {
-    if (auto sight = sights.sight(sights.landmark())) {
-      all.push_back(std::move(*sight));
+    if (auto innovation = views.innovation(views.landmark())) {
+      all.push_back(std::move(*innovation));
     }
   }
   Eigen::Index rows = 0;
   for (const Innovation& one : all) {
     rows += one.residual.size();
   }
-  ASSERT_GT(rows, sights.filter.size());
-  Innovation together{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, sights.filter.size()),
+  ASSERT_GT(rows, views.filter.size());
+  Innovation together{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, views.filter.size()),
                       Eigen::VectorXd::Ones(rows)};
   Eigen::Index row = 0;
   for (const Innovation& one : all) {
@@ -163,10 +164,10 @@ TEST(InertialFilter, comes_to_the_same_with_many_rows_at_once_as_one_after_anoth
     together.slope.middleRows(row, one.residual.size()) = one.slope;
     row += one.residual.size();
   }
-  InertialFilter one_step = sights.filter;
+  InertialFilter one_step = views.filter;
   one_step.correct(together);
   Innovation half;
-  InertialFilter by_rows = sights.filter;
+  InertialFilter by_rows = views.filter;
   for (Eigen::Index at = 0; at < rows; at += 50) {
     const Eigen::Index count = std::min<Eigen::Index>(50, rows - at);
     half = {together.residual.segment(at, count), together.slope.middleRows(at, count),
@@ -178,30 +179,30 @@ TEST(InertialFilter, comes_to_the_same_with_many_rows_at_once_as_one_after_anoth
 }
 
 TEST(InertialFilter, forgets_its_oldest_pose_and_nothing_else) {
-  Sights sights;
-  const Eigen::MatrixXd before = sights.filter.covariance();
-  const Eigen::Index size = sights.filter.size();
-  sights.filter.forget_oldest();
-  EXPECT_EQ(sights.filter.size(), size - 6);
-  EXPECT_EQ(sights.filter.covariance().topLeftCorner(15, 15), before.topLeftCorner(15, 15));
-  EXPECT_EQ(sights.filter.covariance().bottomRightCorner(54, 54), before.bottomRightCorner(54, 54));
-  EXPECT_EQ(sights.filter.covariance().topRightCorner(15, 54), before.topRightCorner(15, 54));
+  LandmarkViews views;
+  const Eigen::MatrixXd before = views.filter.covariance();
+  const Eigen::Index size = views.filter.size();
+  views.filter.forget_oldest();
+  EXPECT_EQ(views.filter.size(), size - 6);
+  EXPECT_EQ(views.filter.covariance().topLeftCorner(15, 15), before.topLeftCorner(15, 15));
+  EXPECT_EQ(views.filter.covariance().bottomRightCorner(54, 54), before.bottomRightCorner(54, 54));
+  EXPECT_EQ(views.filter.covariance().topRightCorner(15, 54), before.topRightCorner(15, 54));
 }
 
 TEST(Triangulation, finds_a_point_from_its_rays_and_refuses_parallel_ones) {
-  Sights sights;
-  const Vec3 p_W = sights.run.at(Sights::end_s).X_WB * Vec3{6.0, 2.0, 1.0};
-  std::vector<BodyPose> window = sights.filter.window();
+  LandmarkViews views;
+  const Vec3 p_W = views.run.at(LandmarkViews::end_s).X_WB * Vec3{6.0, 2.0, 1.0};
+  std::vector<BodyPose> window = views.filter.window();
   for (std::size_t i = 0; i < window.size(); ++i) {
-    window[i].X_WB = sights.X_WB_true[i];
+    window[i].X_WB = views.X_WB_true[i];
   }
-  const auto seen = glimpses_of(sights.filter, sights.X_WB_true, p_W, sights.noise, 0.0);
+  const auto seen = glimpses_of(views.filter, views.X_WB_true, p_W, views.noise, 0.0);
   const auto found = triangulate(window, seen, 0.01);
   ASSERT_TRUE(found);
   EXPECT_LT((*found - p_W).norm(), 1e-6);
-  const Vec3 far_W = sights.run.at(Sights::end_s).X_WB * Vec3{5000.0, 20.0, 10.0};
+  const Vec3 far_W = views.run.at(LandmarkViews::end_s).X_WB * Vec3{5000.0, 20.0, 10.0};
   EXPECT_FALSE(triangulate(
-      window, glimpses_of(sights.filter, sights.X_WB_true, far_W, sights.noise, 0.0), 0.01));
+      window, glimpses_of(views.filter, views.X_WB_true, far_W, views.noise, 0.0), 0.01));
   auto bent = seen;
   bent.back().ray.x() += 0.2;
   EXPECT_FALSE(triangulate(window, bent, 0.01));

@@ -44,14 +44,14 @@ struct ExploreRequest {
   ViewField field{};
   ExploreSettings settings{};
   std::vector<Viewpoint> taken{};     ///< Views that were had: what they did not show stays hidden.
-  std::vector<Vec3> unreachable_W{};  ///< Places to which no way was found.
+  std::vector<Vec3> unreachable_W{};  ///< Places to which no path was found.
   double max_slope_rad{0.35};         ///< Of each edge; about 20 degrees.
   std::uint64_t seed{};               ///< Of this one request.
 };
 
 struct ExploreStep {
   std::optional<Viewpoint> next{};  ///< Empty: nothing more can be seen from anywhere.
-  double gain_m3{};                 ///< Unknown space that the way there, or the view, will show.
+  double gain_m3{};                 ///< Unknown space that the path there, or the view, will show.
   bool is_far{};                    ///< Not over a straight edge through known-free space.
   Work work{};  ///< `iterations`, `cells` (looked at), `ray_cells` (crossed), `collision_queries`.
 };

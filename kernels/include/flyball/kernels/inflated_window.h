@@ -13,7 +13,7 @@
 
 namespace flyball {
 
-/// What counts as in the body's way.
+/// Which cells block the body.
 enum class Obstruction : std::uint8_t { occupied, occupied_or_unknown };
 
 /// One bit for each finest cell of a box. It is set where the body, with its centre somewhere in

@@ -46,7 +46,7 @@ class Localizer : public Kernel {
   /// In order of their stamps; those up to a frame's time before the frame.
   virtual void feel(const ImuSample& /*sample*/) {}
   /// Frames in order of their times. Adds what it did to `work`.
-  /// @error `unavailable` when it has no eyes, `invalid_input` when image and camera differ in
+  /// @error `unavailable` when it takes no images, `invalid_input` when image and camera differ in
   /// size.
   [[nodiscard]] virtual Result<VisualFix> see(const VisualFrame& /*frame*/, Work& /*work*/) {
     return Error{ErrorCode::unavailable, "this localizer looks at no images"};

@@ -96,18 +96,23 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     const RoomScan scan = room_scan(0, 0.0, 224, ahead_m);
     VisualFrame frame;
     frame.captured = MissionTime{std::chrono::milliseconds{at_ms}};
-    const Intrinsics& eye = scan.image.camera;
-    frame.camera = {
-        eye.width_px,    eye.height_px,   eye.focal_px, eye.focal_px,
-        eye.centre_x_px, eye.centre_y_px, {},           DistortionModel::radial_tangential};
+    const Intrinsics& lens = scan.image.camera;
+    frame.camera = {lens.width_px,
+                    lens.height_px,
+                    lens.focal_px,
+                    lens.focal_px,
+                    lens.centre_x_px,
+                    lens.centre_y_px,
+                    {},
+                    DistortionModel::radial_tangential};
     frame.X_BC.linear() = scan.X_WC.linear();
     frame.depth_m = scan.image.depth_m;
     for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
-      const int u = static_cast<int>(i) % eye.width_px;
-      const int v = static_cast<int>(i) / eye.width_px;
+      const int u = static_cast<int>(i) % lens.width_px;
+      const int v = static_cast<int>(i) / lens.width_px;
       const auto depth_m = static_cast<double>(frame.depth_m[i]);
-      const Vec3 p_W = scan.X_WC * Vec3{depth_m * (u - eye.centre_x_px) / eye.focal_px,
-                                        depth_m * (v - eye.centre_y_px) / eye.focal_px, depth_m};
+      const Vec3 p_W = scan.X_WC * Vec3{depth_m * (u - lens.centre_x_px) / lens.focal_px,
+                                        depth_m * (v - lens.centre_y_px) / lens.focal_px, depth_m};
       const double grey = block_value(p_W, 0.19) + block_value(p_W, 0.47);
       frame.grey.push_back(static_cast<std::uint8_t>(20.0 + 105.0 * grey));
     }

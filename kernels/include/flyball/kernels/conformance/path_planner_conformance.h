@@ -126,7 +126,7 @@ class PathPlannerConformance : public KernelConformance<PathPlanner> {
     scene.map.fill({{7.95, 2.0, 0}, {8.1, 4, 3}}, CellState::free);
     scene.request.start_W.y() = scene.request.goal_W.y() = -3.0;
     const double line_m = (scene.request.goal_W - scene.request.start_W).norm();
-    scene.request.shorter_than_m = 1.02 * line_m;  // The way through the gap is longer.
+    scene.request.shorter_than_m = 1.02 * line_m;  // The path through the gap is longer.
     scene.request.max_iterations = 300;
     check_sound(asked(scene), scene);
   }

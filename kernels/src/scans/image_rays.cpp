@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: depth_view
-#include "pixel_ways.h"
+#include "image_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ void measure_slopes(int pixels, double centre_px, double focal_px, std::vector<d
 
 }  // namespace
 
-void PixelWays::look(const DepthImage& image, double reach_m, double range_m) {
+void ImageRays::look(const DepthImage& image, double reach_m, double range_m) {
   image_ = &image;
   const bool is_new = !are_same(image.camera, camera_);
   if (is_new) {
@@ -40,7 +40,7 @@ void PixelWays::look(const DepthImage& image, double reach_m, double range_m) {
   }
 }
 
-void PixelWays::measure(const Intrinsics& camera) {
+void ImageRays::measure(const Intrinsics& camera) {
   camera_ = camera;
   measure_slopes(camera.width_px, camera.centre_x_px, camera.focal_px, slope_x_);
   measure_slopes(camera.height_px, camera.centre_y_px, camera.focal_px, slope_y_);
@@ -60,13 +60,13 @@ void PixelWays::measure(const Intrinsics& camera) {
 }
 
 /// The depths at which rays are that long, and room for a vector.
-void PixelWays::scale(double length_m, std::vector<float>& depths_m) const {
+void ImageRays::scale(double length_m, std::vector<float>& depths_m) const {
   depths_m.assign(lengths_.size() + lanes, 0.0F);
   std::transform(lengths_.begin(), lengths_.end(), depths_m.begin(),
                  [&](double length) { return static_cast<float>(length_m / length); });
 }
 
-void PixelWays::lay_ends(const Pose& X_WC,
+void ImageRays::lay_ends(const Pose& X_WC,
                          double range_doubt_m,
                          float* ends_m,
                          const InnerLoops& loops) {
@@ -89,12 +89,12 @@ void PixelWays::lay_ends(const Pose& X_WC,
             static_cast<float>(range_doubt_m / range_m_)};
 }
 
-PixelDepths PixelWays::depths_from(std::size_t pixel) const {
+PixelDepths ImageRays::depths_from(std::size_t pixel) const {
   return {image_->depth_m.data() + pixel, reach_depths_m_.data() + pixel,
           clear_depths_m_.data() + pixel, range_depths_m_.data() + pixel};
 }
 
-void PixelWays::points_from(
+void ImageRays::points_from(
     int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const {
   const auto column = static_cast<std::size_t>(u);
   const auto row = static_cast<std::size_t>(v);
@@ -108,15 +108,16 @@ void PixelWays::points_from(
                     kinds);
 }
 
-std::optional<PixelPoint> PixelWays::point(int pixel) const {
+std::optional<PixelPoint> ImageRays::point(int pixel) const {
   const auto column = static_cast<std::size_t>(pixel % width_px());
   const auto row = static_cast<std::size_t>(pixel / width_px());
   const float depth_m = image_->depth_m[static_cast<std::size_t>(pixel)];
   return point_of_pixel(slope_x_[column], slope_y_[row], static_cast<double>(depth_m), reach_m_);
 }
 
-// Ways are sums of what columns and rows say, and these go up or down: a corner is farthest.
-bool PixelWays::any_towards(std::size_t axis, int side) const {
+// A ray is the sum of a part by column and a part by row, and each of them grows or falls along the
+// image, so one of the corners is farthest to each side.
+bool ImageRays::any_towards(std::size_t axis, int side) const {
   const auto& columns = column_W_[axis];
   const auto& rows = row_W_[axis];
   const auto to_side = static_cast<float>(side);
@@ -130,7 +131,7 @@ bool PixelWays::any_towards(std::size_t axis, int side) const {
   return false;
 }
 
-Crossing PixelWays::cross(const BoxOfCell& box,
+Crossing ImageRays::cross(const BoxOfCell& box,
                           const PixelBlock& pixels,
                           const InnerLoops& loops) const {
   constexpr int stride = 8;  // of a large image, which is most often crossed by many
@@ -143,7 +144,7 @@ Crossing PixelWays::cross(const BoxOfCell& box,
   return loops.cross_box(probe_, box, pixels, 1);
 }
 
-void PixelWays::append_doubtful(const BoxOfCell& box,
+void ImageRays::append_doubtful(const BoxOfCell& box,
                                 const PixelBlock& pixels,
                                 const InnerLoops& loops,
                                 std::vector<int>& numbers) const {

@@ -16,7 +16,7 @@
 
 namespace flyball {
 
-class PixelWays {
+class ImageRays {
  public:
   /// @param image    Must outlive the questions. @param reach_m  As RangeImage's.
   /// @param range_m  Rays are cut there.
@@ -35,9 +35,9 @@ class PixelWays {
   /// As whoever makes points of images makes it.
   [[nodiscard]] std::optional<PixelPoint> point(int pixel) const;
 
-  /// Does any pixel look that way, -1 or 1, along an axis of W? 0: none.
+  /// Whether any pixel looks to that side, -1 or 1, along an axis of W.
   [[nodiscard]] bool any_towards(std::size_t axis, int side) const;
-  /// @param box  From the eye, in W.
+  /// @param box  From the camera, in W.
   [[nodiscard]] Crossing cross(const BoxOfCell& box,
                                const PixelBlock& pixels,
                                const InnerLoops& loops) const;

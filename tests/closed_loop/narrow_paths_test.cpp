@@ -28,17 +28,17 @@ Scenario before_a_slit(std::uint64_t seed) {
   return scenario;
 }
 
-class NarrowWays : public testing::TestWithParam<std::uint64_t> {};
+class NarrowPaths : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(NarrowWays, are_passed_there_and_back) {
+TEST_P(NarrowPaths, are_passed_there_and_back) {
   const Summary summary = kit::flown(before_a_slit(GetParam())).summary;
   EXPECT_EQ(summary.status, MissionStatus::succeeded) << to_string(summary.failure);
   EXPECT_GT(summary.min_clearance_m, 0.0);
-  // 100 m at half of the least speed that the finest cells allow, and a look around for each way.
+  // 100 m at half of the least speed that the finest cells allow, and a look around at each end.
   EXPECT_LT(summary.mission_time_s, 100.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, NarrowWays, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, NarrowPaths, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace flyball

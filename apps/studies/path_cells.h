@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The true world from above as cells: where a body fits, and the cheapest way between two places.
+/// The true world from above as cells: where a body fits, and the cheapest path between two places.
 
 #include "flyball/sim/airframe.h"
 #include "flyball/sim/world.h"
@@ -13,34 +13,35 @@
 
 namespace flyball {
 
-/// A cheapest way; both are under-estimates.
-struct CheapestWay {
+/// A cheapest path; both are under-estimates.
+struct CheapestPath {
   double cost{};
   double length_m{};
 };
 
 /// What a metre costs.
-struct WayPrice {
+struct PathPrice {
   /// Anywhere in a cell, from the ground to the ceiling; an under-estimate, and at least `least`.
   std::function<double(const Aabb&)> in_cell{};
   double least{};  ///< Positive.
 };
 
-class WayCells {
+class PathCells {
  public:
-  WayCells(const World& world, const Cylinder& body);
+  PathCells(const World& world, const Cylinder& body);
 
-  /// Of all ways over open cells the one with the least integral of the price over its length;
+  /// Of all paths over open cells the one with the least integral of the price over its length;
   /// empty when there is none. A cell is open if the body fits somewhere in it, at some height
   /// inside the world's bounds; wrong only in calling too many open.
-  /// @cost O(n log n) in the cells that a way could go over. @threads One at a time: it remembers
+  /// @cost O(n log n) in the cells that a path could lead over. @threads One at a time: it
+  /// remembers
   ///       which cells are open.
-  [[nodiscard]] std::optional<CheapestWay> way(const Vec3& from_W,
-                                               const Vec3& to_W,
-                                               const WayPrice& price) const;
+  [[nodiscard]] std::optional<CheapestPath> path(const Vec3& from_W,
+                                                 const Vec3& to_W,
+                                                 const PathPrice& price) const;
 
  private:
-  friend class WaySearch;
+  friend class PathSearch;
   enum class Openness : char { not_asked, open, shut };
   [[nodiscard]] bool is_open(int cell) const;
   [[nodiscard]] bool fits_at(const Vec3& centre_W) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/way_cells.h"
+#include "studies/path_cells.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ namespace flyball {
 namespace {
 
 constexpr double cell_m = 0.25;
-// A way over eight neighbours is at most 1 / cos(22.5 degrees) times as long as the straight one.
+// A path over eight neighbours is at most 1 / cos(22.5 degrees) times as long as the straight one.
 constexpr double longest_detour = 1.0823922002923940;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -30,7 +30,7 @@ const std::array<Step, 8> steps{{{1, 0, cell_m},
                                  {-1, 1, diagonal_m},
                                  {-1, -1, diagonal_m}}};
 
-/// A cell in the queue, with what the way over it costs at least from start to goal.
+/// A cell in the queue, with what the path over it costs at least from start to goal.
 struct Waiting {
   double at_least{};
   int cell{};
@@ -45,25 +45,25 @@ int count(double from_m, double to_m) {
 
 }  // namespace
 
-/// Hart, Nilsson and Raphael 1968 (A*), doi:10.1109/TSSC.1968.300136: no way is cheaper than the
+/// Hart, Nilsson and Raphael 1968 (A*), doi:10.1109/TSSC.1968.300136: no path is cheaper than the
 /// straight one over eight neighbours at the least price, so what is found first is the cheapest.
-class WaySearch {
+class PathSearch {
  public:
-  WaySearch(const WayCells& cells, const WayPrice& price, int goal)
+  PathSearch(const PathCells& cells, const PathPrice& price, int goal)
       : cells_{cells},
         price_{price},
         goal_{goal},
         cost_(cells.open_.size(), infinite),
         length_m_(cells.open_.size(), 0.0) {}
 
-  std::optional<CheapestWay> from(int start) {
+  std::optional<CheapestPath> from(int start) {
     reach(start, 0.0, 0.0);
     while (!queue_.empty()) {
       const Waiting next = queue_.top();
       queue_.pop();
       if (next.cell == goal_) {
-        return CheapestWay{cost_[index(goal_)] / longest_detour,
-                           length_m_[index(goal_)] / longest_detour};
+        return CheapestPath{cost_[index(goal_)] / longest_detour,
+                            length_m_[index(goal_)] / longest_detour};
       }
       if (next.at_least <= cost_[index(next.cell)] + to_goal(next.cell)) {  // Else it is outdated.
         expand(next.cell);
@@ -95,7 +95,8 @@ class WaySearch {
       if (!cells_.is_open(next)) {
         continue;
       }
-      // The cheaper one of both cells: the border between two prices lies somewhere between.
+      // The lower price of both cells counts, because the border between them lies anywhere between
+      // the centres.
       const double per_m = std::min(price_here, price_.in_cell(cells_.extent_W(next)));
       reach(next, cost_[index(cell)] + step.length_m * per_m,
             length_m_[index(cell)] + step.length_m);
@@ -109,26 +110,27 @@ class WaySearch {
     return price_.least * (diagonal * diagonal_m + (across + along - 2 * diagonal) * cell_m);
   }
 
-  const WayCells& cells_;
-  const WayPrice& price_;
+  const PathCells& cells_;
+  const PathPrice& price_;
   int goal_;
   std::vector<double> cost_;
   std::vector<double> length_m_;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_{};
 };
 
-WayCells::WayCells(const World& world, const Cylinder& body)
+PathCells::PathCells(const World& world, const Cylinder& body)
     : truth_{world},
       bounds_W_{world.bounds_W},
-      // Of all places in the cell one may fit: what the smaller body in the middle touches, the
-      // whole one touches wherever it is.
+      // The body may fit at some place of the cell although it does not in the middle. So a smaller
+      // body is tested in the middle: what that touches, the whole body touches anywhere in the
+      // cell.
       body_{std::max(0.0, body.radius_m - 0.5 * diagonal_m),
             std::max(0.0, body.half_height_m - 0.5 * cell_m)},
       columns_{count(bounds_W_.min.x(), bounds_W_.max.x())},
       rows_{count(bounds_W_.min.y(), bounds_W_.max.y())},
       open_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
-bool WayCells::is_open(int cell) const {
+bool PathCells::is_open(int cell) const {
   Openness& known = open_[static_cast<std::size_t>(cell)];
   if (known == Openness::not_asked) {
     const Aabb extent = extent_W(cell);
@@ -137,7 +139,7 @@ bool WayCells::is_open(int cell) const {
   return known == Openness::open;
 }
 
-bool WayCells::fits_at(const Vec3& centre_W) const {
+bool PathCells::fits_at(const Vec3& centre_W) const {
   constexpr double enough_m = 0.01;
   for (double z = bounds_W_.min.z(); z < bounds_W_.max.z() + 0.5 * cell_m; z += cell_m) {
     if (truth_.distance_m({centre_W.x(), centre_W.y(), z}, body_, enough_m, true) > 0.0) {
@@ -147,13 +149,13 @@ bool WayCells::fits_at(const Vec3& centre_W) const {
   return false;
 }
 
-Aabb WayCells::extent_W(int cell) const {
+Aabb PathCells::extent_W(int cell) const {
   const Vec3 low{bounds_W_.min.x() + cell % columns_ * cell_m,
                  bounds_W_.min.y() + cell / columns_ * cell_m, bounds_W_.min.z()};
   return {low, {low.x() + cell_m, low.y() + cell_m, bounds_W_.max.z()}};
 }
 
-int WayCells::cell_at(const Vec3& p_W) const {
+int PathCells::cell_at(const Vec3& p_W) const {
   const auto index = [](double from_m, double at_m, int n) {
     return std::clamp(static_cast<int>(std::floor((at_m - from_m) / cell_m)), 0, n - 1);
   };
@@ -161,10 +163,10 @@ int WayCells::cell_at(const Vec3& p_W) const {
          index(bounds_W_.min.x(), p_W.x(), columns_);
 }
 
-std::optional<CheapestWay> WayCells::way(const Vec3& from_W,
-                                         const Vec3& to_W,
-                                         const WayPrice& price) const {
-  return WaySearch{*this, price, cell_at(to_W)}.from(cell_at(from_W));
+std::optional<CheapestPath> PathCells::path(const Vec3& from_W,
+                                            const Vec3& to_W,
+                                            const PathPrice& price) const {
+  return PathSearch{*this, price, cell_at(to_W)}.from(cell_at(from_W));
 }
 
 }  // namespace flyball

@@ -28,9 +28,9 @@ struct Glimpse {
 /// the poses are left; noise is 1 in each row.
 /// @param ray_sigma  Standard deviation of a ray's coordinates, of z = 1.
 /// @pre               At least two glimpses.
-[[nodiscard]] Innovation sight_innovation(const InertialFilter& filter,
-                                          const std::vector<Glimpse>& glimpses,
-                                          const Vec3& p_W,
-                                          double ray_sigma);
+[[nodiscard]] Innovation landmark_innovation(const InertialFilter& filter,
+                                             const std::vector<Glimpse>& glimpses,
+                                             const Vec3& p_W,
+                                             double ray_sigma);
 
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a localizer that sees does in the recorded scenes.
+/// What a localizer that takes images does in the recorded scenes.
 
 #include "flyball/kernels/visual_frame.h"
 

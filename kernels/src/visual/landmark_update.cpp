@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: visual_inertial
-#include "visual/sight_update.h"
+#include "visual/landmark_update.h"
 
 #include "visual/feature.h"
 #include "visual/motion.h"
@@ -56,14 +56,14 @@ std::optional<Vec3> mean_place(const std::vector<BodyPose>& window,
   return count > 0.0 ? std::optional{Vec3{sum / count}} : std::nullopt;
 }
 
-struct Sight {
+struct Reprojection {
   Eigen::VectorXd miss;     ///< Over its standard deviation, as are the slopes.
   Eigen::MatrixXd by_p_W;   ///< Rows x 3.
   Eigen::MatrixXd by_pose;  ///< Rows x 6, by rotation and place of the pose.
 };
 
 /// One glimpse compared with the place.
-Sight compare(const BodyPose& from, const Glimpse& seen, const Vec3& p_W, double ray_sigma) {
+Reprojection compare(const BodyPose& from, const Glimpse& seen, const Vec3& p_W, double ray_sigma) {
   const Vec3 p_B = from.X_WB.inverse() * p_W;
   const Vec3 p_C = from.X_BC.inverse() * p_B;
   const Eigen::Index rows = seen.depth_m ? 3 : 2;
@@ -105,9 +105,9 @@ std::optional<Vec3> triangulate(const std::vector<BodyPose>& window,
       if (in_camera(window[seen.pose], *p_W).z() < nearest_m) {
         return std::nullopt;
       }
-      const Sight sight = compare(window[seen.pose], seen, *p_W, reach);
-      normal += sight.by_p_W.transpose() * sight.by_p_W;
-      right += sight.by_p_W.transpose() * sight.miss;
+      const Reprojection reprojection = compare(window[seen.pose], seen, *p_W, reach);
+      normal += reprojection.by_p_W.transpose() * reprojection.by_p_W;
+      right += reprojection.by_p_W.transpose() * reprojection.miss;
     }
     *p_W += normal.ldlt().solve(right);
     if (!p_W->allFinite()) {
@@ -124,10 +124,10 @@ std::optional<Vec3> triangulate(const std::vector<BodyPose>& window,
   return p_W;
 }
 
-Innovation sight_innovation(const InertialFilter& filter,
-                            const std::vector<Glimpse>& glimpses,
-                            const Vec3& p_W,
-                            double ray_sigma) {
+Innovation landmark_innovation(const InertialFilter& filter,
+                               const std::vector<Glimpse>& glimpses,
+                               const Vec3& p_W,
+                               double ray_sigma) {
   Eigen::Index rows = 0;
   for (const Glimpse& seen : glimpses) {
     rows += seen.depth_m ? 3 : 2;
@@ -137,13 +137,13 @@ Innovation sight_innovation(const InertialFilter& filter,
   Eigen::MatrixXd by_error = Eigen::MatrixXd::Zero(rows, filter.size());
   Eigen::Index row = 0;
   for (const Glimpse& seen : glimpses) {
-    const Sight sight = compare(filter.window()[seen.pose], seen, p_W, ray_sigma);
-    const Eigen::Index count = sight.miss.size();
+    const Reprojection reprojection = compare(filter.window()[seen.pose], seen, p_W, ray_sigma);
+    const Eigen::Index count = reprojection.miss.size();
     const auto column = InertialFilter::body_size +
                         InertialFilter::pose_size * static_cast<Eigen::Index>(seen.pose);
-    miss.segment(row, count) = sight.miss;
-    by_p_W.middleRows(row, count) = sight.by_p_W;
-    by_error.block(row, column, count, InertialFilter::pose_size) = sight.by_pose;
+    miss.segment(row, count) = reprojection.miss;
+    by_p_W.middleRows(row, count) = reprojection.by_p_W;
+    by_error.block(row, column, count, InertialFilter::pose_size) = reprojection.by_pose;
     row += count;
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> turned{by_p_W};

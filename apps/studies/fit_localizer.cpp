@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: platform_fit
-#include "studies/fit_sight.h"
+#include "studies/fit_localizer.h"
 
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/flight/perception/view.h"

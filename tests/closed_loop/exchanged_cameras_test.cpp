@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
 //
-// Localizers that see and detectors, each exchanged by a word in a mission that needs it.
+// Localizers with cameras, and detectors, each exchanged by one setting in a mission that needs it.
 
 #include "flyball/simulation/mission.h"
 
@@ -57,7 +57,7 @@ Result<MissionRecord> photograph(std::vector<std::string> settings) {
   return fly(std::get<LoadedScenario>(loaded).scenario, {});
 }
 
-TEST(ExchangedDetector, yolo_keeps_a_person_in_sight) {
+TEST(ExchangedDetector, yolo_keeps_a_person_in_view) {
   const auto weights = find_test_model("yolo-fastest-1.1.weights");
   if (!weights) {
     GTEST_SKIP() << weights.error().message;
