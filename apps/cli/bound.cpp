@@ -48,8 +48,8 @@ int bound(const BoundOptions& options) {
 }  // namespace
 
 void add_bound(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "bound", "the energy that a delivery takes at least, whoever flies it");
+  CLI::App* command =
+      program.add_subcommand("bound", "computes a lower bound of the energy that a delivery takes");
   const auto options = std::make_shared<BoundOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
   refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")

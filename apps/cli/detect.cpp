@@ -108,13 +108,13 @@ void add_detect(CLI::App& program, int& exit_code) {
            ->required());
   refuse_empty(*command->add_option("--detector", run.detector, "one of: flyball list kernels")
                     ->type_name("NAME"));
-  command->add_option("--scale", run.scale, "size of the picture looked at over the file's")
+  command->add_option("--scale", run.scale, "size of the analysed picture over that of the file")
       ->check(CLI::Range(0.05, 8.0));
-  refuse_empty(*command->add_option("--set", options->settings, "of the detector, as NAME=VALUE")
+  refuse_empty(*command->add_option("--set", options->settings, "parameter of the detector")
                     ->type_name("NAME=VALUE"));
-  command->add_option("--models", run.models_folder, "looked in first for weights")
+  command->add_option("--models", run.models_folder, "folder that is searched first for weights")
       ->type_name("DIR");
-  command->add_option("--every", run.every, "looks at each Nth frame of a video")
+  command->add_option("--every", run.every, "analyses every Nth frame of a video")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
   refuse_empty(
       *command->add_option("--out", run.out, "writes pictures with boxes there")->type_name("DIR"));

@@ -87,7 +87,7 @@ int run_explain(const ExplainOptions& options) {
 
 void add_explain(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
-      "explain", "what a policy saw and weighed at one moment of a recorded flight");
+      "explain", "shows what a policy saw and compared at one moment of a recorded flight");
   const auto options = std::make_shared<ExplainOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);

@@ -31,9 +31,8 @@ void add_kernels(CLI::App& command, std::vector<std::string>& files) {
     return loaded ? std::string{} : loaded.error().message;
   };
   command
-      .add_option(
-          "--kernels", files,
-          "a library of kernels of one's own; its code runs in this program, with your rights")
+      .add_option("--kernels", files,
+                  "a library with your own kernels; its code runs in this program with your rights")
       ->type_name("./libNAME.so")
       ->expected(1)
       ->take_all()
@@ -64,8 +63,7 @@ void add_output(CLI::App& command, FlightOptions& options) {
 
 void add_contest(CLI::App& command, std::vector<std::string>& policies, std::string& seeds) {
   refuse_empty(
-      *command
-           .add_option("--policies", policies, "the first one is what the others are measured by")
+      *command.add_option("--policies", policies, "the others are compared with the first one")
            ->delimiter(',')
            ->required()
            ->type_name("A,B,C"));

@@ -42,10 +42,10 @@ int check(const std::string& file) {
 }  // namespace
 
 void add_policy(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("policy", "looks at a policy before it flies");
+  CLI::App* command = program.add_subcommand("policy", "checks a policy before it flies");
   command->require_subcommand(1);
   CLI::App* check_command = command->add_subcommand(
-      "check", "holds a policy to the contract that all of them keep, and says what it breaks");
+      "check", "checks a policy against the contract of all policies, and lists what it breaks");
   const auto file = std::make_shared<std::string>();  // Owners: the parser's callbacks.
   check_command
       ->add_option("FILE", *file,

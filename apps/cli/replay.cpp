@@ -80,16 +80,15 @@ int run_replay(const ReplayOptions& options) {
 
 void add_replay(CLI::App& program, int& exit_code) {
   CLI::App* command =
-      program.add_subcommand("replay", "makes every decision of a recorded flight again");
+      program.add_subcommand("replay", "repeats every decision of a recorded flight");
   const auto options = std::make_shared<ReplayOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
   add_kernels(*command, options->kernels);
-  refuse_empty(
-      *command
-           ->add_option("--policy", options->policy,
-                        "asks this one what it would have done, and lists where it differs")
-           ->type_name("NAME"));
+  refuse_empty(*command
+                    ->add_option("--policy", options->policy,
+                                 "lists where the decisions of this policy differ")
+                    ->type_name("NAME"));
   command->callback([options, &exit_code] { exit_code = run_replay(*options); });
 }
 

@@ -235,7 +235,7 @@ int hold_tournament(TournamentOptions options) {
 
 void add_tournament(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
-      "tournament", "flies policies over several worlds and seeds; goes on where it was stopped");
+      "tournament", "flies policies over several worlds and seeds; continues where it was stopped");
   const auto options = std::make_shared<TournamentOptions>();  // Owners: the parser's callbacks.
   refuse_empty(*command->add_option("--worlds", options->worlds, "scenarios, by name or file")
                     ->delimiter(',')
@@ -245,7 +245,7 @@ void add_tournament(CLI::App& program, int& exit_code) {
   add_jobs(*command, options->jobs);
   refuse_empty(*command
                     ->add_option("--pairs", options->pair_texts,
-                                 "policies that are also measured by another one than the first")
+                                 "pairs of policies to compare beside those with the first one")
                     ->delimiter(',')
                     ->type_name("A:B,C:D"));
   command->add_option("--set", options->flight.settings, "changes one setting in every world")
@@ -254,9 +254,9 @@ void add_tournament(CLI::App& program, int& exit_code) {
       ->take_all();
   add_kernels(*command, options->flight.kernels);
   command->add_flag("--keep-records", options->keeps_records,
-                    "keeps each flight's whole record, not only what it came to");
+                    "keeps the whole record of each flight, not only its summary");
   command->add_flag("--bound", options->shows_bound,
-                    "sets energy against the least that any delivery there takes");
+                    "compares the energy with the lower bound of flyball bound");
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = hold_tournament(*options); });
 }

@@ -223,9 +223,8 @@ void add_tune(CLI::App& program, int& exit_code) {
       "tune", "finds the parameters of a policy that cost a scenario the least energy");
   const auto options = std::make_shared<TuneOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  refuse_empty(
-      *command->add_option("--policy", options->policy, "whose parameters (default: fixed)")
-           ->type_name("NAME"));
+  refuse_empty(*command->add_option("--policy", options->policy, "policy to tune (default: fixed)")
+                    ->type_name("NAME"));
   refuse_empty(*command
                     ->add_option("--try", options->tried,
                                  "values for a parameter; with several, every combination")
@@ -241,7 +240,7 @@ void add_tune(CLI::App& program, int& exit_code) {
       ->type_name("A..B");
   refuse_empty(*command
                     ->add_option("--preset", options->preset,
-                                 "where the best one goes (default: tuned.toml in --out)")
+                                 "file for the best one (default: tuned.toml in --out)")
                     ->type_name("FILE"));
   add_jobs(*command, options->jobs);
   add_output(*command, options->flight);

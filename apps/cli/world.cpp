@@ -66,16 +66,21 @@ void add_world(CLI::App& program, int& exit_code) {
       *command->add_option("FILE", options->file, "OctoMap's .bt or .ot, or a mesh")->required());
   refuse_empty(*command->add_option("--picture", options->picture, "writes the plan there")
                     ->type_name("OUT.png"));
-  refuse_nan(*command->add_option("--height", view.height_m, "of the flight above the ground")
-                  ->type_name("M")
-                  ->check(CLI::Range(0.0, 1e4)));
-  refuse_nan(*command->add_option("--ground", view.ground_z_m, "z of the floor in the file")
-                  ->type_name("M")
-                  ->check(CLI::Range(-1e4, 1e4)));
-  refuse_nan(*command->add_option("--cell", view.cell_m, "of a mesh's cells")
-                  ->type_name("M")
-                  ->check(CLI::Range(0.02, 1.0)));
-  refuse_nan(*command->add_option("--metres-per-unit", view.metres_per_unit, "of a mesh's lengths")
+  refuse_nan(
+      *command->add_option("--height", view.height_m, "height of the flight above the ground")
+           ->type_name("M")
+           ->check(CLI::Range(0.0, 1e4)));
+  refuse_nan(
+      *command->add_option("--ground", view.ground_z_m, "height (z) of the floor in the file")
+           ->type_name("M")
+           ->check(CLI::Range(-1e4, 1e4)));
+  refuse_nan(
+      *command->add_option("--cell", view.cell_m, "size of the cells that a mesh is cut into")
+           ->type_name("M")
+           ->check(CLI::Range(0.02, 1.0)));
+  refuse_nan(*command
+                  ->add_option("--metres-per-unit", view.metres_per_unit,
+                               "metres that one unit of a mesh stands for")
                   ->check(CLI::Range(1e-4, 1e4)));
   command->add_option("--up", view.up, "the mesh's axis that points up")
       ->check(CLI::IsMember({"file", "y", "z"}));
