@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Aerial photography: the vehicle takes off, finds a person, and follows until the person is lost.
-// The dataflow is that of MAVBench (MICRO 2018), figure of aerial photography: detector, buffered and
-// real-time tracker, PID. It flies without a map, because the scenario declares the space above the
-// park clear.
+// The dataflow is that of MAVBench (MICRO 2018), figure of aerial photography: detector, buffered
+// and real-time tracker, PID. It flies without a map, because the scenario declares the space above
+// the park clear.
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 3-D mapping of an unknown volume: the vehicle takes off and flies from next-best view to next-best
-// view until enough of what can be known is known, or no view would show more. Then it flies home and
-// lands. The dataflow is that of MAVBench (MICRO 2018), figure of 3-D mapping.
+// 3-D mapping of an unknown volume: the vehicle takes off and flies from next-best view to
+// next-best view until enough of what can be known is known, or no view would show more. Then it
+// flies home and lands. The dataflow is that of MAVBench (MICRO 2018), figure of 3-D mapping.
 
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/exploration/known_share.h"

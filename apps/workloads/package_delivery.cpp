@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Package delivery, there and back: the vehicle takes off, flies to the goal, lands, leaves the
-// payload, takes off, flies home and lands. The dataflow is that of MAVBench (MICRO 2018), figure of
-// package delivery.
+// payload, takes off, flies home and lands. The dataflow is that of MAVBench (MICRO 2018), figure
+// of package delivery.
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"

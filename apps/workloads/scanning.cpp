@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scanning: the vehicle takes off, photographs an area in lanes from above, flies home and lands. The
-// dataflow is that of MAVBench (MICRO 2018), figure of scanning: GPS, lawnmower path, smoothing, path
-// tracking, without a forward camera and without a map. So only space that the scenario declares is
-// known to be free: the world names a height that nothing reaches (`open_above_m`), the vehicle flies
-// above it, and the guard holds the vehicle inside that space as it would inside a map. If the
-// declaration is wrong, a collision ends the mission as in any other. Take-off and landing are
-// vertical over the start, where the world keeps every height free.
+// Scanning: the vehicle takes off, photographs an area in lanes from above, flies home and lands.
+// The dataflow is that of MAVBench (MICRO 2018), figure of scanning: GPS, lawnmower path,
+// smoothing, path tracking, without a forward camera and without a map. So only space that the
+// scenario declares is known to be free: the world names a height that nothing reaches
+// (`open_above_m`), the vehicle flies above it, and the guard holds the vehicle inside that space
+// as it would inside a map. If the declaration is wrong, a collision ends the mission as in any
+// other. Take-off and landing are vertical over the start, where the world keeps every height free.
 
 #include "flyball/flight/exploration/ground_coverage.h"
 #include "flyball/flight/exploration/ground_pictures.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Search and rescue: the vehicle explores as in 3-D mapping, while a detector looks for people. When
-// enough sightings agree that somebody is found, it flies home and lands. The dataflow is that of
-// MAVBench (MICRO 2018), figure of search and rescue.
+// Search and rescue: the vehicle explores as in 3-D mapping, while a detector looks for people.
+// When enough sightings agree that somebody is found, it flies home and lands. The dataflow is that
+// of MAVBench (MICRO 2018), figure of search and rescue.
 
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/flight_parts.h"
