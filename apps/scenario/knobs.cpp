@@ -19,22 +19,21 @@ KnobSpec started(KnobSpec spec, const Scenario& scenario) {
 }
 
 KnobSpec frequency_knob(const Platform& platform, double fallback) {
-  KnobSpec spec{"cpu.frequency_hz", "Hz", "platform",          {}, 0.0, 0.0,
-                fallback,           {},   "clock of all cores"};
+  KnobSpec spec{"cpu.frequency_hz", "Hz", "platform", {}, 0.0, 0.0, fallback, "clock of all cores"};
   for (const Hertz f : platform.frequencies()) {
     spec.legal.push_back(f.value());
   }
   spec.min = spec.legal.front();
   spec.max = spec.legal.back();
-  spec.switching_cost = platform.switching_time();
   spec.min_dwell = Duration::zero();  // a switch costs its time and nothing else
   return spec;
 }
 
 KnobSpec cores_knob(const Platform& platform, double fallback) {
-  KnobSpec spec{"cpu.cores", "cores", "platform",
-                {},          1.0,     1.0 * platform.max_cores(),
-                fallback,    {},      "cores that may run jobs"};
+  KnobSpec spec{"cpu.cores", "cores",
+                "platform",  {},
+                1.0,         1.0 * platform.max_cores(),
+                fallback,    "cores that may run jobs"};
   for (int n = 1; n <= platform.max_cores(); ++n) {
     spec.legal.push_back(n);
   }
@@ -49,7 +48,6 @@ KnobSpec speed_knob() {
           0.5,
           20.0,
           MissionSettings{}.max_speed_m_s,
-          {},
           "upper limit; the safe speed below it is computed"};
 }
 

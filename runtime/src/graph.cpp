@@ -22,8 +22,6 @@ std::string_view name_of(OnMiss on_miss) {
       return "warn";
     case OnMiss::skip:
       return "skip";
-    case OnMiss::degrade:
-      return "degrade";
     case OnMiss::brake:
       return "brake";
   }

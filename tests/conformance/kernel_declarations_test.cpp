@@ -30,7 +30,7 @@ class Declarations : public KernelConformance<Family> {
 };
 
 KnobSpec margin(double fallback_m) {
-  return {"mine.margin_m", "m", "follow", {}, 0.0, 1.0, fallback_m, {}, "kept to the path"};
+  return {"mine.margin_m", "m", "follow", {}, 0.0, 1.0, fallback_m, "kept to the path"};
 }
 
 class Culprit final : public PathTracker {

@@ -85,8 +85,8 @@ TEST(PolicyGovernor, says_in_one_sentence_why_it_fell_back) {
 /// Also with a clock to ask for.
 flyball::KnobSettings knobs_with_clock() {
   flyball::KnobSettings settings{
-      {{"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, {}, ""},
-       {"cpu.frequency_hz", "Hz", "platform", {1e9, 2e9}, 1e9, 2e9, 1e9, {}, ""}}};
+      {{"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, ""},
+       {"cpu.frequency_hz", "Hz", "platform", {1e9, 2e9}, 1e9, 2e9, 1e9, ""}}};
   return settings;
 }
 

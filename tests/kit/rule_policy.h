@@ -31,9 +31,8 @@ class RulePolicy final : public Policy {
 
 /// A map's resolution, .15, .30 or .80 m, and its range, 2 to 10 m. They stand at .15 and 7 m.
 inline KnobSettings map_knobs() {
-  return KnobSettings{
-      {{"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.80}, 0.0, 0.0, 0.15, {}, ""},
-       {"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, {}, ""}}};
+  return KnobSettings{{{"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.80}, 0.0, 0.0, 0.15, ""},
+                       {"map.range_m", "m", "mapper", {}, 2.0, 10.0, 7.0, ""}}};
 }
 
 }  // namespace flyball::kit

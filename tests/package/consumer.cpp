@@ -17,7 +17,7 @@ int main() {
     return 1;
   }
   const flyball::KnobSettings knobs{
-      {{"map.resolution_m", "m", "mine", {0.15, 0.80}, 0.0, 0.0, 0.15, {}, ""}}};
+      {{"map.resolution_m", "m", "mine", {0.15, 0.80}, 0.0, 0.0, 0.15, ""}}};
   const auto parameters = flyball::Parameters::resolve("density", policy->parameters(), {});
   if (!policy->start(std::get<flyball::Parameters>(parameters), knobs, {}).ok()) {
     return 1;

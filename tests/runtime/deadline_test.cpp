@@ -10,7 +10,7 @@ namespace flyball {
 namespace {
 
 TEST(Deadline, a_late_job_is_told_of_once_at_its_deadline_and_still_ends) {
-  for (const OnMiss on_miss : {OnMiss::warn, OnMiss::degrade, OnMiss::brake}) {
+  for (const OnMiss on_miss : {OnMiss::warn, OnMiss::brake}) {
     ComputerRig rig;
     const int a = rig.add({100.0, 0, "serial", 1, 30.0, on_miss});
     rig.start(1);

@@ -29,7 +29,6 @@ class Detector : public Kernel {
              0.25,
              4.0,
              1.0,
-             {},
              "size of the image in which people are looked for, over the camera's"}};
   }
   /// People in the image, surest first; none is a result too.

@@ -52,7 +52,6 @@ struct MapContents {
                 0.05,
                 2.0,
                 0.15,
-                {},
                 "cell size at which depth is integrated"};
   if (!resolutions_m.empty()) {
     spec.min = resolutions_m.front();
@@ -71,7 +70,7 @@ class Mapper : public Kernel {
   /// At which resolution, how far and how often depth is integrated.
   [[nodiscard]] std::vector<KnobSpec> knobs() const override {
     return {resolution_knob(resolutions_m()),
-            {"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, {}, "how far depth is integrated"},
+            {"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, "how far depth is integrated"},
             {"map.rate_hz",
              "Hz",
              "points",
@@ -79,7 +78,6 @@ class Mapper : public Kernel {
              0.5,
              60.0,
              20.0,
-             {},
              "frames integrated a second, at most"}};
   }
 

@@ -57,7 +57,6 @@ class PathPlanner : public Kernel {
              100.0,
              1e6,
              4000.0,
-             {},
              "iterations that one plan may take"}};
   }
   /// Unknown space may be crossed, occupied cubes may not. Same request and map, same plan.

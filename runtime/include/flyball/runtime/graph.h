@@ -42,10 +42,9 @@ struct TopicSpec {
 };
 
 enum class OnMiss : std::uint8_t {
-  warn,     ///< Count it.
-  skip,     ///< Kill the job; its outputs never appear.
-  degrade,  ///< Count it and tell the governor at once.
-  brake,    ///< Tell the guard to stop the vehicle.
+  warn,   ///< Count it.
+  skip,   ///< Kill the job; its outputs never appear.
+  brake,  ///< Tell the guard to stop the vehicle.
 };
 
 /// A job starts when a message arrives on `topic`, ...
@@ -65,6 +64,8 @@ struct NodeSpec {
   int priority{};       ///< Higher runs first.
   Duration deadline{};  ///< From release to end; zero: none.
   OnMiss on_miss{OnMiss::warn};
+  /// Cores that the job can use at once; every shipped kernel uses one. The modeled computer then
+  /// gives it so many, and `Platform::speedup` says what they bring.
   int threads{1};
   /// Topics besides the trigger. A job that touches one that is not declared is a broken
   /// precondition: the printed graph tells the truth. Each node reads a queue at its own pace.

@@ -23,7 +23,6 @@ struct KnobSpec {
   double min{};
   double max{};
   double fallback{};
-  Duration switching_cost{};
   std::string description{};
   /// Keeps its value at least this long; empty: as long as the governor says.
   std::optional<Duration> min_dwell{};

@@ -12,7 +12,7 @@
 
 namespace flyball {
 
-enum class ErrorCode { invalid_input, not_found, failed, timeout, unavailable };
+enum class ErrorCode { invalid_input, not_found, failed, unavailable };
 
 /// `message` names the thing, the value and the way out.
 struct Error {
