@@ -11,8 +11,8 @@
 
 namespace flyball {
 
-/// `unset` is nobody's phase: who observes must say what the vehicle does, because a policy saves
-/// where latency buys no speed.
+/// `unset` is no phase of a flight. An observation must say what the vehicle does, because a policy
+/// lowers the clock while lower latency would not make the vehicle faster.
 enum class MissionPhase : std::uint8_t { take_off, cruise, land, wait, unset };
 
 struct Observation {
