@@ -88,8 +88,16 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
 }  // namespace
 
 Site site_of(const World& world, const std::string& name) {
-  return {name,          world.bounds_W,        world.zones,      world.start_W,
-          world.goal_W,  world.cruise_height_m, world.ground_z_m, world.open_above_m,
+  return {name,
+          world.bounds_W,
+          world.zones,
+          world.start_W,
+          world.goal_W,
+          world.start_clear_m,
+          world.goal_clear_m,
+          world.cruise_height_m,
+          world.ground_z_m,
+          world.open_above_m,
           world.volume_W};
 }
 

@@ -91,9 +91,9 @@ class PackageDelivery final : public Workload {
   }
 
   void take_off(JobContext& job, const PoseEstimate& pose) {
-    for (const Vec3& site_W : {brief_->site.start_W, brief_->site.goal_W}) {
-      job.publish(perception_.clear, clear_over(site_W));
-    }
+    const Site& places = brief_->site;
+    job.publish(perception_.clear, clear_over(places.start_W, places.start_clear_m));
+    job.publish(perception_.clear, clear_over(places.goal_W, places.goal_clear_m));
     guidance_->hover_at(job, above(site(leg_)), yaw_of(pose.X_WB.linear().col(0)));
     legs_->take_off(job, brief_->site.cruise_height_m);
     stage_ = Stage::climbing;

@@ -35,6 +35,15 @@ TEST_F(MeshFile, is_solid_where_its_surfaces_are_and_free_elsewhere) {
   EXPECT_DOUBLE_EQ(world->zones.front().max_speed_m_s, 1.0);
 }
 
+TEST_F(MeshFile, says_how_clear_start_and_goal_are) {
+  const auto world = made_world("mesh_file", 1, {{"file", path}, {"goal_x_m", 4.35}});
+  ASSERT_TRUE(world) << world.error().message;
+  EXPECT_DOUBLE_EQ(world->start_clear_m, 1.0) << "the wall is 5 m away";
+  // The wall's cells begin at x = 5.0.
+  EXPECT_GE(world->goal_clear_m, 0.55);
+  EXPECT_LE(world->goal_clear_m, 0.65);
+}
+
 TEST_F(MeshFile, is_asked_for_a_file) {
   const auto world = made_world("mesh_file", 1);
   ASSERT_FALSE(world);

@@ -128,7 +128,8 @@ void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
 }
 
 void ExplorationFlight::take_off(JobContext& job, const PoseEstimate& pose) {
-  job.publish(perception_.clear, clear_over(parts_.brief->site.start_W));
+  const Site& site = parts_.brief->site;
+  job.publish(perception_.clear, clear_over(site.start_W, site.start_clear_m));
   guidance_.hover_at(job, above_start_W(), yaw_of(pose.X_WB.linear().col(0)));
   legs_.take_off(job, parts_.brief->site.cruise_height_m);
   stage_ = Stage::climbing;

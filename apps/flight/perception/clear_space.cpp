@@ -4,9 +4,7 @@
 
 namespace flyball {
 
-ClearSpace clear_over(const Vec3& ground_W) {
-  // What every world keeps clear around start and goal (Site).
-  constexpr double radius_m = 1.0;
+ClearSpace clear_over(const Vec3& ground_W, double radius_m) {
   constexpr double height_m = 2.5;
   return {ground_W + Vec3::UnitZ() * (0.5 * height_m), {radius_m, 0.5 * height_m}};
 }

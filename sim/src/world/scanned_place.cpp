@@ -50,6 +50,21 @@ Status check_place(const World& world,
   return Done{};
 }
 
+/// The room around a place that whoever surveyed it may declare clear, from its floor to the top of
+/// the flight band; at most what every made world has.
+double clear_around_m(const World& world, const Clearance& clearance, const Vec3& place_W) {
+  constexpr double floor_m = 0.1;  // By so much a scanned floor is rough.
+  constexpr double step_m = 0.05;
+  const double high_m = world.bounds_W.max.z() - place_W.z() - floor_m;
+  const Vec3 middle_W = place_W + Vec3::UnitZ() * (floor_m + 0.5 * high_m);
+  int steps = 20;
+  while (steps > 0 &&
+         clearance.distance_m(middle_W, {steps * step_m, 0.5 * high_m}, step_m, true) <= 0.0) {
+    --steps;
+  }
+  return steps * step_m;
+}
+
 }  // namespace
 
 std::vector<ParameterSpec> place_parameters() {
@@ -92,6 +107,8 @@ Result<World> world_in(const ScanGrid& grid,
       return good.error();
     }
   }
+  world.start_clear_m = clear_around_m(world, clearance, world.start_W);
+  world.goal_clear_m = clear_around_m(world, clearance, world.goal_W);
   return world;
 }
 

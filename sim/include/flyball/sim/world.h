@@ -42,6 +42,8 @@ struct World {
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};   ///< On the ground, where the vehicle takes off.
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
+  double start_clear_m{1.0};    ///< No solid is closer to the vertical line over the start.
+  double goal_clear_m{1.0};     ///< The same over the goal.
   double cruise_height_m{1.5};  ///< Above ground.
   /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
   /// that is not so.
@@ -59,7 +61,8 @@ class WorldGenerator {
 
   [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
   /// Same parameters and seed, same world. Start and goal are clear by at least 1 m up to 2.5 m
-  /// height (`octomap_file`: as the place allows).
+  /// height
+  /// (a scanned place: by `start_clear_m` and `goal_clear_m` within the flight band).
   /// @error `not_found` (a file), `invalid_input` (parameters that contradict each other).
   [[nodiscard]] virtual Result<World> make(const Parameters& given, std::uint64_t seed) const = 0;
 };

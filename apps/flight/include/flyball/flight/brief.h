@@ -26,8 +26,12 @@ struct Site {
   std::string place{};  ///< Its name, for messages.
   Aabb bounds_W{};
   std::vector<SpeedZone> zones{};
-  Vec3 start_W{Vec3::Zero()};  ///< On the ground; clear within 1 m up to 2.5 m, as is the goal.
+  Vec3 start_W{Vec3::Zero()};  ///< On the ground.
   Vec3 goal_W{Vec3::Zero()};
+  /// No obstacle is closer to the vertical lines over start and goal, up to 2.5 m or to the top of
+  /// `bounds_W`. Who gives the site vouches for it: no camera looks there before take-off.
+  double start_clear_m{1.0};
+  double goal_clear_m{1.0};
   double cruise_height_m{};
   double ground_z_m{};
   std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.

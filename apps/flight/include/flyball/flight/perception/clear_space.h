@@ -14,8 +14,8 @@ struct ClearSpace {
   Cylinder space{};
 };
 
-/// The cylinder over a place on the ground where a vehicle may take off and land: 1 m in radius,
-/// 2.5 m high.
-[[nodiscard]] ClearSpace clear_over(const Vec3& ground_W);
+/// The cylinder over a place on the ground where a vehicle may take off and land, 2.5 m high; see
+/// `Site::start_clear_m` for its radius.
+[[nodiscard]] ClearSpace clear_over(const Vec3& ground_W, double radius_m);
 
 }  // namespace flyball
