@@ -82,7 +82,7 @@ void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
   }
 }
 
-/// The libraries whose kernels the mission may name: whoever flies it again needs them.
+/// The libraries whose kernels the mission may name. They are needed to fly it again.
 std::string libraries_line() {
   std::string names;
   for (const std::string& file : loaded_kernel_libraries()) {

@@ -23,7 +23,7 @@ std::vector<fs::path> data_folders() {
   // Read before any thread is started.
   const char* given = std::getenv("FLYBALL_DATA");  // NOLINT(concurrency-mt-unsafe)
   if (given != nullptr && *given != '\0') {
-    return {fs::path{given}};  // Whoever names one does not want another.
+    return {fs::path{given}};  // A path that is given excludes any other file.
   }
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);

@@ -48,7 +48,7 @@ void assign_all(Scenario& scenario, const Fields& fields, ScenarioText& read) {
   }
 }
 
-/// Of a plug-in that does not exist nobody knows the parameters: its name is the one error.
+/// The parameters of a plug-in that does not exist are unknown, so only its name is an error.
 bool is_of_unknown_plugin(const Groups& groups, const std::string& key) {
   return std::any_of(groups.begin(), groups.end(), [&](const ParameterGroup& group) {
     return !group.exists && key.rfind(group.prefix, 0) == 0;
@@ -101,8 +101,8 @@ std::string origin_of(const std::string& key, const GivenValues& given) {
   return found == given.end() ? "default" : found->second.origin;
 }
 
-/// A file's parameters are those of the kernel or world that it names: whoever exchanges that one
-/// starts from the other one's defaults.
+/// A file's parameters belong to the kernel or world that it names. When an override names another
+/// one, that one starts from its own defaults.
 void drop_exchanged(const ScenarioText& file, const Groups& groups, GivenValues& given) {
   for (const ParameterGroup& group : groups) {
     const auto filed = file.values.find(group.selector);

@@ -20,7 +20,7 @@ class FlightRecorder {
 
   /// One row of channel `state`.
   void record_state();
-  /// Statistics of every job; a row of channel `job` for those that are not mere routine.
+  /// Statistics of every job; a row of channel `job` for all but the two most frequent nodes.
   void record_job(const JobRecord& job);
   [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
 

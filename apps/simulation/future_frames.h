@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// What frames will cost that nobody has taken yet: the simulator's own knowledge, for policies
-/// that ask for it and never fly outside.
+/// What frames will cost that have not been taken yet. Only the simulator knows this, so policies
+/// that ask for it cannot fly on a vehicle.
 
 #include "flyball/flight/governing/governor_loop.h"
 #include "flyball/governors/foresight.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// One question about a mission that only somebody who sees the true world can answer.
+/// A question about a mission that can only be answered with the true world.
 
 #include "flyball/flight/mission_end.h"
 #include "flyball/records/mission_frame.h"

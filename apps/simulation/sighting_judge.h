@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Whether somebody who was reported found is there.
+/// Whether a person stands where the vehicle reported one.
 
 #include "flyball/flight/people/person_finding.h"
 #include "flyball/runtime/event_queue.h"

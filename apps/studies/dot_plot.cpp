@@ -151,8 +151,8 @@ std::string cross(const Frame& frame,
          dot(x, y, ink, interval_text(point.name + ", " + x_title, point.x));
 }
 
-/// Beside the frame, for points may lie on each other: a name in a row of its own, joined to its
-/// point.
+/// A name beside the frame, in a row of its own and joined to its point by a line, because points
+/// may lie on each other.
 std::string names_of(const Frame& frame, const std::vector<PlottedPoint>& points) {
   std::vector<std::size_t> by_height(points.size());
   std::iota(by_height.begin(), by_height.end(), 0U);

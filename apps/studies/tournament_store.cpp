@@ -86,7 +86,7 @@ std::string mission_key(const Scenario& scenario) {
 
 Result<TournamentStore> TournamentStore::open(const std::string& path) {
   auto connection = std::make_unique<Connection>(path);
-  // Somebody who looks at the results meanwhile, or adds to them, holds the file for moments.
+  // Another process that reads the results or adds to them locks the file for moments.
   constexpr int patience_ms = 60000;
   if (sqlite3_open(path.c_str(), &connection->database) != SQLITE_OK ||
       sqlite3_busy_timeout(connection->database, patience_ms) != SQLITE_OK ||

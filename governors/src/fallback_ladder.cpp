@@ -18,7 +18,7 @@ bool are_apart(double one, double other) {
 }
 
 bool differs(const std::optional<double>& request, double granted, double cap) {
-  // Zero: whoever observes does not tell.
+  // Zero: the observation does not tell.
   return request && granted != 0.0 && are_apart(*request, granted) &&
          are_apart(std::min(*request, cap), granted);
 }

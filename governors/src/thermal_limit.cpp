@@ -37,7 +37,7 @@ constexpr double load_s =
     10.0;  // Over which the load is averaged: detectors and planners come and go.
 
 bool is_told(const Observation& seen) {
-  // Else nobody tells, or what is told is a fault of whoever observes.
+  // Otherwise the temperature is not known, or the observation is faulty.
   const double hz = seen.frequency.value();
   return seen.trip_c > 0.0 && seen.trip_c < 1e3 && std::abs(seen.temperature_c) < 1e3 && hz > 1e6 &&
          hz < 1e11 && seen.busy_cores >= 0.0 && seen.busy_cores < 1e3;

@@ -20,7 +20,7 @@ namespace {
 using flyball::Detection;
 
 constexpr int stride_px = 8;     // One cell: OpenCV's own step.
-constexpr int padding_px = 8;    // So that somebody at the image's edge has a margin too.
+constexpr int padding_px = 8;    // A person at the edge of the image needs a margin, too.
 constexpr int most_levels = 64;  // OpenCV's limit.
 constexpr double most_overlap = 0.4;
 

@@ -36,7 +36,7 @@ struct Milestone {
   ompl::base::RealVectorStateSpace::StateType holder{};
   const ompl::base::State* state{&holder};  ///< What the tree of neighbours looks at.
   std::size_t index{};
-  std::size_t leader{};  ///< Of its part of the roadmap, or somebody closer to the leader.
+  std::size_t leader{};  ///< Of its part of the roadmap, or a node closer to the leader.
   std::vector<std::pair<std::size_t, double>> edges{};  ///< To whom, and how far [m].
 };
 

@@ -122,7 +122,7 @@ std::unique_ptr<flyball::PictureReader> open(const std::string& path) {
 extern "C" flyball::PictureReader* flyball_open_pictures(const char* path) {
   try {
     cv::setNumThreads(1);
-    // What cannot be read is said in one sentence, by whoever asked.
+    // The caller reports in one sentence what cannot be read.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return open(path).release();
   } catch (const std::exception&) {

@@ -97,7 +97,7 @@ int settle_in(pid_t parent, int socket, std::size_t memory_bytes) {
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   std::signal(SIGINT, SIG_IGN);
   const int kept = keep_only(socket);
-  // Crashes are the parent's to report; nobody wants a core file of each.
+  // The parent reports crashes, so no core file is needed.
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_FSIZE, 0);
   constexpr rlim_t most_files = 64;
@@ -160,7 +160,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::fork(
     return Error{ErrorCode::failed, std::string{"no process for a policy: "} +
                                         std::strerror(errno)};  // NOLINT(concurrency-mt-unsafe)
   }
-  setpgid(child, child);  // Both do it: nobody knows who comes first.
+  setpgid(child, child);  // Parent and child both do it, because either may come first.
   return std::make_unique<ChildProcess>(child, ends[0]);
 }
 

@@ -19,7 +19,7 @@ namespace flyball {
 class PacketSocket {
  public:
   explicit PacketSocket(int descriptor) : descriptor_{descriptor} {}
-  /// False when nobody listens any more.
+  /// False when the other side has gone.
   [[nodiscard]] bool send(const void* packet, std::size_t size) const noexcept;
   enum class Received { packet, ended, late, of_other_size };
   /// Waits for one packet of `size` bytes; a negative limit: for ever. A packet `of_other_size` is

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Code that nobody here has read, in a process of its own: it may crash, hang or eat memory there.
+/// Runs code from outside in a process of its own, where it may crash, hang or use up its memory.
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"

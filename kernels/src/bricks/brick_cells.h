@@ -5,9 +5,9 @@
 /// What is known of every cell, at every level: the part of the brick map that questions look at.
 ///
 /// Space is cut into chunks of 32 x 32 x 32 finest cells, found by hashing. This is only the index
-/// that finds them; somebody else keeps them. A copy of it is a revision of the map, as long as the
-/// chunks that it names stay as they are (see BrickRevisions). Nothing is cached on the way to an
-/// answer, so any number of threads may ask at the same time.
+/// that finds them; their owner is another one. A copy of it is a revision of the map, as long as
+/// the chunks that it names stay as they are (see BrickRevisions). Nothing is cached on the way to
+/// an answer, so any number of threads may ask at the same time.
 
 #include "flyball/runtime/occupancy.h"
 

@@ -18,7 +18,7 @@ std::shared_ptr<const BrickCells> BrickRevisions::hand_on(const BrickCells& now,
           }};
 }
 
-/// One that nobody reads, with the map's index.
+/// A revision without readers, with the map's index.
 BrickRevisions::Revision& BrickRevisions::idle_revision(const BrickCells& now) {
   const auto is_idle = [](const std::unique_ptr<Revision>& revision) {
     return revision->readers.load(std::memory_order_acquire) == 0;

@@ -36,13 +36,13 @@ class BrickRevisions : public std::enable_shared_from_this<BrickRevisions> {
 
   /// The number that the next revision of a changed map will have.
   [[nodiscard]] Number next() const { return last_ + 1; }
-  /// The newest revision that somebody reads; 0 without one.
+  /// The newest revision that has a reader; 0 without one.
   [[nodiscard]] Number newest_read() const;
   /// A copy of a chunk, to be shown from the next revision on.
   [[nodiscard]] std::unique_ptr<Chunk> copy_of(const Chunk& chunk);
   /// Keeps a chunk that the map does not have any more for those who read it.
   void retire(std::unique_ptr<Chunk> chunk);
-  /// Takes back the memory of retired chunks that nobody can read any more.
+  /// Takes back the memory of retired chunks that no reader can reach any more.
   void collect();
   /// Without the chunks of the map as it is now.
   [[nodiscard]] std::size_t bytes() const;

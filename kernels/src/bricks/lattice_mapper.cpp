@@ -273,7 +273,8 @@ class LatticeMapper final : public Mapper {
 
   BrickMap map_{default_finest_m};
   BrickView view_{map_.cells()};
-  std::unique_ptr<ChunkLog> forgotten_{};  ///< Null where nothing is, and where nobody asks.
+  std::unique_ptr<ChunkLog>
+      forgotten_{};  ///< Null where nothing is forgotten, or it is not asked for.
   std::vector<std::unique_ptr<ExactScan>> exact_{};  ///< One for each level, which sets its counts.
   std::unique_ptr<RayScan> close_{};
   std::unique_ptr<PyramidScan> pyramid_{};

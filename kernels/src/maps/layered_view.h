@@ -75,8 +75,8 @@ class LayeredView final : public OccupancyView {
   static constexpr double initial_resolution_m = 0.15;
 
  private:
-  /// What a coarser map's occupied cube stands for: unknown for whoever moves, an obstacle for
-  /// whoever looks around.
+  /// What a coarser map's occupied cube stands for: unknown space for planning and collision
+  /// checks, an obstacle for queries about the surroundings.
   enum class Use : std::uint8_t { move, look };
   struct Layers {
     std::size_t count;

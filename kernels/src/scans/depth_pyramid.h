@@ -27,7 +27,7 @@ class DepthPyramid {
   /// @pre The cloud has a camera.
   void build(const PointCloud& cloud_C, double range_m, const InnerLoops& loops);
 
-  /// The same in two steps, for whoever has the depths: returns where they go, row by row.
+  /// The same in two steps, for callers that have the depths: returns where they go, row by row.
   float* begin(const Intrinsics& camera);
   void finish(const InnerLoops& loops);
 

@@ -33,7 +33,7 @@ class DepthView {
 
   /// @pre The cloud has a camera.
   void look(const PointCloud& cloud_C, const Pose& X_WC, double range_m);
-  /// The same in two steps, for whoever has the depths of an image: returns where they go.
+  /// The same in two steps, for callers that have the depths of an image: returns where they go.
   float* begin(const Intrinsics& camera) { return depth_.begin(camera); }
   void look(const Pose& X_WC, double range_m, ViewMargins margins);
   /// The box in W around the camera and all that it sees within the range, and a margin.

@@ -93,7 +93,7 @@ void ExactScan::free_brick(const Block& brick) {
 }
 
 /// Of two by two by two cells, the first of which has this bit in its brick, those that are not
-/// settled: known to be free, or hit. A hit is not freed, whoever crosses it.
+/// settled: known to be free, or hit. A hit is not freed by rays that cross it.
 std::uint64_t ExactScan::crossed_cells(const Block& eighth,
                                        unsigned first_bit,
                                        std::uint64_t settled) {

@@ -32,7 +32,7 @@ class ImageRays {
   /// Sixteen pixels of a row; those beyond its end are no rays.
   void points_from(
       int u, int v, PointBlock& points, PixelKinds& kinds, const InnerLoops& loops) const;
-  /// As whoever makes points of images makes it.
+  /// The same point that the point cloud has for this pixel.
   [[nodiscard]] std::optional<PixelPoint> point(int pixel) const;
 
   /// Whether any pixel looks to that side, -1 or 1, along an axis of W.

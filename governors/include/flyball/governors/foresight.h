@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What only a simulator can tell a policy: how long jobs will take that nobody has begun.
+/// What only a simulator can tell a policy: how long jobs will take that have not begun.
 
 #include <cstddef>
 #include <vector>

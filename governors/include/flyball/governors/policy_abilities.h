@@ -81,7 +81,7 @@ class UsesForesight : public PolicyAbility {
   virtual void foretell(const Foresight& truth) noexcept = 0;
 };
 
-/// The host of somebody else's code: what is wrong with that shows when it is asked.
+/// A policy that hosts code from outside, whose faults show only when it is asked.
 class HostsCode : public PolicyAbility {
  public:
   /// Why the last `decide` came to nothing, in one sentence; empty: it did not.

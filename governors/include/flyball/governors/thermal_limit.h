@@ -49,7 +49,7 @@ class ThermalLimit {
   /// Once per decision.
   void learn(const Observation& seen);
 
-  /// By the power model; empty where nobody tells a trip.
+  /// By the power model; empty where no trip point is known.
   [[nodiscard]] std::optional<Watts> most_power() const;
   [[nodiscard]] std::optional<Watts> sustainable_power() const;
   /// After this power for so long. @pre A trip was told.

@@ -3,7 +3,7 @@
 
 /// @file
 /// Parts of Flyball that bring half a hundred libraries, a tenth of a second and more at every
-/// start of a program that links them. They are modules, and loaded when somebody wants them:
+/// start of a program that links them. They are modules, and are loaded when they are asked for:
 /// `../lib/flyball/NAME.so` seen from the program, or where this library was installed, or, before
 /// both, beside the data in `$FLYBALL_DATA`: `../../lib/flyball` seen from there.
 

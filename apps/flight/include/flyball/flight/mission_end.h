@@ -19,7 +19,7 @@ enum class MissionFailure : std::uint8_t {
   localization_lost,  ///< The localizer lost track and did not find it again.
   not_found,          ///< Everything was searched; the person was not seen.
   incomplete,         ///< Less was covered or mapped than the mission asks for.
-  false_alarm         ///< Somebody was reported found where nobody is.
+  false_alarm         ///< A person was reported where nobody stands.
 };
 
 [[nodiscard]] const char* to_string(MissionStatus status);

@@ -48,7 +48,7 @@ struct MissionState {
   MissionPhase phase{MissionPhase::wait};
 };
 
-/// Somebody on board, or the referee, says that the mission is over. The first one counts.
+/// A node, or the referee, says that the mission is over. The first message counts.
 struct MissionEnd {
   MissionTime at{};
   MissionStatus status{MissionStatus::interrupted};

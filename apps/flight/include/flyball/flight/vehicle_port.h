@@ -34,7 +34,7 @@ struct VehicleTopics {
   Topic<Setpoint> setpoint;
   Topic<FlightCommand> command;
   Topic<ColourFrame> colour{};         ///< These three only where the workload looks for people.
-  Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until somebody takes them.
+  Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until they are taken.
   Topic<GimbalAngles> gimbal{};        ///< Commanded angles.
   /// Of the RGB-D camera, for a localizer that takes images.
   std::optional<Topic<View>> view{};

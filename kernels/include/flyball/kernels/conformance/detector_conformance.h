@@ -17,7 +17,7 @@
 
 namespace flyball {
 
-/// Somebody whom a detector of that kind should find.
+/// A person whom a detector of that kind should find.
 struct PicturedPerson {
   ColourImage image{};
   ImageBox box{};

@@ -72,7 +72,7 @@ class PathFollower {
 
   /// Measures the known-free distance again, after the path has changed.
   void refresh_known_free(const OccupancyView& map);
-  /// The known-free distances of this path, as somebody else has measured them in a newer map.
+  /// The known-free distances of this path, measured by the node `check` in a newer map.
   void set_known_free(const TierDistances& free_until_m) { free_until_m_ = free_until_m; }
   /// A map with frames up to this time is the newest one.
   void map_captured(MissionTime captured) { newest_capture_ = captured; }
