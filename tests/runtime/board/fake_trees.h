@@ -30,7 +30,7 @@ class Tree {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator{folder_.path("sys")}) {
       if (entry.is_regular_file()) {
-        const std::string path = entry.path().string().substr(folder_.path().size());
+        const std::string path = entry.path().string().substr(folder_.path().size() - 1);
         files[path] = get(path);
       }
     }

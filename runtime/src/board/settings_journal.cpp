@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: settings_keeper
+#include "board/settings_journal.h"
+
+#include "board/sysfs_text.h"
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace flyball {
+namespace {
+
+constexpr const char* way_out =
+    "; make the folder yours, name another one, or see: flyball board setup --print";
+
+/// From its beginning, without moving what others append.
+std::string content_of(int file) {
+  std::string content;
+  std::array<char, 4096> part{};
+  ssize_t count = 0;
+  while ((count = pread(file, part.data(), part.size(), static_cast<off_t>(content.size()))) > 0) {
+    content.append(part.data(), static_cast<std::size_t>(count));
+  }
+  return content;
+}
+
+/// `LENGTH NEWLINE TEXT NEWLINE` from `at` on; empty: it is cut off.
+std::optional<std::string> next_part(const std::string& text, std::size_t& at) {
+  const std::size_t line_end = text.find('\n', at);
+  if (line_end == std::string::npos) {
+    return std::nullopt;
+  }
+  const auto length = integer_of(std::string_view{text}.substr(at, line_end - at));
+  if (!length || *length < 0) {
+    return std::nullopt;
+  }
+  const std::size_t begin = line_end + 1;
+  const auto size = static_cast<std::size_t>(*length);
+  if (size >= text.size() || begin + size >= text.size() || text[begin + size] != '\n') {
+    return std::nullopt;
+  }
+  at = begin + size + 1;
+  return text.substr(begin, size);
+}
+
+std::string part_of(const std::string& text) {
+  return std::to_string(text.size()) + "\n" + text + "\n";
+}
+
+void note_owner(int lock) {
+  const std::string pid = std::to_string(getpid()) + "\n";
+  if (ftruncate(lock, 0) == 0) {
+    // Only for the sentence that another process says: nothing depends on it.
+    [[maybe_unused]] const ssize_t count = pwrite(lock, pid.data(), pid.size(), 0);
+  }
+}
+
+}  // namespace
+
+Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
+  mkdir(folder.c_str(), 0775);  // It may be there; whether it can be used shows next.
+  constexpr int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
+  const std::string lock_path = folder + "/board.lock";
+  const int lock = ::open(lock_path.c_str(), flags, 0660);
+  if (lock < 0) {
+    const Error error = system_error("the lock " + lock_path + " cannot be opened", errno);
+    return Error{ErrorCode::unavailable, error.message + way_out};
+  }
+  if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
+    const std::string owner = trimmed(content_of(lock));
+    close(lock);
+    return Error{ErrorCode::unavailable, "process " + (owner.empty() ? "?" : owner) +
+                                             " has this board (" + lock_path +
+                                             "), or its settings are just being restored; end it "
+                                             "first"};
+  }
+  const std::string path = folder + "/board.journal";
+  const int journal = ::open(path.c_str(), flags | O_APPEND, 0660);
+  if (journal < 0) {
+    const Error error = system_error("the journal " + path + " cannot be opened", errno);
+    close(lock);
+    return Error{ErrorCode::unavailable, error.message + way_out};
+  }
+  note_owner(lock);
+  return SettingsJournal{lock, journal, path};
+}
+
+SettingsJournal::SettingsJournal(int lock, int journal, std::string path)
+    : lock_{lock}, journal_{journal}, path_{std::move(path)} {}
+
+SettingsJournal::SettingsJournal(SettingsJournal&& other) noexcept
+    : lock_{std::exchange(other.lock_, -1)},
+      journal_{std::exchange(other.journal_, -1)},
+      path_{std::move(other.path_)} {}
+
+SettingsJournal::~SettingsJournal() {
+  for (const int file : {lock_, journal_}) {
+    if (file >= 0) {
+      close(file);
+    }
+  }
+}
+
+std::vector<KeptSetting> SettingsJournal::read() const {
+  const std::string text = content_of(journal_);
+  std::vector<KeptSetting> kept;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const auto path = next_part(text, at);
+    const auto content = path ? next_part(text, at) : std::nullopt;
+    if (!content) {
+      break;
+    }
+    kept.push_back({*path, *content});
+  }
+  return kept;
+}
+
+Status SettingsJournal::append(const KeptSetting& kept) {
+  const std::string record = part_of(kept.path) + part_of(kept.content);
+  // One call, so that a kill leaves the whole record or none of it.
+  const ssize_t count = ::write(journal_, record.data(), record.size());
+  if (count != static_cast<ssize_t>(record.size())) {
+    return system_error("the journal " + path_ + " cannot be written", count < 0 ? errno : ENOSPC);
+  }
+  return Done{};
+}
+
+void SettingsJournal::clear() {
+  [[maybe_unused]] const int result = ftruncate(journal_, 0);
+}
+
+void SettingsJournal::unlock() {
+  flock(lock_, LOCK_UN);
+}
+
+}  // namespace flyball

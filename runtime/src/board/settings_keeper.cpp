@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/board/settings_keeper.h"
+
+#include "board/settings_journal.h"
+#include "board/watchdog.h"
+#include <algorithm>
+
+#include <unistd.h>
+
+namespace flyball {
+namespace {
+
+/// A file that cannot be read because its core is off-line holds nothing that could be wrong.
+bool holds(const LinuxSystem& system, const KeptSetting& kept, bool was_written) {
+  const auto now = system.read(kept.path);
+  return now ? *now == kept.content : was_written;
+}
+
+/// One of the settings as it is being restored.
+struct Pending {
+  const KeptSetting* kept{};
+  bool is_written{};
+  std::string error{};
+};
+
+/// Writes those that do not hold what they held; returns whether one more of them was written.
+bool restore_once(LinuxSystem& system, std::vector<Pending>& pending) {
+  bool made_progress = false;
+  for (Pending& one : pending) {
+    if (one.is_written || holds(system, *one.kept, false)) {
+      made_progress = made_progress || !one.is_written;
+      one.is_written = true;
+      continue;
+    }
+    const Status written = system.write(one.kept->path, one.kept->content);
+    one.is_written = written.ok();
+    one.error = written.ok() ? "" : written.error().message;
+    made_progress = made_progress || one.is_written;
+  }
+  return made_progress;
+}
+
+/// Those that were written and hold something else now: the kernel cut the value to a limit that
+/// has been restored since. They are written anew.
+bool has_lost_some(const LinuxSystem& system, std::vector<Pending>& pending) {
+  bool has = false;
+  for (Pending& one : pending) {
+    if (one.is_written && !holds(system, *one.kept, true)) {
+      one.is_written = false;
+      has = true;
+    }
+  }
+  return has;
+}
+
+}  // namespace
+
+std::vector<Error> restore_settings(LinuxSystem& system, const std::vector<KeptSetting>& kept) {
+  std::vector<Pending> pending;
+  for (auto setting = kept.rbegin(); setting != kept.rend(); ++setting) {
+    pending.push_back({&*setting, false, {}});
+  }
+  const auto is_pending = [](const Pending& one) { return !one.is_written; };
+  // In the worst order each pass writes one more file.
+  for (std::size_t pass = 0; pass <= 2 * kept.size(); ++pass) {
+    const bool made_progress = restore_once(system, pending);
+    const bool lost_some = has_lost_some(system, pending);
+    const bool is_done = std::none_of(pending.begin(), pending.end(), is_pending);
+    if (is_done || (!made_progress && !lost_some)) {
+      break;
+    }
+  }
+  std::vector<Error> errors;
+  for (const Pending& one : pending) {
+    if (!one.is_written) {
+      const std::string why = one.error.empty() ? one.kept->path + " does not take it" : one.error;
+      errors.push_back({ErrorCode::failed, "not restored: " + why + "; it held " +
+                                               std::to_string(one.kept->content.size()) +
+                                               " bytes: " + one.kept->content});
+      while (!errors.back().message.empty() && errors.back().message.back() == '\n') {
+        errors.back().message.pop_back();
+      }
+    }
+  }
+  return errors;
+}
+
+struct SettingsKeeper::State {
+  State(LinuxSystem& of, SettingsJournal opened) : system{of}, journal{std::move(opened)} {}
+
+  LinuxSystem& system;
+  SettingsJournal journal;
+  std::optional<Watchdog> watchdog{};
+  std::vector<KeptSetting> kept{};
+  bool is_closed{};
+  pid_t owner{getpid()};
+
+  Status watch() {
+    auto started = Watchdog::start(journal.descriptors(), [this] {
+      // The journal and not `kept`: that is a copy from before the first write.
+      if (restore_settings(system, journal.read()).empty()) {
+        journal.clear();
+      }
+      journal.unlock();
+    });
+    if (!started) {
+      return started.error();
+    }
+    watchdog.emplace(std::move(*started));
+    return Done{};
+  }
+
+  Status keep(const std::string& path) {
+    const bool is_kept = std::any_of(
+        kept.begin(), kept.end(), [&](const KeptSetting& setting) { return setting.path == path; });
+    if (is_kept) {
+      return Done{};
+    }
+    const auto content = system.read(path);
+    if (!content) {
+      return content.error();
+    }
+    KeptSetting setting{path, *content};
+    if (const Status appended = journal.append(setting); !appended) {
+      return appended;
+    }
+    kept.push_back(std::move(setting));
+    return Done{};
+  }
+};
+
+Result<std::unique_ptr<SettingsKeeper>> SettingsKeeper::open(LinuxSystem& system,
+                                                             const KeeperOptions& options) {
+  auto journal = SettingsJournal::lock(options.run_folder);
+  if (!journal) {
+    return journal.error();
+  }
+  const std::vector<KeptSetting> left = journal->read();
+  if (!left.empty() && !options.adopt) {
+    journal->unlock();
+    return Error{ErrorCode::unavailable,
+                 "a session that ended has left " + std::to_string(left.size()) +
+                     " settings unrestored (" + journal->path() + "), the first of them " +
+                     left.front().path +
+                     "; try: flyball board restore, or adopt them with --adopt"};
+  }
+  if (left.empty()) {
+    journal->clear();  // Of a record that was cut off.
+  }
+  auto state = std::make_unique<State>(system, std::move(*journal));
+  state->kept = left;
+  if (const Status watched = state->watch(); !watched) {
+    return watched.error();
+  }
+  return std::unique_ptr<SettingsKeeper>{new SettingsKeeper{std::move(state)}};
+}
+
+SettingsKeeper::SettingsKeeper(std::unique_ptr<State> state) : state_{std::move(state)} {}
+
+SettingsKeeper::~SettingsKeeper() {
+  if (state_->owner == getpid()) {  // A forked copy must leave the board alone.
+    restore();
+  }
+}
+
+Status SettingsKeeper::keep(const std::string& path) {
+  return state_->keep(path);
+}
+
+Status SettingsKeeper::write(const std::string& path, const std::string& text) {
+  if (state_->is_closed) {
+    return Error{ErrorCode::failed, path + " is not written: the settings have been restored"};
+  }
+  if (!state_->watchdog->is_alive()) {
+    if (const Status watched = state_->watch(); !watched) {
+      return Error{ErrorCode::failed, path + " is not written: " + watched.error().message};
+    }
+  }
+  if (const Status kept = state_->keep(path); !kept) {
+    return kept;
+  }
+  return state_->system.write(path, text);
+}
+
+std::vector<Error> SettingsKeeper::restore() {
+  if (state_->is_closed) {
+    return {};
+  }
+  state_->is_closed = true;
+  std::vector<Error> errors = restore_settings(state_->system, state_->kept);
+  if (errors.empty()) {
+    state_->journal.clear();
+  }
+  state_->watchdog->end();
+  state_->journal.unlock();
+  return errors;
+}
+
+const std::vector<KeptSetting>& SettingsKeeper::kept() const {
+  return state_->kept;
+}
+
+pid_t SettingsKeeper::watchdog() const {
+  return state_->watchdog->process();
+}
+
+}  // namespace flyball
