@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Sets the clock of one cpufreq policy, in the order that the kernel takes.
+
+#include "flyball/runtime/board/board_file.h"
+#include "flyball/runtime/board/board_inventory.h"
+#include "flyball/runtime/board/settings_keeper.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+/// Where there is the governor `userspace` it is chosen and `scaling_setspeed` written, with the
+/// limits moved out of the way. Elsewhere (intel_pstate) both limits are moved to the clock.
+class ClockControl {
+ public:
+  /// `system` and `keeper` outlive it.
+  ClockControl(LinuxSystem& system, SettingsKeeper& keeper, ClockPolicy policy);
+
+  /// Sets the highest of `clocks` that is not above `wanted`, or the lowest, and reads it back.
+  /// @error Those of `SettingsKeeper::write`; `failed`: the files hold something else afterwards.
+  Status set(Hertz wanted, const std::vector<Hertz>& clocks);
+  /// Zero before the first `set`.
+  [[nodiscard]] Hertz requested() const { return requested_; }
+  /// What the driver says (`scaling_cur_freq`); empty: nothing, or all cores are off-line.
+  [[nodiscard]] std::optional<Hertz> reported() const;
+  /// Whether the files still hold what `set` left there; true before, and while all cores are
+  /// off-line.
+  [[nodiscard]] bool is_as_set() const;
+  [[nodiscard]] const ClockPolicy& policy() const { return policy_; }
+
+ private:
+  struct Limits {
+    Hertz min{};
+    Hertz max{};
+    friend bool operator==(const Limits& a, const Limits& b) {
+      return a.min == b.min && a.max == b.max;
+    }
+  };
+  [[nodiscard]] std::string file(const char* name) const { return policy_.folder + "/" + name; }
+  [[nodiscard]] std::optional<Limits> limits() const;
+  [[nodiscard]] Limits limits_for(Hertz clock, const Limits& now) const;
+  Status keep_files();
+  Status take_governor();
+  Status move_limits(Hertz clock);
+  Status verify(Hertz clock);
+
+  LinuxSystem& system_;
+  SettingsKeeper& keeper_;
+  ClockPolicy policy_;
+  bool is_by_hand_;  ///< By `scaling_setspeed`.
+  bool is_kept_{};
+  Hertz requested_{};
+  std::optional<Limits> set_limits_{};
+};
+
+/// The clocks that may be asked of a policy, ascending: those that its driver lists, or steps of
+/// `board.clock_step`. Not above the limit that was found, which is the power mode's (nvpmodel),
+/// and not below what the firmware keeps.
+[[nodiscard]] std::vector<Hertz> clocks_of(const ClockPolicy& policy, const BoardFile& board);
+
+}  // namespace flyball

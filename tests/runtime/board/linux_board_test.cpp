@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/board/linux_board.h"
+
+#include "fake_kernel.h"
+#include "fake_trees.h"
+#include "killed_session.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using Lines = std::vector<std::string>;
+using Numbers = std::vector<int>;
+using Plant = void (*)(const fake::Tree&);
+
+constexpr Duration second = std::chrono::seconds{1};
+const std::string policy0 = "/sys/devices/system/cpu/cpufreq/policy0/";
+
+class LinuxBoardTest : public testing::Test {
+ protected:
+  LinuxBoardTest() {
+    options_.keeper.run_folder = tree_.root() + "/run";
+    options_.measure_clock = [this] { return measured_; };
+  }
+  LinuxBoard& open(Plant plant) {
+    plant(tree_);
+    auto opened = LinuxBoard::open(kernel_, options_);
+    EXPECT_TRUE(opened.ok()) << opened.error().message;
+    board_ = std::move(*opened);
+    return *board_;
+  }
+  void as_tx2() {
+    options_.file.core_order = {0, 3, 4, 5};
+    options_.file.cores_if_asked = {1, 2};
+    options_.file.may_unplug_cores = true;
+    options_.file.ignored_zones = {"PMIC-Die"};
+  }
+
+  fake::Tree tree_{};
+  fake::Kernel kernel_{tree_.root()};
+  LinuxBoardOptions options_{};
+  std::optional<Hertz> measured_{};
+  std::unique_ptr<LinuxBoard> board_{};
+};
+
+TEST_F(LinuxBoardTest, governs_a_tx2_and_leaves_it_as_it_was) {
+  as_tx2();
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  const auto before = tree_.all();
+  EXPECT_EQ(board.model().max_cores, 4);
+  EXPECT_EQ(board.model().frequencies.size(), 12U);
+  board.request({3, Hertz{1574.4e6}});
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted, (OperatingPoint{3, Hertz{1574.4e6}}));
+  EXPECT_EQ(board.active_cpus(), (Numbers{0, 3, 4}));
+  EXPECT_NEAR(board.read().computer_power.value(), 19.008 * 0.208, 1e-9);
+  EXPECT_DOUBLE_EQ(board.read().temperature_c, 43.0);
+  EXPECT_DOUBLE_EQ(board.read().trip_c, 95.5);
+  EXPECT_TRUE(board.notes().empty()) << board.notes().front();
+  EXPECT_TRUE(board.close().empty());
+  auto after = tree_.all();
+  after[policy0 + "scaling_cur_freq"] = before.at(policy0 + "scaling_cur_freq");  // a reading
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(LinuxBoardTest, switches_cores_on_before_clocks_and_off_after_them) {
+  as_tx2();
+  options_.use_cores_if_asked = true;
+  options_.unplug_cores = true;
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  board.request({6, Hertz{2035.2e6}});
+  board.request({1, Hertz{345.6e6}});
+  EXPECT_EQ(
+      kernel_.writes,
+      (Lines{"cpu1/online=1", "cpu2/online=1", "policy0/scaling_governor=userspace",
+             "policy0/scaling_setspeed=2035200", "policy0/scaling_setspeed=345600", "cpu2/online=0",
+             "cpu1/online=0", "cpu5/online=0", "cpu4/online=0", "cpu3/online=0"}));
+}
+
+TEST_F(LinuxBoardTest, sets_all_clusters_of_an_orin) {
+  LinuxBoard& board = open(fake::plant_orin);
+  board.request({8, Hertz{1190.4e6}});
+  EXPECT_EQ(kernel_.writes,
+            (Lines{"policy0/scaling_governor=userspace", "policy0/scaling_setspeed=1190400",
+                   "policy4/scaling_governor=userspace", "policy4/scaling_setspeed=1190400"}));
+  ASSERT_EQ(board.notes().size(), 1U);
+  EXPECT_EQ(board.notes()[0],
+            "nvpmodel (process 301) sets clocks too; wait until it has ended; its mode stays a "
+            "limit");
+}
+
+TEST_F(LinuxBoardTest, says_who_else_sets_the_clocks_of_a_pc) {
+  LinuxBoard& board = open(fake::plant_x86);
+  EXPECT_EQ(board.notes(),
+            (Lines{"power-profiles-daemon (process 640) sets clocks too; stop it: systemctl stop "
+                   "power-profiles-daemon",
+                   "thermald (process 812) sets clocks too; stop it: systemctl stop thermald"}));
+  EXPECT_EQ(board.power_source(), "psys");
+}
+
+TEST_F(LinuxBoardTest, sets_the_clock_again_where_somebody_else_has_changed_it) {
+  LinuxBoard& board = open(fake::plant_pi5);
+  board.request({4, Hertz{2000e6}});
+  tree_.put(policy0 + "scaling_governor", "powersave\n");
+  fake::put_process(tree_, 99, "tuned");
+  board.refresh(second);
+  EXPECT_EQ(tree_.get(policy0 + "scaling_governor"), "userspace\n");
+  const std::size_t count = board.notes().size();
+  ASSERT_GE(count, 2U);
+  EXPECT_EQ(board.notes()[count - 2],
+            "somebody else has changed the limits or the governor of the clock; it is set again");
+  EXPECT_EQ(board.notes()[count - 1],
+            "tuned (process 99) sets clocks too; stop it: systemctl stop tuned");
+}
+
+TEST_F(LinuxBoardTest, believes_the_measured_clock_where_the_driver_lies) {
+  LinuxBoard& board = open(fake::plant_pi5);
+  kernel_.lies["scaling_cur_freq"] = "2400000\n";
+  measured_ = Hertz{1503e6};
+  board.request({4, Hertz{2400e6}});
+  board.refresh(second);
+  EXPECT_EQ(board.clock().requested, Hertz{2400e6});
+  EXPECT_EQ(board.clock().reported, Hertz{2400e6});
+  EXPECT_EQ(board.clock().measured, Hertz{1500e6});
+  EXPECT_EQ(board.read().granted.frequency, Hertz{1500e6});
+  const Lines& notes = board.notes();
+  ASSERT_EQ(notes.size(), 3U);  // the first: no power meter
+  EXPECT_EQ(notes[1],
+            "scaling_cur_freq says 2400 MHz and the cores run at 1500 MHz; the measured clock is "
+            "believed");
+  board.refresh(2 * second);
+  EXPECT_EQ(board.notes().size(), 3U);  // each once
+}
+
+TEST_F(LinuxBoardTest, says_that_less_is_granted) {
+  as_tx2();
+  kernel_.cap_khz = 1420800;
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  board.request({4, Hertz{2035.2e6}});
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{1420.8e6});
+  EXPECT_EQ(board.notes(),
+            (Lines{"the board grants 1420.8 MHz where 2035.2 MHz are requested: heat, "
+                   "the power mode or the firmware limits it"}));
+}
+
+TEST_F(LinuxBoardTest, keeps_the_clock_that_there_is_where_files_are_read_only) {
+  as_tx2();
+  kernel_.refused["scaling_governor"] = EACCES;
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  board.request({2, Hertz{345.6e6}});
+  board.refresh(second);
+  board.request({2, Hertz{499.2e6}});
+  EXPECT_EQ(board.notes(),
+            (Lines{"\"userspace\" cannot be written to " + policy0 +
+                   "scaling_governor: Permission denied; the clock stays as it is; run as root, or "
+                   "let a group write it: flyball board setup --print"}));
+  EXPECT_EQ(board.read().granted, (OperatingPoint{2, Hertz{2035.2e6}}));
+  EXPECT_TRUE(board.model().frequencies.empty());  // not a knob any more
+}
+
+TEST_F(LinuxBoardTest, estimates_the_power_where_there_is_no_rail) {
+  PowerCost prior;
+  prior.board_w = 2.5;
+  options_.power_prior = prior;
+  LinuxBoard& board = open(fake::plant_pi5);
+  board.refresh(second);
+  EXPECT_EQ(board.power_source(), "estimate");
+  EXPECT_EQ(board.read().computer_power, Watts{2.5});
+  EXPECT_EQ(board.notes(),
+            (Lines{"the board's power is not measured: it has no input rail (VDD_IN, "
+                   "VIN) and no RAPL; it is estimated from clock and work"}));
+}
+
+TEST_F(LinuxBoardTest, says_that_energy_counters_are_hidden) {
+  kernel_.unreadable["energy_uj"] = EACCES;
+  LinuxBoard& board = open(fake::plant_x86);
+  EXPECT_EQ(board.power_source(), "none");
+  EXPECT_EQ(board.notes().back(),
+            "the board's power is not measured: RAPL's counters may not be read; run as root, or "
+            "see: flyball board setup --print; it is 0 W in all records");
+}
+
+TEST_F(LinuxBoardTest, keeps_cores_on_line_where_the_file_says_so) {
+  options_.unplug_cores = true;
+  options_.file.name = "raspberry_pi_5";
+  LinuxBoard& board = open(fake::plant_pi5);
+  board.request({1, Hertz{1500e6}});
+  EXPECT_EQ(tree_.get("/sys/devices/system/cpu/cpu3/online"), "1\n");
+  EXPECT_EQ(board.active_cpus(), (Numbers{0}));
+  EXPECT_EQ(board.notes().back(),
+            "cores stay on-line: the file of board raspberry_pi_5 does not allow to switch them "
+            "off");
+}
+
+TEST_F(LinuxBoardTest, opens_where_no_clock_can_be_set) {
+  measured_ = Hertz{2.9e9};
+  LinuxBoard& board = open([](const fake::Tree& tree) { fake::put_cores(tree, 2); });
+  EXPECT_EQ(board.model().max_cores, 2);
+  EXPECT_TRUE(board.model().frequencies.empty());
+  board.request({1, Hertz{1e9}});
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted, (OperatingPoint{1, Hertz{2.9e9}}));
+  EXPECT_EQ(board.notes().front(),
+            "no clock can be set: there is no cpufreq folder with limits below /sys/devices/system/"
+            "cpu (a virtual machine, or a kernel without a driver for this processor); cores are "
+            "the only knob");
+}
+
+TEST_F(LinuxBoardTest, refuses_clocks_that_are_locked_unless_it_adopts_them) {
+  fake::plant_tx2_r32(tree_);
+  tree_.put(policy0 + "scaling_min_freq", "2035200\n");
+  const auto refused = LinuxBoard::open(kernel_, options_);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message,
+            "the clock of /sys/devices/system/cpu/cpufreq/policy0 is locked at 2035.2 MHz already, "
+            "which jetson_clocks does; release it (jetson_clocks --restore), or take it as the "
+            "state to come back to with --adopt");
+  options_.keeper.adopt = true;
+  auto adopted = LinuxBoard::open(kernel_, options_);
+  ASSERT_TRUE(adopted.ok());
+  (*adopted)->request({1, Hertz{345.6e6}});
+  EXPECT_TRUE((*adopted)->close().empty());
+  EXPECT_EQ(tree_.get(policy0 + "scaling_min_freq"), "2035200\n");
+}
+
+TEST_F(LinuxBoardTest, offers_an_adopted_boards_own_clocks) {
+  fake::plant_x86(tree_);
+  fake::run_apart(options_.keeper.run_folder, [&] {
+    auto keeper = SettingsKeeper::open(kernel_, options_.keeper);
+    (void)(*keeper)->write(policy0 + "scaling_min_freq", "400000");
+    (void)(*keeper)->write(policy0 + "scaling_max_freq", "400000");
+    kill((*keeper)->watchdog(), SIGKILL);
+    kill(getpid(), SIGKILL);
+  });
+  options_.keeper.adopt = true;
+  auto adopted = LinuxBoard::open(kernel_, options_);
+  ASSERT_TRUE(adopted.ok()) << adopted.error().message;
+  EXPECT_EQ((*adopted)->model().frequencies.back(), Hertz{4200e6});
+}
+
+struct Planted {
+  const char* name;
+  Plant plant;
+};
+
+class KilledBoard : public testing::TestWithParam<Planted> {};
+
+/// Changes clocks and cores twice, and ends properly.
+void fly(LinuxSystem& system, const std::string& run_folder) {
+  LinuxBoardOptions options;
+  options.keeper.run_folder = run_folder;
+  options.file.may_unplug_cores = true;
+  options.unplug_cores = true;
+  options.measure_clock = [] { return std::optional<Hertz>{}; };
+  auto board = LinuxBoard::open(system, options);
+  if (board) {
+    const std::vector<Hertz> clocks = (*board)->model().frequencies;
+    (*board)->request({2, clocks.front()});
+    (*board)->refresh(2 * second);
+    (*board)->request({3, clocks[clocks.size() / 2]});
+    (void)(*board)->close();
+  }
+}
+
+TEST_P(KilledBoard, has_every_file_back_byte_for_byte_whichever_write_it_is_killed_at) {
+  const fake::Tree tree;
+  GetParam().plant(tree);
+  const auto before = tree.all();
+  int kills = 0;
+  for (const bool is_after : {false, true}) {
+    bool was_killed = true;
+    for (int n = 1; was_killed; ++n) {
+      const std::string run_folder = tree.root() + "/run";
+      was_killed = fake::was_killed(fake::run_apart(run_folder, [&] {
+        fake::Kernel kernel{tree.root()};
+        (is_after ? kernel.die_after : kernel.die_before) = n;
+        fly(kernel, run_folder);
+      }));
+      kills += was_killed ? 1 : 0;
+      for (const auto& [path, content] : tree.all()) {
+        if (path.find("scaling_cur_freq") == std::string::npos) {  // a reading
+          ASSERT_EQ(content, before.at(path)) << path << ", killed at write " << n;
+        }
+      }
+      ASSERT_EQ(tree.get("/run/board.journal"), "");
+    }
+  }
+  EXPECT_GE(kills, 2 * 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards,
+                         KilledBoard,
+                         testing::Values(Planted{"tx2_r28", fake::plant_tx2_r28},
+                                         Planted{"tx2_r32", fake::plant_tx2_r32},
+                                         Planted{"orin", fake::plant_orin},
+                                         Planted{"pi5", fake::plant_pi5},
+                                         Planted{"x86", fake::plant_x86}),
+                         [](const auto& one) { return std::string{one.param.name}; });
+
+}  // namespace
+}  // namespace flyball
