@@ -14,13 +14,14 @@ namespace {
 
 using flyball::Vec3;
 
+// Chosen by hand on the shipped airframes.
 struct Settings {
   double position_gain_1_s{0.8};
   double max_correction_m_s{0.5};
   double max_centripetal_m_s2{4.0};  ///< Half the tilt that braking takes: more is a kink.
 };
 
-constexpr double look_m = 0.1;  // Two samples of a path: their tangents differ enough.
+constexpr double look_m = 0.1;  // Two samples of a path; their tangents differ measurably.
 
 /// Towards the centre of the curve; zero where the path is straight.
 Vec3 normal_at(const flyball::Path& path, const flyball::Path::Sample& here) {

@@ -23,11 +23,13 @@ using flyball::Vec3;
 using flyball::Viewpoint;
 
 constexpr double two_pi = 6.283185307179586;
-constexpr double pose_step_m = 0.075;   // Half a fine cell: nothing slips between two poses.
-constexpr int tries_per_node = 25;      // In a corner hardly any sample is free.
-constexpr double branch_slack_m = 0.5;  // The vehicle is where the last step led.
+// Chosen by hand.
+constexpr double pose_step_m = 0.075;  // Half a fine cell, so that nothing fits between two poses.
+constexpr int tries_per_node = 25;     // In a corner hardly any sample is free.
+constexpr double branch_slack_m =
+    0.5;  // The old branch is used if it begins this near to the vehicle.
 constexpr double usually_worthwhile_m3 = 1.0;
-constexpr double least_m3 = 0.1;  // A frontier's view that shows less is noise.
+constexpr double least_m3 = 0.1;  // A view of a frontier that shows less is noise.
 
 struct Node {
   Viewpoint view{};
@@ -175,7 +177,7 @@ class Tree {
 
 /// The volume, and where the body may be to look at it.
 flyball::Aabb explored_box(const ExploreRequest& request) {
-  constexpr double around_m = 5.0;
+  constexpr double around_m = 5.0;  // Chosen: less than the range of the camera.
   const Vec3 around = Vec3::Constant(around_m);
   flyball::Aabb box = request.bounds_W;
   box.min = box.min.cwiseMax(request.volume_W.min - around).cwiseMin(request.volume_W.min);

@@ -16,7 +16,7 @@
 namespace {
 
 struct Settings {
-  double range_m{4.0};     ///< As rrt_connect.
+  double range_m{4.0};     ///< That of rrt_connect.
   double goal_bias{0.05};  ///< OMPL's default.
 };
 

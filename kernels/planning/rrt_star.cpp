@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr double usual_range_m = 4.0;
+constexpr double usual_range_m = 4.0;  // That of rrt_connect.
 
 flyball::StageResult search(double range_m,
                             const flyball::SearchStage& stage,

@@ -14,9 +14,10 @@ namespace {
 using flyball::Path;
 using flyball::Vec3;
 
-constexpr double pose_step_m = 0.05;  // What a check by poses would need in a .15 m map.
+constexpr double pose_step_m = 0.05;  // A check pose by pose would need such steps in a .15 m map.
+// Chosen by hand.
 constexpr double longest_chord_m = 5.0;
-constexpr double chord_tolerance_m = 0.002;  // Crude: the true distance to the chord is an eighth.
+constexpr double chord_tolerance_m = 0.002;  // The curve is an eighth of this from its chord.
 constexpr double blocked_tolerance_m = 0.01;
 
 double poses_in(double length_m) {

@@ -8,14 +8,16 @@
 namespace flyball {
 namespace {
 
-constexpr double cube_m = 1.2;
-constexpr double same_place_m = 0.4;
-constexpr double same_heading_rad = 0.35;
-constexpr double given_up_m = 0.5;
+// Chosen by hand.
+constexpr double cube_m = 1.2;             // Frontier cells within a cube count as one frontier.
+constexpr double same_place_m = 0.4;       // A view this near to one that was taken, ...
+constexpr double same_heading_rad = 0.35;  // ... with about its heading, would show the same.
+constexpr double given_up_m = 0.5;  // Views this near to a place that was given up are left out.
 // A view also takes time for turning, mapping and the next decision. Together that is as long as a
 // path of this length at indoor speed.
 constexpr double fixed_path_m = 3.0;
-constexpr std::size_t looked_at_together = 12;
+constexpr std::size_t looked_at_together =
+    12;  // In batches; the first with a view worth taking ends it.
 
 struct Gathered {
   double faces{};
@@ -63,8 +65,8 @@ class Search {
   [[nodiscard]] double ray_cells() const { return ray_cells_; }
 
  private:
-  // The frontier's middle, and something behind it, lies in the field; half a metre away it does
-  // not matter which cell of it is looked at.
+  // The middle of the frontier and some space behind it must lie in the field of view. A frontier
+  // nearer than half a metre does not count, because its cells lie in too many directions.
   [[nodiscard]] bool is_in_view(const Vec3& to) const {
     constexpr double behind_m = 1.0;
     const double across_m = to.head<2>().norm();

@@ -9,10 +9,10 @@
 namespace flyball {
 namespace {
 
-constexpr double edge_share = 0.45;    // Of an edge for the cut at each of its ends.
-constexpr double largest_cut_m = 6.0;  // Longer curves leave the planned polygon by metres.
-constexpr double smallest_cut_m = 0.02;
-constexpr double shrink = 0.6;
+constexpr double edge_share = 0.45;        // Of an edge for the cut at each of its ends.
+constexpr double largest_cut_m = 6.0;      // Longer curves leave the planned polygon by metres.
+constexpr double smallest_cut_m = 0.02;    // Chosen: on less, the vehicle stops as quickly.
+constexpr double shrink = 0.6;             // Chosen: six rounds make a cut 20 times smaller.
 constexpr double sharpest_turn_rad = 2.6;  // Beyond 150 degrees a round is no shorter than a stop.
 constexpr double widest_bend_rad = 2.0;
 constexpr double smallest_radius_m =

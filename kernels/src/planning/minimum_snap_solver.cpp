@@ -15,9 +15,9 @@ namespace {
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Matrix3 = Eigen::Matrix3d;
 
-// A tiny pull to the first guess. Snap falls with the seventh power of the duration (jerk with the
-// fifth): beside a short piece a long one weighs nothing, and what only the long one decides would
-// drown in rounding.
+// A small weight that pulls the solution towards the first guess. Snap falls with the seventh power
+// of the duration (jerk with the fifth), so a long piece weighs almost nothing beside a short one,
+// and unknowns that only the long piece determines would be lost in rounding.
 constexpr double ridge = 1e-6;
 
 /// k! / (k - n)!: the factor that n derivatives bring to t^k.

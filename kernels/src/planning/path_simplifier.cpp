@@ -15,9 +15,10 @@ using Polygon = std::vector<Vec3>;
 using Step = Polygon::difference_type;
 
 constexpr int shortcuts = 40;  // Tries; more shortened the test scene's paths by < 1 %.
-constexpr double worthwhile_m = 0.01;
-constexpr double too_close_m = 0.2;
-constexpr double enough_clearance_m = 1.0;
+// Chosen by hand.
+constexpr double worthwhile_m = 0.01;       // A waypoint moves if it gains this much clearance.
+constexpr double too_close_m = 0.2;         // A waypoint this near to another one is left out.
+constexpr double enough_clearance_m = 1.0;  // So far from obstacles a waypoint stays.
 constexpr int centring_rounds = 2;
 
 /// From each point straight to the farthest one that can be reached.

@@ -14,8 +14,8 @@ constexpr int most_redraws = 32;
 constexpr double gap_share = 0.5;
 constexpr double level_share = 0.75;  // Of the plain samples: near the line's height.
 constexpr double level_spread_m = 0.25;
-constexpr double before_m = 0.1;  // From a passage's end to the body.
-constexpr double same_height_m = 0.3;
+constexpr double before_m = 0.1;  // From a passage's end to the body. Chosen: less than a cell.
+constexpr double same_height_m = 0.3;  // Chosen: two fine cells.
 
 }  // namespace
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: minimum_snap
 //
-// Edges stay exactly straight and corners are rounded inside the triangle that their control points
-// span, so that only corners can hit something. A corner that does is cut less, at last not at all:
-// then the vehicle stops there.
+// Edges stay exactly straight, and corners are rounded inside the triangle that their control
+// points span, so that only corners can hit something. A corner that does is cut less. If it still
+// hits something when it is not cut at all, the vehicle stops there.
 //
-// Rejected: knots only at the polygon's points. Such a curve swings out of long edges by metres,
-// and mending it with more knots ends in a piece per metre.
+// Rejected: knots only at the polygon's points. Such a curve leaves long edges by metres, and more
+// knots mend that only when there is one for each metre.
 
 #include "planning/polygon_smoother.h"
 
@@ -19,9 +19,10 @@ namespace flyball {
 namespace {
 
 constexpr double same_place_m = 1e-6;
-constexpr int rounds = 6;           // Of smaller cuts; what still collides then is stopped at.
+// Chosen by hand.
+constexpr int rounds = 6;           // Of smaller cuts; the vehicle stops where all of them collide.
 constexpr double margin_m = 0.002;  // The curve is checked and flown as chords, not the same ones.
-constexpr double chord_tolerance_m = 0.0005;
+constexpr double chord_tolerance_m = 0.0005;  // A quarter of that margin.
 constexpr double longest_chord_m = 1.0;
 constexpr double height_tolerance_m = 0.05;  // A bend may leave the polygon's heights by this.
 constexpr int samples_per_piece = 64;

@@ -13,9 +13,10 @@
 namespace flyball {
 namespace {
 
-// Kept from obstacles, so that who checks the plan again in other steps does not find it touching.
-// A door leaves 20 mm.
+// This distance is kept from obstacles, so that a later check of the plan in other steps does not
+// find it touching one. A door leaves 20 mm.
 constexpr double margin_m = 0.003;
+// Chosen: most paths stay within 8 m of start and goal; the search then widens to 20 m.
 constexpr std::array<double, 2> box_margins_m{8.0, 20.0};
 
 /// Start and goal with `around_m` beside them, inside the bounds. The height is that of the bounds:

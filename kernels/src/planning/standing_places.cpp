@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<GridCell, 6> neighbours{
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
-constexpr double most_off_m = 0.6;  // The start itself may touch what is not known yet.
+// Chosen: the search begins in a cell up to this far from the start, which may touch unknown cells.
+constexpr double most_off_m = 0.6;
 
 GridCell sum(const GridCell& a, const GridCell& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};

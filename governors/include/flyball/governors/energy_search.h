@@ -24,14 +24,14 @@ struct EnergySearchSettings {
   double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
   double margin_m{0.5};     ///< Body and tracking tube, off the distance.
   double frame_s{0.05};     ///< Between two frames of the camera.
-  /// What a change of resolution costs, because the other map starts with one frame. Chosen: a stop
-  /// of .2 s at 300 W.
+  /// What a change of resolution costs, because the other map starts with one frame. Chosen: as
+  /// much as .2 s of flight at 300 W.
   double switching_j{60.0};
-  double horizon_m{10.0};  ///< A switch must pay for itself within this distance, at least.
+  double horizon_m{10.0};  ///< A switch must pay for itself within this distance. Chosen.
   /// Mean length of path from obstacle to obstacle; 0: there are none.
   double spacing_m{};
-  double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of two of
-                             ///< RoboRun's blocks and the space between them.
+  double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of
+                             ///< RoboRun's blocks with the space beside it.
   QuantileTracker::Settings bound{0.05, 0.05, 0.1};
   ClockScaling clock{0.9, 0.05};
   double learn_s{};  ///< Latency is learned until this mission time; 0: always.
