@@ -180,7 +180,7 @@ toml::table completed(toml::table own, const std::string& path) {
       into.insert_or_assign(key.str(), node);
     }
   };
-  // Kernel by kernel: whoever prices one anew keeps the others.
+  // Kernel by kernel, so that a file that prices one anew keeps the others.
   if (own["kernels"].is_table() && all["kernels"].is_table()) {
     take_over(*own["kernels"].as_table(), *all["kernels"].as_table());
     own.erase("kernels");

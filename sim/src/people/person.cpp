@@ -70,7 +70,7 @@ std::optional<Vec3> next_leg(const Vec3& from,
   return std::nullopt;
 }
 
-/// Where somebody looks who stands: where the last leg went, if there was one.
+/// The heading of a person who stands: that of the last leg, if there was one.
 double last_heading_rad(const Person& person, double t_s) {
   double heading_rad = person.heading_rad;
   for (std::size_t i = 1; i < person.walk.size() && person.walk[i - 1].time_s < t_s; ++i) {

@@ -7,7 +7,7 @@
 namespace flyball {
 namespace {
 
-constexpr double ground_reach_m = 300.0;  // Beyond it the eye sees the horizon.
+constexpr double ground_reach_m = 300.0;  // Beyond it the image shows the horizon.
 constexpr unsigned solids_instance = 0;   // The first one that is attached; people follow.
 
 RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float height_m) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t leaf_solids = 2;
 constexpr std::size_t most_depth = 64;  // halves of halves: enough for any number of solids
 constexpr float infinite = std::numeric_limits<float>::infinity();
-// Far more than floats round a way or a depth, far less than a pixel.
+// Far more than the rounding of a ray or a depth in floats, far less than a pixel.
 constexpr double way_margin = 1e-5;
 constexpr double depth_margin = 1e-5;
 

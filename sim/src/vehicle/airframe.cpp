@@ -25,7 +25,7 @@ std::string text(double value) {
   return buffer;
 }
 
-/// Takes values out of a table, notes what is wrong with each, and what nobody asked for.
+/// Takes values out of a table, and notes wrong values and unknown keys.
 class Reader {
  public:
   explicit Reader(const toml::table& table) : table_{table} {}

@@ -176,7 +176,7 @@ Setpoint FlightController::target(const VehicleState& state, MissionTime now, do
   return reference_;
 }
 
-/// The shortest way round, within the limits on rate and acceleration.
+/// Turns to the nearer side, within the limits on rate and acceleration.
 void FlightController::slew_yaw(const Setpoint& wanted, double dt_s) {
   constexpr double settle_1_s = 8.0;  // Ends the square-root profile without chatter: own choice.
   const double gap = wrap_angle(wanted.yaw_rad - yaw_rad_);

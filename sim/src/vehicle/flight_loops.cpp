@@ -35,7 +35,7 @@ Vec3 limited(const Vec3& v, double largest) {
 
 /// Thrust is known from the rotors' speeds and acceleration is measured: what is left is wind, drag
 /// and a wrong belief about the mass. Unlike an integral of the velocity error it does not wind up
-/// while the attitude is still on its way, so braking does not overshoot.
+/// while the attitude still changes, so braking does not overshoot.
 void FlightController::observe(const VehicleState& state, double total_mass_kg, double dt_s) {
   if (feet_height_m(state) < clear_of_ground_m) {
     return;
@@ -67,8 +67,8 @@ Vec3 FlightController::specific_force(const VehicleState& state, const Setpoint&
   return f;
 }
 
-/// Tilt on the shortest way, heading apart from it: a vehicle that must brake does not wait for its
-/// nose.
+/// Tilt by the shortest rotation, heading apart from it: a vehicle that must brake does not wait
+/// for its nose.
 Vec3 FlightController::torque(const VehicleState& state, const Vec3& force_W) const {
   const Eigen::Matrix3d R_WB = state.X_WB.linear();
   const Vec3 tilt_B = rotation_between(Vec3::UnitZ(), R_WB.transpose() * force_W.normalized());

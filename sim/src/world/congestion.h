@@ -12,7 +12,7 @@
 namespace flyball {
 
 /// RoboRun's obstacles (DAC 2021, arXiv 2108.13354): 4 m x 4 m blocks on a 10 m grid that follows
-/// the axes of W, so that ways between them are at least 6 m wide.
+/// the axes of W, so that passages between them are at least 6 m wide.
 struct CongestionPlan {
   std::vector<Vec3> peaks_W{};
   double density{0.3};    ///< Probability of a block at a peak, 0..1.

@@ -52,7 +52,7 @@ void settle_in(pid_t parent, const ImportLimits& limits) {
   for (const int signal : {SIGABRT, SIGXCPU, SIGALRM}) {
     std::signal(signal, SIG_DFL);
   }
-  limit(RLIMIT_CORE, 0, 0);  // The parent reports a crash; nobody wants a core file of each.
+  limit(RLIMIT_CORE, 0, 0);  // The parent reports a crash, so no core file is needed.
   limit(RLIMIT_CPU, limits.processor_s, limits.processor_s + 1);
   // RLIMIT_DATA, not RLIMIT_AS: sanitizers reserve terabytes of addresses.
   const rlim_t memory = own_memory_bytes() + limits.memory_bytes;

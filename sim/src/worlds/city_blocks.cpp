@@ -2,7 +2,7 @@
 //
 // Blocks of houses between streets that cross at right angles, some blocks open squares with trees;
 // lamps along the kerbs, parked cars, and lorries that go to and fro, if wanted. Flown below the
-// roofs: the way follows the streets.
+// roofs, so the path follows the streets.
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
@@ -90,7 +90,7 @@ class CityBlocks final : public flyball::WorldGenerator {
   }
 
  private:
-  /// A ring of blocks around those that can be flown along closes the streets' ends from sight.
+  /// A ring of blocks around those that can be flown along hides the ends of the streets.
   static void add_blocks(World& world,
                          const Grid& grid,
                          const Parameters& given,
@@ -113,7 +113,7 @@ class CityBlocks final : public flyball::WorldGenerator {
     }
   }
 
-  /// Trees on a 6 m grid, each somewhere within 1.5 m of its place: ways of 2.5 m between them.
+  /// Trees on a 6 m grid, each somewhere within 1.5 m of its place: passages of 2.5 m between them.
   static void add_square(World& world, const Vec3& corner, double side_m, RandomStream& random) {
     constexpr double pitch_m = 6.0;
     constexpr double play_m = 1.5;

@@ -2,7 +2,7 @@
 //
 // RoboRun's worlds (DAC 2021, arXiv 2108.13354): from one crowd of blocks over open ground into
 // another one. 27 settings: density {.3, .45, .6} x spread {40, 80, 120} m x goal {600, 900,
-// 1200} m. The way to the goal is askew to the blocks' grid, so no street leads there.
+// 1200} m. The line to the goal is oblique to the blocks' grid, so no street leads there.
 
 #include "world/congestion.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Trunks thrown at random, each at least a gap away from the others, so that a map much coarser
-// than the vehicle still finds ways between them.
+// than the vehicle still finds passages between them.
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"

@@ -49,8 +49,8 @@ class ColourCamera {
   [[nodiscard]] ColourImage capture(const Pose& X_WC,
                                     MissionTime now,
                                     std::uint64_t sequence) const;
-  /// The same image, rendered when and as far as somebody looks at it: a pixel is the same as in
-  /// the whole image. @pre The camera lives until then.
+  /// The same image, rendered when it is read and only as far as it is read: a pixel is the same as
+  /// in the whole image. @pre The camera lives until then.
   [[nodiscard]] ColourFrame frame(const CameraPose& pose,
                                   MissionTime now,
                                   std::uint64_t sequence) const;

@@ -52,7 +52,7 @@ class GimbalServo {
  private:
   GimbalSpec spec_;
   GimbalAngles command_{};
-  GimbalAngles aim_{};  ///< On the way to the command.
+  GimbalAngles aim_{};  ///< Moves towards the command.
 };
 
 }  // namespace flyball

@@ -17,7 +17,7 @@ struct Mover {
   Vec3 from_W{Vec3::Zero()};  ///< Middle of its foot,
   Vec3 to_W{Vec3::Zero()};    ///< there and back.
   double speed_m_s{};
-  double ahead_m{};  ///< How far along its way it is at first.
+  double ahead_m{};  ///< How far along its path it is at first.
 };
 
 [[nodiscard]] Aabb box_at(const Mover& mover, MissionTime now);

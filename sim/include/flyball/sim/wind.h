@@ -31,8 +31,8 @@ struct WindSpec {
 
 /// The gusts stand still in the moving air (Taylor's frozen field), so that they pass at the speed
 /// of the vehicle through it. One sample per time step, with the spectrum's own autocorrelation:
-/// sigma^2 e^(-r/L) along, sigma^2 e^(-r/L) (1 - r/2L) across and upwards, r the way through the
-/// air.
+/// sigma^2 e^(-r/L) along, sigma^2 e^(-r/L) (1 - r/2L) across and upwards, r the distance flown
+/// through the air.
 class Wind {
  public:
   Wind(const WindSpec& spec, std::uint64_t seed);

@@ -45,7 +45,7 @@ struct World {
   double start_clear_m{1.0};    ///< No solid is closer to the vertical line over the start.
   double goal_clear_m{1.0};     ///< The same over the goal.
   double cruise_height_m{1.5};  ///< Above ground.
-  /// Nothing reaches higher than this above the ground, and whoever flies here knows it; null where
+  /// Nothing reaches higher than this above the ground, and the vehicle is told so; null where
   /// that is not so.
   std::optional<double> open_above_m{};
   Aabb volume_W{};  ///< To be explored; empty where there is nothing to explore.
