@@ -8,7 +8,7 @@
 
 namespace flyball {
 
-/// Hash of probes of libm, the depth camera and Eigen. Equal fingerprints promise equal trace
+/// Hash of probes of libm, the depth camera and Eigen. Equal fingerprints mean equal trace
 /// hashes; different ones mean "different numerics" (another CPU class or library), not an error.
 [[nodiscard]] std::string numeric_fingerprint();
 

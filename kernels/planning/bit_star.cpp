@@ -2,7 +2,7 @@
 // flyball-link: flyball_ompl
 //
 // BIT* (Gammell, Srinivasa and Barfoot 2015, doi:10.1109/ICRA.2015.7139620): batches of samples,
-// whose edges are looked at in the order of the paths that they promise. An iteration looks at one
+// whose edges are looked at in the order of the paths that they may give. An iteration looks at one
 // edge or adds one batch.
 
 #include "flyball/kernels/path_planner.h"

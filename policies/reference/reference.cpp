@@ -151,7 +151,7 @@ class Reference final : public flyball::Policy,
     return coarsest_m;
   }
 
-  /// As Passability has it: a map of q that shows a gap of w promises that r >= q shows at least
+  /// As in Passability: if a map of q shows a gap as w, cells of r >= q show at least
   /// w - 2 (r - q) of it.
   [[nodiscard]] double open_m(double opening_m, double map_resolution_m) const noexcept {
     for (std::size_t i = levels_m_.size(); i-- > 1;) {

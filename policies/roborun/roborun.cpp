@@ -21,8 +21,8 @@
 // `gap_share` and `volume_weight_s2` choose between that and a rule that fills its budget.
 //
 // The precision r0 is the map's resolution, the volume V0 that of the camera's view, hence its
-// range. Our planner has neither, so r1, V1 and V2 only bind the others. Promises: each map is
-// held against the budget that was in force when its frame began, as in RoboRun's logs.
+// range. Our planner has neither, so r1, V1 and V2 only bind the others. Latency bounds: each map
+// is held against the budget that was in force when its frame began, as in RoboRun's logs.
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The guard's promise: whatever a policy says costs time, never a collision.
+// What the guard ensures: a policy may cost time, but never a collision.
 #ifdef FLYBALL_HAS_LUA
 
 #include "short_delivery.h"

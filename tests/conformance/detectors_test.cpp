@@ -56,7 +56,7 @@ TEST(Detectors, find_people_that_are_shown_to_them) {
   }
 }
 
-/// Finds the reddest rectangle; or breaks a promise.
+/// Finds the reddest rectangle; or breaks a rule.
 class Culprit final : public Detector {
  public:
   explicit Culprit(std::string crime) : crime_{std::move(crime)} {}

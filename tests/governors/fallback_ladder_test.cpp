@@ -78,7 +78,7 @@ TEST(FallbackLadder, judges_a_map_by_the_bound_that_was_in_force_before_it) {
   looking.seen.latency_bound = 330ms;  // It adapts at once.
   EXPECT_EQ(Fallback::none, looking.next());
   looking.seen.latency = 310ms;
-  EXPECT_EQ(Fallback::none, looking.next()) << "within what was promised since";
+  EXPECT_EQ(Fallback::none, looking.next()) << "within the bound since";
 }
 
 TEST(FallbackLadder, counts_a_map_once) {

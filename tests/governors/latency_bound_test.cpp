@@ -31,7 +31,7 @@ double mean_miss(QuantileTracker& tracker, int count, const std::function<double
 }
 
 /// alpha + (B + D eta - q_1) / (eta T), eq. (3) of the header.
-double promise(const QuantileTracker::Settings& s, int count, double open = 1.0) {
+double guaranteed(const QuantileTracker::Settings& s, int count, double open = 1.0) {
   return s.alpha + (most + open * s.eta - s.first) / (s.eta * count);
 }
 
@@ -43,7 +43,7 @@ TEST(QuantileTracker, mean_miss_is_the_identity_that_it_telescopes_to) {
   EXPECT_NEAR(mean, settings.alpha + (tracker.q() - settings.first) / (settings.eta * 777), 1e-12);
 }
 
-TEST(QuantileTracker, keeps_its_promise_against_every_opponent) {
+TEST(QuantileTracker, keeps_its_guarantee_against_every_opponent) {
   const QuantileTracker::Settings settings{0.05, 0.05, 0.2};
   RandomStream draw{6, "bound"};
   int turn = 0;
@@ -56,7 +56,7 @@ TEST(QuantileTracker, keeps_its_promise_against_every_opponent) {
   for (std::size_t i = 0; i < opponents.size(); ++i) {
     for (const int count : {1, 10, 100, 1000, 10000}) {
       QuantileTracker tracker{settings};
-      EXPECT_LE(mean_miss(tracker, count, opponents[i]), promise(settings, count) + 1e-12)
+      EXPECT_LE(mean_miss(tracker, count, opponents[i]), guaranteed(settings, count) + 1e-12)
           << "opponent " << i << ", T = " << count;
       EXPECT_LE(tracker.q(), most + settings.eta) << "opponent " << i;
     }
@@ -68,7 +68,7 @@ TEST(QuantileTracker, states_how_many_misses_it_may_come_to) {
   QuantileTracker tracker{settings};
   (void)mean_miss(tracker, 300, [](double q) { return q < most ? q + 1e-9 : -9.0; });
   const double stated = *tracker.most_misses(std::exp(most), 1);
-  EXPECT_NEAR(stated, 300 * promise(settings, 300), 1e-9);
+  EXPECT_NEAR(stated, 300 * guaranteed(settings, 300), 1e-9);
   EXPECT_LE(static_cast<double>(tracker.misses()), stated);
   QuantileTracker wide{settings};
   wide.restore(5.0);  // A margin beyond any error: one step of slack is left.
@@ -76,11 +76,11 @@ TEST(QuantileTracker, states_how_many_misses_it_may_come_to) {
   EXPECT_FALSE(QuantileTracker({0.05, 0.0, 0.2}).most_misses(2.0, 1)) << "a constant margin";
 }
 
-TEST(QuantileTracker, the_promise_is_nearly_reached_so_it_is_not_empty) {
+TEST(QuantileTracker, the_guarantee_is_nearly_reached_so_it_is_not_empty) {
   const QuantileTracker::Settings settings{0.05, 0.05, 0.2};
   QuantileTracker tracker{settings};
   const double mean = mean_miss(tracker, 100, [](double) { return most; });
-  EXPECT_GT(mean, promise(settings, 100) - 0.02);
+  EXPECT_GT(mean, guaranteed(settings, 100) - 0.02);
 }
 
 TEST(QuantileTracker, finds_the_quantile_of_what_does_not_change) {
@@ -152,7 +152,7 @@ TEST(LatencyBound, levels_learn_apart) {
   EXPECT_GT(bound.tracker(1).q(), 0.0);
 }
 
-TEST(LatencyBound, keeps_its_promise_with_several_decisions_open) {
+TEST(LatencyBound, keeps_its_guarantee_with_several_decisions_open) {
   const QuantileTracker::Settings settings{0.05, 0.1, 0.2};
   const int count = 2000;
   const double open = 8.0;
@@ -173,7 +173,7 @@ TEST(LatencyBound, keeps_its_promise_with_several_decisions_open) {
   }
   const QuantileTracker& tracker = bound.tracker(0);
   EXPECT_EQ(tracker.decisions(), static_cast<std::uint64_t>(count));
-  EXPECT_LE(static_cast<double>(tracker.misses()) / count, promise(settings, count, open));
+  EXPECT_LE(static_cast<double>(tracker.misses()) / count, guaranteed(settings, count, open));
 }
 
 TEST(LatencyBound, follows_a_computer_that_becomes_three_times_slower) {

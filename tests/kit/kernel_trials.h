@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Puts kernels on trial: those that are registered, and culprits that break a promise on purpose.
+/// Puts kernels on trial: those that are registered, and culprits that break a rule on purpose.
 
 #include "flyball/kernels/conformance/kernel_conformance.h"
 #include "flyball/kernels/kernels.h"

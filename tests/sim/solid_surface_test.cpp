@@ -98,7 +98,7 @@ TEST_F(MeshText, is_turned_and_scaled_as_it_is_told) {
   EXPECT_NEAR(extent.max.x(), 0.5, 0.051);
 }
 
-TEST_F(MeshText, the_formats_that_are_promised_give_the_same_cells) {
+TEST_F(MeshText, the_formats_that_are_named_give_the_same_cells) {
   const char* ply =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"

@@ -45,7 +45,8 @@ class OmplMotionValidator final : public ompl::base::MotionValidator {
                    const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override {
     const bool flyable = checkMotion(from, to);
-    last_valid.second = flyable ? 1.0 : 0.0;  // Sound, if pessimistic: no piece of it is promised.
+    last_valid.second =
+        flyable ? 1.0 : 0.0;  // Sound, if pessimistic: no piece of it counts as free.
     if (last_valid.first != nullptr) {
       si_->copyState(last_valid.first, flyable ? to : from);
     }

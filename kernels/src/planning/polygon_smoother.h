@@ -8,7 +8,7 @@
 
 namespace flyball {
 
-/// What `Smoother::smooth` promises.
+/// The implementation of `Smoother::smooth`.
 /// @param derivative  Whose square the curve keeps small: 3 for jerk, 4 for snap.
 [[nodiscard]] Result<SmoothPath> smooth_polygon(const SmoothRequest& request,
                                                 const OccupancyView& map,

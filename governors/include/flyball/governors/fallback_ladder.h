@@ -76,7 +76,7 @@ class FallbackLadder {
   FallbackSettings settings_;
   std::string_view why_{};
   std::uint64_t revision_{};
-  Duration bound_{};      ///< When the next map was promised.
+  Duration bound_{};      ///< Latency bound of the next map.
   std::uint64_t late_{};  ///< One bit for each of the newest maps.
   Request last_request_{};
   bool is_table_{};  ///< Which asks for more than the policy did: no new beginning.

@@ -32,8 +32,8 @@ namespace flyball {
 ///
 /// pathwise, for fixed eta and alpha. With D = 1 (one decision open at a time) it is the bound of
 /// Gibbs and Candes (Adaptive conformal inference, NeurIPS 2021, prop. 4.1) for this update. It is
-/// a mean over time, not a promise for the next decision. A job that is killed has no e <= B: then
-/// (2) still holds, (3) does not.
+/// a mean over time, not a guarantee for the next decision. A job that is killed has no e <= B:
+/// then (2) still holds, (3) does not.
 class QuantileTracker {
  public:
   struct Settings {

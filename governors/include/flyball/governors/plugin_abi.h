@@ -12,7 +12,7 @@
  * down to the first version of each structure.
  *
  * The host supplies time, random numbers and a log. A library that reads a clock or makes its own
- * randomness gives up the promise that equal missions have equal records.
+ * randomness gives up that equal missions have equal records.
  *
  * It runs in a process of its own. It may read files until `create` has returned; from then on a
  * request for a file, and at any time one for the network, another process or shared memory, ends

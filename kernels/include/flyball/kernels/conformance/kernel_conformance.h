@@ -2,9 +2,9 @@
 #pragma once
 
 /// @file
-/// What every kernel promises (runtime/kernel.h) as checks, for any kernel and any test framework.
-/// Each family adds its own checks in a header of its own beside this one. An empty list of
-/// breaches means that the kernel may fly.
+/// The contract of every kernel (runtime/kernel.h) as checks, for any kernel and any test
+/// framework. Each family adds its own checks in a header of its own beside this one. An empty list
+/// of breaches means that the kernel may fly.
 
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/work.h"
@@ -45,7 +45,7 @@ struct KernelCandidate {
   return is_at_least(one, other) && is_at_least(other, one);
 }
 
-/// Collects one sentence for each promise that a kernel breaks.
+/// Collects one sentence for each rule that a kernel breaks.
 template <class Family>
 class KernelConformance {
  public:
@@ -53,7 +53,7 @@ class KernelConformance {
       : candidate_{std::move(candidate)} {}
 
  protected:
-  /// Checks what all kernels declare; then the family's own promises, unless the kernel cannot even
+  /// Checks what all kernels declare; then the family's own rules, unless the kernel cannot even
   /// be made.
   ///
   /// @param knobs  That every kernel of the family has.
