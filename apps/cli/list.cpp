@@ -2,6 +2,8 @@
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/preset.h"
+#include "flyball/kernels/detector.h"
+#include "flyball/kernels/path_planner.h"
 #include "flyball/records/text_table.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
@@ -113,14 +115,32 @@ std::string legal_values(const KnobSpec& knob) {
     return number(knob.min) + " .. " + number(knob.max);
   }
   std::string values;
-  for (const double value : knob.legal) {
-    values += (values.empty() ? "" : " ") + number(value);
+  for (std::size_t i = 0; i < knob.legal.size(); ++i) {
+    values += (values.empty() ? "" : " ") + number(knob.legal[i]);
+    values += i < knob.labels.size() ? "=" + knob.labels[i] : "";
   }
   return values;
 }
 
+/// Names with commas between them.
+template <class Family>
+std::string all_of_family() {
+  std::string text;
+  for (const std::string& name : all_plugins().names<Family>()) {
+    text += (text.empty() ? "" : ",") + name;
+  }
+  return text;
+}
+
+/// Among them those that exist only where a scenario asks for them.
+Scenario with_all_knobs() {
+  Scenario scenario;
+  scenario.knobs = {all_of_family<PathPlanner>(), all_of_family<Detector>(), true, true};
+  return scenario;
+}
+
 Result<Lines> list_knobs() {
-  const Scenario scenario;
+  const Scenario scenario = with_all_knobs();
   const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
   if (!file) {
     return file.error();

@@ -109,6 +109,12 @@ void end_mission(JobContext& job,
   job.publish(topics.end, MissionEnd{job.now(), status, failure});
 }
 
+void turn_knobs(JobContext& job, const MissionTopics& topics, Kernel& kernel) {
+  if (const auto knobs = job.latest(topics.knobs)) {
+    kernel.apply(knobs->knobs);
+  }
+}
+
 bool is_in(JobContext& job, const MissionTopics& topics, MissionPhase phase) {
   const auto state = job.latest(topics.state);
   return (state ? state->phase : MissionPhase::wait) == phase;

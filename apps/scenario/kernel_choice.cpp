@@ -20,6 +20,8 @@
 
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -38,6 +40,23 @@ FamilyChoice family(const char* name, const char* description) {
           }};
 }
 
+/// With a knob that chooses among several in flight.
+template <class Family, class Switched, auto kernel, auto parameters, auto kinds>
+FamilyChoice switched_family(const char* name, const char* description) {
+  FamilyChoice choice = family<Family, kernel, parameters>(name, description);
+  choice.kinds = kinds;
+  choice.join = [](std::vector<KernelKind<Kernel>> any) -> std::unique_ptr<Kernel> {
+    std::vector<KernelKind<Family>> all;
+    for (KernelKind<Kernel>& one : any) {
+      // What the family's factory has made is of that family.
+      auto* kind = static_cast<Family*>(one.kernel.release());
+      all.push_back({std::move(one.name), std::unique_ptr<Family>{kind}});
+    }
+    return std::make_unique<Switched>(std::move(all));
+  };
+  return choice;
+}
+
 std::vector<FamilyChoice> all_families() {
   using K = KernelSettings;
   return {
@@ -46,7 +65,8 @@ std::vector<FamilyChoice> all_families() {
       family<Mapper, &K::mapper, &K::mapper_parameters>("mapper", "points to occupancy"),
       family<CollisionChecker, &K::collision_check, &K::collision_check_parameters>(
           "collision_check", "looks along the path being flown"),
-      family<PathPlanner, &K::planner, &K::planner_parameters>("planner", "shortest path"),
+      switched_family<PathPlanner, SwitchedPlanner, &K::planner, &K::planner_parameters,
+                      &KnobChoices::planner_kinds>("planner", "shortest path"),
       family<Smoother, &K::smoother, &K::smoother_parameters>("smoother",
                                                               "way-points to a trajectory"),
       family<PathTracker, &K::path_tracker, &K::path_tracker_parameters>(
@@ -56,11 +76,66 @@ std::vector<FamilyChoice> all_families() {
       family<CoveragePlanner, &K::coverage, &K::coverage_parameters>(
           "coverage", "an area to a path over all of it"),
       family<Explorer, &K::explorer, &K::explorer_parameters>("explorer", "where to look next"),
-      family<Detector, &K::detector, &K::detector_parameters>("detector",
-                                                              "people in colour images"),
+      switched_family<Detector, SwitchedDetector, &K::detector, &K::detector_parameters,
+                      &KnobChoices::detector_kinds>("detector", "people in colour images"),
       family<Tracker, &K::tracker, &K::tracker_parameters>("tracker",
                                                            "where what was detected goes"),
   };
+}
+
+/// `knobs.planner_kinds = "prm"`
+std::string setting_of_kinds(const FamilyChoice& family, const Scenario& scenario) {
+  return "knobs." + family.name + "_kinds = \"" + scenario.knobs.*family.kinds + "\"";
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+/// @param must_be_usable  Else it only declares its knobs, and a file that it needs may be missing.
+Result<std::unique_ptr<Kernel>> make_one(const FamilyChoice& family,
+                                         const std::string& name,
+                                         const ParameterValues& parameters,
+                                         const FindModel& find_model,
+                                         bool must_be_usable) {
+  auto kernel = family.make(name);
+  if (!kernel) {
+    return unknown(family.name, name, "kernels");
+  }
+  const auto chosen = resolved(family.name + " \"" + name + "\"", kernel->parameters(), parameters);
+  if (!chosen) {
+    return chosen.error();
+  }
+  const Status configured = kernel->configure(*chosen, find_model);
+  if (!configured && must_be_usable) {
+    return configured.error();
+  }
+  return kernel;
+}
+
+Result<std::unique_ptr<Kernel>> make_all(const FamilyChoice& family,
+                                         const Scenario& scenario,
+                                         const FindModel& find_model,
+                                         bool must_be_usable) {
+  if (const Status known = check_kinds(family, scenario); !known) {
+    return known.error();
+  }
+  std::vector<KernelKind<Kernel>> kinds;
+  for (const std::string& name : family.all_kinds(scenario)) {
+    const bool is_first = kinds.empty();
+    auto kernel =
+        make_one(family, name, is_first ? scenario.kernels.*family.parameters : ParameterValues{},
+                 find_model, must_be_usable);
+    if (!kernel) {
+      return kernel.error();
+    }
+    kinds.push_back({name, std::move(*kernel)});
+  }
+  return kinds.size() == 1 ? std::move(kinds.front().kernel) : family.join(std::move(kinds));
 }
 
 }  // namespace
@@ -79,22 +154,69 @@ const FamilyChoice& family_choice(std::type_index interface) {
   return *found;
 }
 
+std::vector<std::string> FamilyChoice::all_kinds(const Scenario& scenario) const {
+  std::vector<std::string> all{scenario.kernels.*kernel};
+  std::istringstream others{kinds == nullptr ? "" : scenario.knobs.*kinds};
+  for (std::string name; std::getline(others, name, ',');) {
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    if (!name.empty() && name != "none" && std::find(all.begin(), all.end(), name) == all.end()) {
+      all.push_back(name);
+    }
+  }
+  return all;
+}
+
 Result<std::unique_ptr<Kernel>> make_kernel(const FamilyChoice& family,
                                             const KernelSettings& kernels,
                                             const FindModel& find_model) {
-  auto kernel = family.make(kernels.*family.kernel);
+  return make_one(family, kernels.*family.kernel, kernels.*family.parameters, find_model, true);
+}
+
+Result<std::unique_ptr<Kernel>> make_switchable(const FamilyChoice& family,
+                                                const Scenario& scenario,
+                                                const FindModel& find_model) {
+  return make_all(family, scenario, find_model, true);
+}
+
+Result<std::vector<KnobSpec>> knobs_of(const FamilyChoice& family, const Scenario& scenario) {
+  const auto kernel = make_all(family, scenario, no_models, false);
   if (!kernel) {
-    return unknown(family.name, kernels.*family.kernel, "kernels");
+    return kernel.error();
   }
-  const auto chosen =
-      resolved(family.owner(kernels), kernel->parameters(), kernels.*family.parameters);
-  if (!chosen) {
-    return chosen.error();
+  return (*kernel)->knobs();
+}
+
+Status check_kinds(const FamilyChoice& family, const Scenario& scenario, const std::string& place) {
+  const std::vector<std::string> kinds = family.all_kinds(scenario);
+  const std::vector<std::string> known = family.names();
+  for (std::size_t i = 1; i < kinds.size(); ++i) {
+    if (std::find(known.begin(), known.end(), kinds[i]) == known.end()) {
+      return Error{ErrorCode::not_found,
+                   setting_of_kinds(family, scenario) + place + " asks knob " + family.name +
+                       ".kind for \"" + kinds[i] + "\", and it may choose among " + list_of(known)};
+    }
   }
-  if (const Status configured = kernel->configure(*chosen, find_model); !configured) {
-    return configured.error();
+  return Done{};
+}
+
+Status check_switch_prices(const FamilyChoice& family,
+                           const Scenario& scenario,
+                           const Platform& platform) {
+  const std::vector<std::string> kinds = family.all_kinds(scenario);
+  Work change;
+  change.add("switches", 1.0);
+  for (std::size_t i = 0; kinds.size() > 1 && i < kinds.size(); ++i) {
+    const Duration price = platform.job_time(kinds[i], change, platform.frequencies().back());
+    if (price <= Duration::zero()) {
+      return Error{
+          ErrorCode::invalid_input,
+          setting_of_kinds(family, scenario) + " needs a price for each switch, and platform \"" +
+              platform.name() + "\" has none to \"" + kinds[i] + "\"; add `switches` to [kernels." +
+              kinds[i] + ".seconds_per] in the platform file, or leave \"" + kinds[i] + "\" out"};
+    }
   }
-  return kernel;
+  return Done{};
 }
 
 FindModel model_finder(const Scenario& scenario) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/scenario/knobs.h"
 
+#include "flyball/kernels/detector.h"
+#include "flyball/kernels/localizer.h"
 #include "flyball/runtime/decision.h"
 
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace flyball {
@@ -51,21 +54,66 @@ KnobSpec speed_knob() {
           "upper limit; the safe speed below it is computed"};
 }
 
-/// What a kernel declares. Its knobs may follow from its parameters, but not from model files, so
-/// none are looked for.
-Result<std::vector<KnobSpec>> knobs_of(const FamilyChoice& family, const Scenario& scenario) {
-  const KernelSettings& kernels = scenario.kernels;
-  const auto kernel = family.make(kernels.*family.kernel);
-  if (!kernel) {
-    return unknown(family.name, kernels.*family.kernel, "kernels");
+constexpr int most_left_out = 8;  // One of so many frames is used at the least.
+
+/// A rate that begins with every frame of the camera, and may be turned down to every n-th.
+KnobSpec rate_knob(const char* name, const char* owner, double frames_hz, double longest_s) {
+  KnobSpec spec{name, "Hz", owner, {}, frames_hz, frames_hz, frames_hz, {}};
+  for (int n = most_left_out; n >= 1; --n) {
+    if (n == 1 || n / frames_hz <= longest_s) {
+      spec.legal.push_back(frames_hz / n);
+    }
   }
-  const auto chosen =
-      resolved(family.owner(kernels), kernel->parameters(), kernels.*family.parameters);
-  if (!chosen) {
-    return chosen.error();
+  spec.min = spec.legal.front();
+  return spec;
+}
+
+/// Whether the localizer takes images.
+bool sees(const Scenario& scenario) {
+  const auto kernel = family_choice(typeid(Localizer)).make(scenario.kernels.localizer);
+  return kernel && static_cast<const Localizer&>(*kernel).inputs().images;
+}
+
+/// Two of its frames must fit in what a localizer that sees can bridge, since one may show nothing.
+double longest_interval_s(const Scenario& scenario) {
+  return sees(scenario) ? 0.5 * longest_reckoning_s : std::numeric_limits<double>::infinity();
+}
+
+/// Those that exist only where the scenario asks for them, beside those that choose among kernels.
+Result<std::vector<KnobSpec>> rate_knobs(const Scenario& scenario) {
+  const double frames_hz = scenario.camera.rate_hz;
+  const double longest_s = longest_interval_s(scenario);
+  std::vector<KnobSpec> all;
+  if (scenario.knobs.camera_rate) {
+    all.push_back(rate_knob("camera.rate_hz", "camera", frames_hz, longest_s));
+    all.back().description = "frames of the depth camera that are used a second";
   }
-  static_cast<void>(kernel->configure(*chosen, no_models));
-  return kernel->knobs();
+  if (!scenario.knobs.localizer_rate) {
+    return all;
+  }
+  if (!sees(scenario) && !scenario.kernels.slam_load) {
+    return Error{ErrorCode::invalid_input,
+                 "knobs.localizer_rate = true has no effect with localizer \"" +
+                     scenario.kernels.localizer +
+                     "\", which takes no frames; set it to false, or kernels.slam_load to true"};
+  }
+  all.push_back(
+      rate_knob("localizer.rate_hz", sees(scenario) ? "see" : "slam_load", frames_hz, longest_s));
+  all.back().description = "frames that localization looks at a second, of those that are used";
+  return all;
+}
+
+/// One price for all detectors would hide what a switch between them brings.
+Status check_detector_prices(const Scenario& scenario) {
+  const bool has_kinds = family_choice(typeid(Detector)).all_kinds(scenario).size() > 1;
+  if (!has_kinds || scenario.detector.cost_of == "own") {
+    return Done{};
+  }
+  return Error{ErrorCode::invalid_input,
+               "detector.cost_of = \"" + scenario.detector.cost_of +
+                   "\" would charge all detectors alike, and knobs.detector_kinds = \"" +
+                   scenario.knobs.detector_kinds +
+                   "\" lets detector.kind choose among several; set detector.cost_of to \"own\""};
 }
 
 /// Adds knobs to `all` unless one of them is wrong.
@@ -88,24 +136,39 @@ Status add(std::vector<KnobSpec> declared,
   return Done{};
 }
 
-}  // namespace
-
-Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Platform& platform) {
-  std::vector<KnobSpec> all;
+/// What all kernels declare.
+Status add_kernels(const Scenario& scenario, const Platform& platform, std::vector<KnobSpec>& all) {
   for (const FamilyChoice& family : family_choices()) {
     auto declared = knobs_of(family, scenario);
     if (!declared) {
       return declared.error();
     }
+    if (const Status priced = check_switch_prices(family, scenario, platform); !priced) {
+      return priced;
+    }
     const Status added = add(std::move(*declared), family.owner(scenario.kernels), scenario, all);
     if (!added) {
-      return added.error();
+      return added;
     }
   }
-  const Status added = add({speed_knob(), cores_knob(platform, scenario.platform.cores),
-                            frequency_knob(platform, scenario.platform.frequency_hz)},
-                           "the mission", scenario, all);
-  if (!added) {
+  return check_detector_prices(scenario);
+}
+
+}  // namespace
+
+Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Platform& platform) {
+  std::vector<KnobSpec> all;
+  if (const Status added = add_kernels(scenario, platform, all); !added) {
+    return added.error();
+  }
+  auto of_mission = rate_knobs(scenario);
+  if (!of_mission) {
+    return of_mission.error();
+  }
+  of_mission->insert(of_mission->begin(), speed_knob());
+  of_mission->push_back(cores_knob(platform, scenario.platform.cores));
+  of_mission->push_back(frequency_knob(platform, scenario.platform.frequency_hz));
+  if (const Status added = add(std::move(*of_mission), "the mission", scenario, all); !added) {
     return added.error();
   }
   if (all.size() > Decision::capacity) {

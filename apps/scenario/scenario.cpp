@@ -210,6 +210,7 @@ FlightSettings flight_settings(const Scenario& scenario) {
     settings.fix_error_m = std::hypot(scenario.gps.white_noise_m, scenario.gps.wander_m);
   }
   settings.kernels = scenario.kernels;
+  settings.knobs = scenario.knobs;
   settings.map = scenario.map;
   settings.planner = scenario.planner;
   settings.scan = scenario.scan;

@@ -168,6 +168,12 @@ std::vector<Error> check_names(const Scenario& scenario, const GivenValues& give
       errors.push_back(unknown(thing, given));
     }
   }
+  for (const FamilyChoice& family : family_choices()) {
+    const std::string place = place_of("knobs." + family.name + "_kinds", given);
+    if (const Status known = check_kinds(family, scenario, place); !known) {
+      errors.push_back(known.error());
+    }
+  }
   for (const NamedThing& thing : files_of(scenario)) {
     if (const auto file = file_of(thing); !is_known(thing) && !file) {
       // Where nothing is shipped at all, the place is what is wrong, not the name.

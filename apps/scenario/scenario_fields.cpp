@@ -187,6 +187,21 @@ Fields kernel_fields() {
   return fields;
 }
 
+Fields knob_fields() {
+  constexpr auto in = &Scenario::knobs;
+  using K = KnobChoices;
+  return {
+      {"knobs.planner_kinds", &at<in, &K::planner_kinds>, 0, 0,
+       "planners that planner.kind may switch to in flight, with commas; none: no such knob"},
+      {"knobs.detector_kinds", &at<in, &K::detector_kinds>, 0, 0,
+       "detectors that detector.kind may switch to in flight, with commas; none: no such knob"},
+      {"knobs.camera_rate", &at<in, &K::camera_rate>, 0, 0,
+       "whether camera.rate_hz may be turned down in flight"},
+      {"knobs.localizer_rate", &at<in, &K::localizer_rate>, 0, 0,
+       "whether localizer.rate_hz may be turned down in flight"},
+  };
+}
+
 Fields scan_fields() {
   constexpr auto in = &Scenario::scan;
   using S = ScanSettings;
@@ -279,6 +294,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, gps_fields());
   append(all, barometer_fields());
   append(all, kernel_fields());
+  append(all, knob_fields());
   append(all, scan_fields());
   append(all, explore_fields());
   append(all, detector_fields());

@@ -49,18 +49,24 @@ void FlightRecorder::record_job(const JobRecord& job) {
   if (node.cost.empty() || (job.work.items().empty() && !job.killed)) {
     return;
   }
-  auto& calls = calls_[node.cost];
+  const std::string& kernel = job.work.charged_as();
+  auto& calls = calls_[kernel.empty() ? node.cost : kernel];
   calls.mission_ms.push_back(1e3 * to_seconds(job.ended - job.started));
   calls.host_s += job.host_s;
   // Two nodes run 100 and 50 times a second, and their rows would outnumber all others.
   if (node.name == "localize" || node.name == "follow") {
     return;
   }
-  link_.log("job", {{"node", node.name},
-                    {"released_s", to_seconds(job.released)},
-                    {"started_s", to_seconds(job.started)},
-                    {"busy_s", to_seconds(job.busy)},
-                    {"missed", static_cast<std::int64_t>(job.missed)}});
+  std::vector<Field> row{{"node", node.name},
+                         {"released_s", to_seconds(job.released)},
+                         {"started_s", to_seconds(job.started)},
+                         {"busy_s", to_seconds(job.busy)},
+                         {"missed", static_cast<std::int64_t>(job.missed)}};
+  if (!kernel.empty()) {
+    row.push_back({"kernel", kernel});
+    row.push_back({"switches", job.work.count("switches")});
+  }
+  link_.log("job", std::move(row));
 }
 
 std::map<std::string, KernelStatistics> FlightRecorder::kernels() const {

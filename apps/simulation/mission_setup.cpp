@@ -44,7 +44,7 @@ Result<World> make_world(const Scenario& scenario) {
 /// Makes one kernel, or adds a sentence to `missing`.
 template <class Family>
 void make(std::shared_ptr<Family>& kernel, const Scenario& scenario, std::vector<Error>& missing) {
-  auto made = make_kernel<Family>(scenario.kernels, model_finder(scenario));
+  auto made = make_switchable<Family>(scenario, model_finder(scenario));
   if (made) {
     kernel = std::move(*made);
   } else {
@@ -107,6 +107,7 @@ Brief brief_of(const Scenario& scenario, const MissionSetup& setup) {
   brief.site = site_of(setup.things.world, scenario.world.generator);
   brief.platform = setup.platform;
   brief.body = setup.equipment.body;
+  brief.sees_its_place = setup.equipment.kernels.localizer->inputs().images;
   return brief;
 }
 

@@ -70,7 +70,7 @@ Result<ColourCameras> equip_to_see(const Scenario& scenario,
     return priced.error();
   }
   const FindModel find_model = model_finder(scenario);
-  auto detector = make_kernel<Detector>(scenario.kernels, find_model);
+  auto detector = make_switchable<Detector>(scenario, find_model);
   if (!detector) {
     return detector.error();
   }

@@ -140,6 +140,7 @@ class Scanning final : public Workload {
     CoverageRequest request{area_W_.min, scan.length_m, scan.width_m,
                             scan.lanes,  query.start_W, query.goal_W};
     request.corner_W.z() = query.goal_W.z();
+    planner.apply(knobs.knobs);
     auto path = planner.cover(request);
     PlanAnswer reply;
     reply.id = query.id;

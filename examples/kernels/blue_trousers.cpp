@@ -32,6 +32,23 @@ class BlueTrousers final : public flyball::Detector {
     return flyball::Done{};
   }
 
+  /// A policy may turn the threshold in flight; it begins with the parameter's value.
+  [[nodiscard]] std::vector<flyball::KnobSpec> knobs() const override {
+    auto all = Detector::knobs();
+    all.push_back({"blue_trousers.bluer_by",
+                   "grey levels",
+                   "detect",
+                   {},
+                   1.0,
+                   200.0,
+                   1.0 * bluer_by_,
+                   "that blue is above red and green"});
+    return all;
+  }
+  void apply(const flyball::KnobSettings& knobs) override {
+    bluer_by_ = static_cast<int>(knobs.value("blue_trousers.bluer_by"));
+  }
+
   flyball::Result<std::vector<Detection>> detect(const ColourImage& image,
                                                  double /*scale: every pixel is looked at*/,
                                                  Work& work) override {

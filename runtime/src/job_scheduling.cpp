@@ -128,15 +128,19 @@ void VirtualComputer::compute(int node) {
   job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
 }
 
+const std::string& VirtualComputer::price_list(int node, const Work& work) const {
+  return work.charged_as().empty() ? spec(node).cost : work.charged_as();
+}
+
 Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
-  const NodeSpec& wanted = spec(node);
-  return wanted.cost.empty() ? Duration::zero()
-                             : platform.job_time(wanted.cost, work, point.frequency);
+  const std::string& kernel = price_list(node, work);
+  return kernel.empty() ? Duration::zero() : platform.job_time(kernel, work, point.frequency);
 }
 
 void VirtualComputer::apply_share(int node, double share) {
   Job& job = *nodes[index(node)].job;
-  const double speed = share <= 1.0 ? share : platform.speedup(spec(node).cost, share);
+  const double speed =
+      share <= 1.0 ? share : platform.speedup(price_list(node, job.record.work), share);
   if (job.has_end && speed == job.speed) {
     job.share = share;
     return;  // its end stays exactly where it is

@@ -60,6 +60,8 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void apply(const OperatingPoint& granted);
   void rescale_running_jobs();
   [[nodiscard]] double free_cores() const;
+  /// The kernel whose price list counts for a node's work.
+  [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
   [[nodiscard]] std::vector<int> nodes_by_urgency() const;

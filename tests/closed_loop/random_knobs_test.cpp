@@ -108,15 +108,19 @@ void check(const MissionRecord& record, double least_s) {
   EXPECT_LE(bounds.most_s, to_seconds(std::chrono::seconds{60}));
 }
 
-/// @return  How often missions ended in each way.
-std::map<std::string, int> fly_all(int n, std::uint64_t first_seed) {
+/// @param choices  Knobs beside those that each mission has.
+/// @return         How often missions ended in each way.
+std::map<std::string, int> fly_all(int n,
+                                   std::uint64_t first_seed,
+                                   const KnobChoices& choices = {}) {
   const std::vector<Place> all = places();
   std::map<std::string, int> ends;
   for (int i = 0; i < n; ++i) {
     const Place& place = all[static_cast<std::size_t>(i) % all.size()];
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i) / all.size();
     SCOPED_TRACE(place.world + " seed " + std::to_string(seed));
-    const Scenario scenario = mission(place, seed);
+    Scenario scenario = mission(place, seed);
+    scenario.knobs = choices;
     const MissionRecord record = kit::flown(scenario);
     check(record, least_bound_s(scenario));
     const Summary& summary = record.summary;
@@ -129,6 +133,10 @@ std::map<std::string, int> fly_all(int n, std::uint64_t first_seed) {
 
 TEST(RandomKnobs, cost_time_but_no_collision_and_no_bound_that_is_none_in_20_missions) {
   fly_all(20, 1);
+}
+
+TEST(RandomKnobs, cost_no_collision_where_planners_and_rates_change_too_in_10_missions) {
+  fly_all(10, 501, {"rrt,rrt_star,prm,bit_star", "haar", true, true});
 }
 
 TEST(RandomKnobs, DISABLED_cost_time_but_no_collision_and_no_bound_that_is_none_in_500_missions) {

@@ -44,6 +44,15 @@ TEST(Detectors, keep_their_contract) {
   kit::try_all_registered<DetectorConformance, Detector>(find_test_model);
 }
 
+TEST(Detectors, keep_their_contract_behind_a_knob_that_chooses_among_them) {
+  kit::try_all_behind_a_switch<DetectorConformance, Detector, SwitchedDetector>(
+      [](Detector& detector) {
+        Work work;
+        (void)detector.detect({}, 1.0, work);
+      },
+      find_test_model);
+}
+
 // Not haar: its cascades find next to none of the people that this simulator renders.
 TEST(Detectors, find_people_that_are_shown_to_them) {
   const auto people = rendered_people();

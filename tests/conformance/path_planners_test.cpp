@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/kernels/conformance/path_planner_conformance.h"
 
+#include "grid_map.h"
 #include "kernel_trials.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +69,12 @@ class Culprit final : public PathPlanner {
 
 TEST(PathPlanners, keep_their_contract) {
   kit::try_all_registered<PathPlannerConformance, PathPlanner>();
+}
+
+TEST(PathPlanners, keep_their_contract_behind_a_knob_that_chooses_among_them) {
+  const kit::GridMap map{{Vec3::Zero(), Vec3::Ones()}, 0.5, CellState::free};
+  kit::try_all_behind_a_switch<PathPlannerConformance, PathPlanner, SwitchedPlanner>(
+      [&map](PathPlanner& planner) { (void)planner.plan({}, map); });
 }
 
 TEST(PathPlannerConformance, finds_each_kind_of_breach) {

@@ -6,6 +6,7 @@
 
 #include "flyball/kernels/conformance/kernel_conformance.h"
 #include "flyball/kernels/kernels.h"
+#include "flyball/kernels/switched.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -46,6 +47,43 @@ void try_all_registered(const FindModel& find_model = no_models) {
     tried += breaches.empty() ? 1 : 0;
   }
   EXPECT_GE(tried, 1);
+}
+
+/// Runs a kit over each kernel of a family in turn, behind a knob that chooses among all of them
+/// and that has been turned to it.
+///
+/// @param work  A small job, so that the first one after a switch is over.
+template <class Conformance, class Family, class Switched>
+void try_all_behind_a_switch(const std::function<void(Family&)>& work,
+                             const FindModel& find_model = no_models) {
+  const auto usable = [&find_model](const std::string& name) {
+    auto kernel = kernels().make<Family>(name);
+    const auto chosen = Parameters::resolve(name, kernel->parameters(), {});
+    return kernel->configure(std::get<Parameters>(chosen), find_model) ? std::move(kernel)
+                                                                       : nullptr;
+  };
+  std::vector<std::string> names = kernels().names<Family>();
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [&usable](const std::string& name) { return !usable(name); }),
+              names.end());
+  EXPECT_GE(names.size(), 2U);
+  for (std::size_t active = 0; active < names.size(); ++active) {
+    const auto make = [&]() -> std::unique_ptr<Family> {
+      std::vector<KernelKind<Family>> kinds;
+      for (const std::string& name : names) {
+        kinds.push_back({name, usable(name)});
+      }
+      auto all = std::make_unique<Switched>(std::move(kinds));
+      KnobSettings knobs{all->knobs()};
+      EXPECT_TRUE(knobs.set(knobs.specs().front().name, static_cast<double>(active)).ok());
+      all->apply(knobs);
+      work(*all);
+      return all;
+    };
+    for (const std::string& breach : Conformance{{make}}.breaches()) {
+      ADD_FAILURE() << names[active] << " behind a switch " << breach;
+    }
+  }
 }
 
 /// Each crime, and a part of the sentence that must be found about it.

@@ -222,6 +222,32 @@ TEST(VirtualExecutor, a_node_that_triggers_itself_runs_again) {
   EXPECT_EQ(computer.drops(), 0U);
 }
 
+TEST(VirtualExecutor, a_job_whose_work_names_a_kernel_takes_as_long_as_that_one) {
+  Graph graph{"exchanged"};
+  const auto in = graph.topic<int>("in");
+  NodeSpec spec;
+  spec.name = "either";
+  spec.cost = "serial";
+  spec.trigger = OnMessage{in.index};
+  graph.node(spec, [&](JobContext& job) {
+    Work work;
+    work.add("ms", 100.0);
+    if (*job.latest(in) == 2) {
+      work.charge_as("memory");  // At 2 GHz half of its time stays.
+    }
+    return work;
+  });
+  const ModeledPlatform platform{rig_model(0.0)};
+  EventQueue queue;
+  VirtualExecutor computer{graph, platform, queue, {1, Hertz{2e9}}};
+  computer.publish(in, 1);
+  queue.run([] { return false; });
+  EXPECT_EQ(queue.now(), at_ms(50.0));
+  computer.publish(in, 2);
+  queue.run([] { return false; });
+  EXPECT_NEAR(to_seconds(queue.now()), 0.05 + 0.075, 1e-6);
+}
+
 TEST(VirtualExecutor, may_be_gone_before_its_events_are_due) {
   ComputerRig rig;
   const int a = rig.add({100.0, 0, "serial", 1, 50.0});

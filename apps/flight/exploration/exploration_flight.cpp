@@ -59,15 +59,16 @@ void ExplorationFlight::add_explore(Graph& graph) {
   spec.trigger = OnMessage{explore_.request.index};
   spec.priority = 15;
   spec.deadline = 30s;
-  spec.reads = {perception_.map.index};
+  spec.reads = {perception_.map.index, parts_.mission.knobs.index};
   spec.writes = {explore_.response.index};
-  graph.node(std::move(spec), [service = explore_, map = perception_.map,
+  graph.node(std::move(spec), [service = explore_, map = perception_.map, mission = parts_.mission,
                                explorer = parts_.kernels.explorer](JobContext& job) {
     const auto query = job.take(service.request);
     const auto revision = job.latest(map);
     if (!query || !revision) {
       return Work{};
     }
+    turn_knobs(job, mission, *explorer);
     ExploreStep step = explorer->explore(query->request, *revision->map);
     Work work = step.work;
     job.publish(service.response, ExploreAnswer{query->id, std::move(step)});

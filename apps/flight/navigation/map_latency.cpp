@@ -2,6 +2,7 @@
 #include "flyball/flight/navigation/map_latency.h"
 
 #include "flyball/flight/navigation/path_follower.h"
+#include "flyball/flight/perception/rate_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,27 @@ using namespace std::chrono_literals;
 
 constexpr Duration least_price = 1ms;     // A computer in a test may charge nothing.
 constexpr std::size_t most_windows = 64;  // Chosen: enough for the settings of some minutes.
+constexpr double spread = 1.1;  // As `LatencyWindow` allows for what has not been measured yet.
+
+/// The interval behind a rate limit, if there is such a knob.
+double behind(const KnobsInForce& knobs, const char* knob, double interval_s) {
+  return knobs.knobs.spec(knob) == nullptr ? interval_s
+                                           : passed_interval_s(interval_s, knobs.value(knob));
+}
 
 }  // namespace
 
-MapTerms terms_of(const KnobsInForce& knobs) {
-  return {knobs.value("map.resolution_m"), knobs.value("map.range_m"), knobs.computer.frequency,
-          knobs.computer.cores};
+MapTerms terms_of(const KnobsInForce& knobs, const Brief& brief) {
+  MapTerms terms{knobs.value("map.resolution_m"), knobs.value("map.range_m"),
+                 knobs.computer.frequency, knobs.computer.cores};
+  const double taken_s = 1.0 / brief.settings.camera.rate_hz;
+  const double used_s = behind(knobs, "camera.rate_hz", taken_s);
+  const double mapped_s = behind(knobs, "map.rate_hz", used_s);
+  const double located_s = behind(knobs, "localizer.rate_hz", used_s);
+  terms.frame_interval = mapped_s > taken_s ? from_seconds(mapped_s) : Duration{};
+  const bool needs_fixes = brief.sees_its_place && located_s > taken_s;
+  terms.fix_interval = needs_fixes ? from_seconds(located_s) : Duration{};
+  return terms;
 }
 
 FramePrice frame_price(const Brief& brief) {
@@ -53,7 +69,8 @@ FramePrice frame_price(const Brief& brief) {
 // The oldest measurement is forgotten, because a policy that never asks for the same range twice
 // would fill the memory.
 void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
-  const auto key = std::make_tuple(terms.cores, terms.resolution_m, terms.range_m);
+  const auto key =
+      std::make_tuple(terms.cores, terms.resolution_m, terms.range_m, terms.frame_interval);
   if (windows_.find(key) == windows_.end() && windows_.size() >= most_windows) {
     windows_.erase(std::min_element(
         windows_.begin(), windows_.end(),
@@ -68,14 +85,16 @@ void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
 // So a measurement at the nearest settings tells more than the price does. The same jobs on fewer
 // cores take longer by at most the ratio of the numbers of cores.
 double MeasuredShares::bound(const MapTerms& terms) const {
-  using Apart = std::tuple<double, double, double>;  // Cells first, then range, then cores.
+  // Cells first, then range, then cores, then the interval between frames.
+  using Apart = std::tuple<double, double, double, Duration>;
   std::optional<Apart> nearest;
   double share = 1.0;
   for (const auto& [key, window] : windows_) {
-    const auto& [cores, resolution_m, range_m] = key;
+    const auto& [cores, resolution_m, range_m, frame_interval] = key;
     const double times_fewer = static_cast<double>(cores) / terms.cores;
     const Apart apart{std::abs(std::log(resolution_m / terms.resolution_m)),
-                      std::abs(std::log(range_m / terms.range_m)), std::abs(std::log(times_fewer))};
+                      std::abs(std::log(range_m / terms.range_m)), std::abs(std::log(times_fewer)),
+                      std::chrono::abs(frame_interval - terms.frame_interval)};
     if (!nearest || apart < *nearest) {
       nearest = apart;
       share = to_seconds(window.shares.bound()) * std::max(1.0, times_fewer);
@@ -100,8 +119,10 @@ bool MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
   }
   const Bounds before = bounds_;
   const Bounds here = bounds_of(terms_);
-  bounds_ = {std::max(before.latency, here.latency), std::max(before.interval, here.interval)};
-  return bounds_.latency != before.latency || bounds_.interval != before.interval;
+  bounds_ = {std::max(before.latency, here.latency), std::max(before.interval, here.interval),
+             std::max(before.reckoned, here.reckoned)};
+  return bounds_.latency != before.latency || bounds_.interval != before.interval ||
+         bounds_.reckoned != before.reckoned;
 }
 
 Duration MapLatency::price(const MapTerms& terms) const {
@@ -114,7 +135,10 @@ MapLatency::Bounds MapLatency::bounds_of(const MapTerms& terms) const {
     return std::clamp(from_seconds(measured.bound(terms) * price_s),
                       std::min(price_.least, longest_latency_bound), longest_latency_bound);
   };
-  return {bound(latencies_), bound(intervals_)};
+  const Duration of_frames = from_seconds(spread * to_seconds(terms.frame_interval));
+  return {bound(latencies_),
+          std::min(std::max(bound(intervals_), of_frames), longest_latency_bound),
+          terms.fix_interval};
 }
 
 void MapLatency::published(const MapRevision& revision, MissionTime now) {

@@ -45,6 +45,7 @@ void add_check(Graph& graph,
       const Path& path = *navigator->path;
       const PathSpan span{&path, navigator->s_m, knobs->value("map.range_m")};
       clearance.path_number = navigator->path_number;
+      checker->apply(knobs->knobs);
       clearance.blocked_at_m =
           checker->check(*revision->map, span, brief->narrow_body(), work).blocked_at_m;
       clearance.free_until_m =
@@ -94,6 +95,7 @@ void add_plan(Graph& graph,
     const auto revision = job.latest(perception.map);
     const auto knobs = job.latest(knobs_topic);
     if (query && revision && knobs) {
+      planner->apply(knobs->knobs);
       job.publish(topics.plan.response,
                   planned({*brief, *knobs, *revision->map}, *planner, *query, work));
     }
@@ -170,6 +172,7 @@ void add_smooth(Graph& graph,
     const auto knobs = job.latest(mission.knobs);
     const auto map = newest_map(job);
     if (answer && knobs && map) {
+      smoother->apply(knobs->knobs);
       PlannedPath planned = smoothed(*answer, {*brief, *knobs, *map}, *smoother, work);
       log_plan(job, mission, *answer, planned);
       job.publish(topics.path, std::move(planned));

@@ -35,8 +35,9 @@ Navigator::Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTra
 void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs) {
   knobs_ = std::move(knobs);
   follower_.set_knobs(knobs_);
-  if (map_latency_.note_terms(now, terms_of(*knobs_))) {
-    follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
+  path_tracker_->apply(knobs_->knobs);
+  if (map_latency_.note_terms(now, terms_of(*knobs_, *brief_))) {
+    follower_.set_latency_bound(map_latency_.age_bound());
   }
 }
 
@@ -81,7 +82,7 @@ bool Navigator::has_arrived() const {
 
 void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
   const MapRevision& revision = clearance.revision;
-  (void)map_latency_.note_terms(now, terms_of(*knobs_));
+  (void)map_latency_.note_terms(now, terms_of(*knobs_, *brief_));
   map_latency_.published(revision, clearance.published);
   map_ = revision.map;
   newest_latency_ = clearance.published - revision.captured;
@@ -89,7 +90,7 @@ void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
   budget_use_ = map_latency_.budget_use();
   unused_capture_ = newest_capture_ = revision.captured;
   follower_.map_captured(revision.captured);
-  follower_.set_latency_bound(map_latency_.latency_bound() + map_latency_.interval_bound());
+  follower_.set_latency_bound(map_latency_.age_bound());
 }
 
 void Navigator::refresh_known_free() {

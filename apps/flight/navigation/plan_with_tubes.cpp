@@ -114,6 +114,7 @@ class Search {
     for (const auto& item : plan.work.items()) {
       work_.add(item.name, item.count);
     }
+    work_.charge_as(plan.work.charged_as());
     const bool found = !plan.waypoints_W.empty();
     if (found || plan_.waypoints_W.empty()) {
       plan_ = std::move(plan);

@@ -76,6 +76,7 @@ class Detect {
     if (!pose || apart > same_time || -apart > same_time) {
       return work;
     }
+    parts_.kernels.detector->apply(knobs->knobs);
     const auto people =
         parts_.kernels.detector->detect(frame->image.value(), knobs->value("detector.scale"), work);
     if (people) {

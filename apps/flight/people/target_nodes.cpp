@@ -53,6 +53,7 @@ void add_detect(Graph& graph, const FlightParts& parts, const TargetTopics& topi
     if (!frame || !knobs || !is_in(job, mission, MissionPhase::cruise)) {
       return work;
     }
+    detector->apply(knobs->knobs);
     auto people = detector->detect(frame->image.value(), knobs->value("detector.scale"), work);
     if (!people) {
       log_event(job, mission, "not looked at: " + people.error().message);
@@ -75,6 +76,7 @@ class BufferedTracking {
     if (!seen) {
       return work;
     }
+    turn_knobs(job, parts_.mission, *parts_.kernels.buffered_tracker);
     CaughtUp caught_up{seen->frame, chosen(job, *seen), 0, {}};
     if (caught_up.box) {
       job.publish(topics_.sighting, Target{seen->frame, caught_up.box});
@@ -142,7 +144,8 @@ void add_buffered(Graph& graph, const FlightParts& parts, const TargetTopics& to
   spec.cost = parts.brief->settings.kernels.tracker + "_buffered";
   spec.trigger = OnMessage{topics.detections.index};
   spec.priority = 20;
-  spec.reads = {parts.vehicle.colour_buffer.index, topics.target.index, topics.pose.index};
+  spec.reads = {parts.vehicle.colour_buffer.index, topics.target.index, topics.pose.index,
+                parts.mission.knobs.index};
   spec.writes = {topics.sighting.index, topics.caught_up.index};
   declare_log(spec, parts.mission);
   auto tracking = std::make_shared<BufferedTracking>(parts, topics);  // Owner: this node alone.
@@ -165,6 +168,7 @@ class RealTimeTracking {
       return work;
     }
     Target target{*frame, std::nullopt};
+    turn_knobs(job, parts_.mission, tracker());
     const auto caught_up = job.take(topics_.caught_up);
     missed_in_row_ = caught_up ? caught_up->log.missed_in_row : missed_in_row_;
     if (caught_up && caught_up->box) {
@@ -200,7 +204,7 @@ void add_real_time(Graph& graph, const FlightParts& parts, const TargetTopics& t
   spec.cost = parts.brief->settings.kernels.tracker + "_real_time";
   spec.trigger = OnMessage{parts.vehicle.colour.index};
   spec.priority = 30;
-  spec.reads = {topics.caught_up.index};
+  spec.reads = {topics.caught_up.index, parts.mission.knobs.index};
   spec.writes = {topics.target.index};
   auto tracking = std::make_shared<RealTimeTracking>(parts, topics);  // Owner: this node alone.
   graph.node(std::move(spec), [tracking](JobContext& job) { return (*tracking)(job); });

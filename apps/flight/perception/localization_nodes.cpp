@@ -52,6 +52,9 @@ class Localize {
   }
 
   void estimate(JobContext& job, const NavigationSample& sample, Work& work) {
+    if (!fixes_) {  // Else the node `see` does, whose jobs are the long ones.
+      turn_knobs(job, mission_, *localizer_);
+    }
     if (const auto truth = vehicle_.true_pose ? job.latest(*vehicle_.true_pose) : nullptr) {
       localizer_->reveal(*truth);
     }
@@ -88,7 +91,9 @@ void add_localize(Graph& graph,
   if (parts.vehicle.true_pose) {
     spec.reads.push_back(parts.vehicle.true_pose->index);
   }
-  if (fixes) {
+  if (!fixes) {
+    spec.reads.push_back(parts.mission.knobs.index);
+  } else {
     spec.reads.push_back(fixes->index);
     spec.writes.insert(spec.writes.end(), {topics.status.index, parts.mission.end.index});
     declare_log(spec, parts.mission);
@@ -104,21 +109,24 @@ void add_see(Graph& graph, const FlightParts& parts, Topic<View> view, Topic<Vis
   spec.trigger = OnMessage{view.index};
   // It runs before `points` and `map`, because a map is worth nothing without a pose.
   spec.priority = 28;
+  spec.reads = {parts.mission.knobs.index};
   spec.writes = {fix.index};
   if (parts.vehicle.imu) {
     spec.reads.push_back(parts.vehicle.imu->index);
   }
   declare_log(spec, parts.mission);
-  graph.node(std::move(spec), [view, fix, imu = parts.vehicle.imu, mission = parts.mission,
+  auto limit = std::make_shared<RateLimit>();  // Owner: this node alone.
+  graph.node(std::move(spec), [view, fix, limit, imu = parts.vehicle.imu, mission = parts.mission,
                                localizer = parts.kernels.localizer](JobContext& job) {
     Work work;
     const auto seen = job.latest(view);
     while (const auto felt = imu ? job.take(*imu) : nullptr) {
       localizer->feel(*felt);
     }
-    if (!seen) {
+    if (!seen || !is_localizers_turn(job, mission, *limit, seen->depth.captured)) {
       return work;
     }
+    turn_knobs(job, mission, *localizer);
     const auto found = localizer->see(visual_frame(*seen), work);
     if (found) {
       job.publish(fix, *found);
@@ -130,6 +138,16 @@ void add_see(Graph& graph, const FlightParts& parts, Topic<View> view, Topic<Vis
 }
 
 }  // namespace
+
+bool is_localizers_turn(JobContext& job,
+                        const MissionTopics& mission,
+                        RateLimit& limit,
+                        MissionTime captured) {
+  constexpr const char* knob = "localizer.rate_hz";
+  const auto knobs = job.latest(mission.knobs);
+  // Without such a knob, and before the governor has spoken, every frame is looked at.
+  return !knobs || knobs->knobs.spec(knob) == nullptr || limit.passes(captured, knobs->value(knob));
+}
 
 LocalizationTopics add_localization(Graph& graph, const FlightParts& parts) {
   LocalizationTopics topics;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/perception/perception_nodes.h"
 
+#include "flyball/flight/perception/camera_rate.h"
 #include "flyball/flight/perception/pose_history.h"
+#include "flyball/flight/perception/rate_limit.h"
 
 #include <memory>
 #include <optional>
@@ -14,19 +16,23 @@ using namespace std::chrono_literals;
 
 // MAVBench's deliveries ran ORB-SLAM2 beside the map even when ground truth steered the vehicle.
 // Its load on the cores is charged, but nothing uses a pose from it.
-void add_slam_load(Graph& graph, const VehicleTopics& vehicle) {
+void add_slam_load(Graph& graph, const FlightParts& parts) {
   NodeSpec spec;
   spec.name = "slam_load";
   spec.cost = "visual_slam";
-  spec.trigger = OnMessage{vehicle.depth.index};
+  spec.trigger = OnMessage{parts.vehicle.depth.index};
   spec.priority = 10;
-  graph.node(std::move(spec), [vehicle](JobContext& job) {
-    Work work;
-    if (const auto frame = job.latest(vehicle.depth)) {
-      work.add("pixels", frame->pixels);
-    }
-    return work;
-  });
+  spec.reads = {parts.mission.knobs.index};
+  auto limit = std::make_shared<RateLimit>();  // Owner: this node alone.
+  graph.node(std::move(spec),
+             [limit, depth = parts.vehicle.depth, mission = parts.mission](JobContext& job) {
+               Work work;
+               const auto frame = job.latest(depth);
+               if (frame && is_localizers_turn(job, mission, *limit, frame->captured)) {
+                 work.add("pixels", frame->pixels);
+               }
+               return work;
+             });
 }
 
 void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> cloud) {
@@ -37,21 +43,19 @@ void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> c
   spec.priority = 20;
   spec.reads = {parts.mission.knobs.index};
   spec.writes = {cloud.index};
-  auto last = std::make_shared<std::optional<MissionTime>>();  // Owner: this node alone.
+  auto limit = std::make_shared<RateLimit>();  // Owner: this node alone.
   graph.node(std::move(spec), [depth = parts.vehicle.depth, knobs_topic = parts.mission.knobs,
-                               cloud, last, builder = parts.kernels.point_cloud](JobContext& job) {
+                               cloud, limit, builder = parts.kernels.point_cloud](JobContext& job) {
     Work work;
     const auto frame = job.latest(depth);
     const auto knobs = job.latest(knobs_topic);
     if (!frame || !knobs) {
       return work;
     }
-    // A tenth of the interval is tolerance, so that a camera at 20 Hz satisfies a knob at 20 Hz.
-    const double interval_s = 0.9 / knobs->value("map.rate_hz");
-    if (*last && to_seconds(frame->captured - **last) < interval_s) {
+    if (!limit->passes(frame->captured, knobs->value("map.rate_hz"))) {
       return work;
     }
-    *last = frame->captured;
+    builder->apply(knobs->knobs);
     job.publish(cloud, builder->build(*frame, knobs->value("map.range_m"), work));
     return work;
   });
@@ -87,6 +91,7 @@ class Map {
               const PoseEstimate& pose,
               const KnobsInForce& knobs) {
     const MapperSettings settings{knobs.value("map.resolution_m"), knobs.value("map.range_m")};
+    mapper_->apply(knobs.knobs);
     const auto work =
         mapper_->prepare_frame(frame, camera_pose(pose.X_WB, brief_->settings.camera), settings);
     if (!work) {
@@ -138,14 +143,15 @@ Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera) {
   return X_WC;
 }
 
-PerceptionTopics add_perception(Graph& graph, const FlightParts& parts) {
+PerceptionTopics add_perception(Graph& graph, const FlightParts& of_vehicle) {
+  const FlightParts parts = with_camera_rate(graph, of_vehicle);
   PerceptionTopics topics;
   topics.localization = add_localization(graph, parts);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
   topics.clear = graph.topic<ClearSpace>("clear_space", 16);
   topics.map = graph.topic<MapRevision>("map_revision");
   if (parts.brief->settings.kernels.slam_load && !parts.vehicle.view) {
-    add_slam_load(graph, parts.vehicle);
+    add_slam_load(graph, parts);
   }
   add_points(graph, parts, topics.cloud);
   add_map(graph, parts, topics);

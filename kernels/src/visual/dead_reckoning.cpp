@@ -10,8 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto memory = 5s;         // A frame that is older than this corrects with what is left.
-constexpr double coasting_s = 0.5;  // At 5 m/s^2 the speed is wrong by 2.5 m/s by then.
+constexpr auto memory = 5s;  // A frame that is older than this corrects with what is left.
 
 }  // namespace
 
@@ -62,7 +61,7 @@ Pose DeadReckoning::pose_at(MissionTime t) const {
   const Felt& then = felt_at(t);
   if (fix_) {
     const double age_s = to_seconds(t - fix_->captured);
-    X_WB.translation() += std::clamp(age_s, 0.0, coasting_s) * fix_->v_WB;
+    X_WB.translation() += std::clamp(age_s, 0.0, longest_reckoning_s) * fix_->v_WB;
     const Eigen::Quaterniond turned = felt_at(fix_->captured).q_WB.conjugate() * then.q_WB;
     X_WB.linear() =
         (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
@@ -76,7 +75,7 @@ Pose DeadReckoning::pose_at(MissionTime t) const {
 PoseEstimate DeadReckoning::estimate(const NavigationSample& sample) {
   feel(sample);
   PoseEstimate estimate{sample.stamp, pose_at(sample.stamp), Vec3::Zero()};
-  if (fix_ && to_seconds(sample.stamp - fix_->captured) < coasting_s) {
+  if (fix_ && to_seconds(sample.stamp - fix_->captured) < longest_reckoning_s) {
     estimate.v_WB = fix_->v_WB;
   } else if (has_barometer_) {
     estimate.v_WB.z() = climb_.climb_m_s();

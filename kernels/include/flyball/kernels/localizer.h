@@ -20,6 +20,10 @@ struct GeodeticOrigin {
   double height_m{400.0};
 };
 
+/// A localizer that looks at frames carries the place on by its last speed for so long without one.
+/// At 5 m/s^2 that speed is wrong by 2.5 m/s by then.
+inline constexpr double longest_reckoning_s = 0.5;
+
 /// What a localizer lives on beside navigation samples.
 struct LocalizerInputs {
   bool images{};

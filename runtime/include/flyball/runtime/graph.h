@@ -59,7 +59,9 @@ struct OnPeriod {
 
 struct NodeSpec {
   std::string name;
-  std::string cost;  ///< Kernel name on the platform's price list. Empty: takes no time.
+  /// Kernel name on the platform's price list, unless a job's work says another one
+  /// (`Work::charged_as`). Empty: takes no time.
+  std::string cost;
   std::variant<OnMessage, OnPeriod> trigger{OnPeriod{}};
   int priority{};       ///< Higher runs first.
   Duration deadline{};  ///< From release to end; zero: none.

@@ -4,7 +4,9 @@
 /// @file
 /// What a kernel did: named counts of the operations that dominate it. A platform prices them.
 
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flyball {
@@ -37,8 +39,14 @@ class Work {
   }
   [[nodiscard]] const std::vector<WorkItem>& items() const { return items_; }
 
+  /// The kernel whose price list counts, where a node's kernel may change between two jobs. Empty:
+  /// the one that the node names (`NodeSpec::cost`).
+  [[nodiscard]] const std::string& charged_as() const { return charged_as_; }
+  void charge_as(std::string kernel) { charged_as_ = std::move(kernel); }
+
  private:
   std::vector<WorkItem> items_;
+  std::string charged_as_{};
 };
 
 }  // namespace flyball

@@ -246,8 +246,99 @@ TEST(MapLatency, asks_for_the_clock_that_is_granted_not_for_the_one_that_was_wis
   kit::MissionRig rig{map};
   KnobsInForce knobs = *rig.knobs;
   knobs.computer = {2, Hertz{0.5e9}};
-  EXPECT_EQ(terms_of(knobs).clock.value(), 0.5e9);
-  EXPECT_EQ(terms_of(knobs).cores, 2);
+  EXPECT_EQ(terms_of(knobs, *rig.brief).clock.value(), 0.5e9);
+  EXPECT_EQ(terms_of(knobs, *rig.brief).cores, 2);
+}
+
+/// The terms while one frame in so many is mapped, and one in so many located by.
+MapTerms with_intervals(MapTerms terms, Duration frames, Duration fixes = {}) {
+  terms.frame_interval = frames;
+  terms.fix_interval = fixes;
+  return terms;
+}
+
+TEST(MapLatency, expects_the_interval_in_force_before_one_has_been_measured) {
+  Stream stream;
+  stream.make(coarse, 30, 50ms);
+  const Duration before = stream.maps.age_bound();
+  EXPECT_NEAR(to_seconds(before), 0.11, 1e-6);
+  ASSERT_TRUE(stream.maps.note_terms(stream.now, with_intervals(coarse, 200ms)));
+  EXPECT_NEAR(stream.interval_bound_s(), 0.22, 1e-6);
+  EXPECT_NEAR(stream.latency_bound_s(), 0.055, 1e-6) << "a map takes no longer than before";
+  const Guard guard{{}};
+  for (const double free_m : {0.5, 2.0, 7.0, 20.0}) {
+    EXPECT_LT(guard.cruise_speed(stream.maps.age_bound(), free_m),
+              guard.cruise_speed(before, free_m));
+  }
+}
+
+TEST(MapLatency, bounds_the_age_of_each_map_while_the_camera_is_turned_down_and_up) {
+  Stream stream;
+  stream.make(coarse, 30, 50ms);
+  for (const Duration interval : {200ms, 50ms, 400ms, 100ms, 0ms}) {
+    const MapTerms terms = with_intervals(coarse, interval);
+    stream.maps.note_terms(stream.now, terms);
+    for (int i = 0; i < 30; ++i) {
+      const MissionTime captured = stream.now;
+      stream.now += 30ms;
+      stream.publish(captured, terms.resolution_m);
+      stream.now = captured + std::max<Duration>(interval, 50ms);
+      // Just before the next map, which takes as long as this one.
+      EXPECT_GE(stream.maps.age_bound(), stream.now + 30ms - captured) << i;
+    }
+  }
+  EXPECT_NEAR(stream.interval_bound_s(), 0.055, 1e-6) << "the slow times are not held against it";
+}
+
+TEST(MapLatency, adds_how_long_the_place_is_carried_on_without_a_frame) {
+  Stream stream;
+  stream.make(coarse, 30, 50ms);
+  const double before_s = to_seconds(stream.maps.age_bound());
+  ASSERT_TRUE(stream.maps.note_terms(stream.now, with_intervals(coarse, {}, 250ms)));
+  EXPECT_NEAR(to_seconds(stream.maps.age_bound()), before_s + 0.25, 1e-6);
+}
+
+class RatesInForce : public testing::Test {
+ protected:
+  static Scenario with_rates() {
+    Scenario scenario = kit::MissionRig::one_core();
+    scenario.knobs.camera_rate = scenario.knobs.localizer_rate = true;
+    return scenario;
+  }
+  void turn(const std::string& knob, double value) { ASSERT_TRUE(rig.set(knob, value)) << knob; }
+  [[nodiscard]] double frames_s() const {
+    return to_seconds(terms_of(*rig.knobs, *rig.brief).frame_interval);
+  }
+  [[nodiscard]] double fixes_s() const {
+    return to_seconds(terms_of(*rig.knobs, *rig.brief).fix_interval);
+  }
+  kit::GridMap map{kit::corridor(10.0)};
+  kit::MissionRig rig{map, with_rates()};
+};
+
+TEST_F(RatesInForce, are_no_matter_while_no_frame_is_left_out) {
+  EXPECT_EQ(frames_s(), 0.0);
+  EXPECT_EQ(fixes_s(), 0.0);
+}
+
+TEST_F(RatesInForce, of_camera_and_map_make_the_interval_between_maps) {
+  turn("camera.rate_hz", 5.0);
+  EXPECT_NEAR(frames_s(), 0.2, 1e-9);
+  turn("map.rate_hz", 10.0);
+  EXPECT_NEAR(frames_s(), 0.2, 1e-9) << "the camera is slower";
+  turn("camera.rate_hz", 20.0);
+  EXPECT_NEAR(frames_s(), 0.1, 1e-9);
+  EXPECT_EQ(fixes_s(), 0.0) << "a localizer that takes no images knows its place at all times";
+}
+
+TEST_F(RatesInForce, of_camera_and_localizer_make_the_interval_between_fixes) {
+  rig.brief->sees_its_place = true;
+  turn("localizer.rate_hz", 5.0);
+  EXPECT_NEAR(fixes_s(), 0.2, 1e-9);
+  EXPECT_EQ(frames_s(), 0.0);
+  turn("localizer.rate_hz", 20.0);
+  turn("camera.rate_hz", 4.0);
+  EXPECT_NEAR(fixes_s(), 0.25, 1e-9);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/people/target_nodes.h"
 
+#include "flyball/kernels/switched.h"
 #include "flyball/runtime/virtual_executor.h"
 
 #include "grid_map.h"
@@ -132,6 +133,16 @@ class TargetGraph : public testing::Test {
       executor.publish(parts.vehicle.colour, frame);
       executor.publish(parts.vehicle.colour_buffer, frame);
     });
+    executor.on_job([this](const JobRecord& job) {
+      if (graph.nodes()[static_cast<std::size_t>(job.node)].spec.name == "detect") {
+        looks.push_back(job);
+      }
+    });
+    queue.every(MissionTime{200ms}, 1h, EventOrder::sensor, [&] {
+      if (knobs_later) {
+        executor.publish(parts.mission.knobs, *knobs_later);
+      }
+    });
     queue.run([&] { return queue.now() >= MissionTime{time}; });
   }
 
@@ -139,6 +150,7 @@ class TargetGraph : public testing::Test {
     PlatformModel model = kit::free_of_charge();
     model.max_cores = 2;
     model.kernels["hog"].seconds_per["images"] = 0.32;
+    model.kernels["haar"].seconds_per = {{"images", 0.10}, {"switches", 0.05}};
     return model;
   }
 
@@ -147,6 +159,8 @@ class TargetGraph : public testing::Test {
   ModeledPlatform platform{slow_detection()};
   EventQueue queue;
   Graph graph{"target"};
+  std::optional<KnobsInForce> knobs_later;  ///< From 200 ms on.
+  std::vector<JobRecord> looks;             ///< Jobs of the detector.
   TargetLog log;
   std::vector<std::uint64_t> buffered;
   std::vector<std::uint64_t> real_time;
@@ -164,6 +178,27 @@ TEST_F(TargetGraph, works_through_exactly_the_frames_that_came_while_the_detecto
   EXPECT_TRUE(std::equal(first.begin(), first.end(), buffered.begin()));
   EXPECT_EQ(log.detections, 4);
   EXPECT_EQ(log.missed_in_row, 0);
+}
+
+TEST_F(TargetGraph, a_detector_is_switched_between_two_jobs_and_the_first_one_pays) {
+  std::vector<KernelKind<Detector>> kinds;
+  kinds.push_back({"hog", std::make_unique<ByteDetector>()});
+  kinds.push_back({"haar", std::make_unique<ByteDetector>()});
+  rig.kernels.detector = std::make_shared<SwitchedDetector>(std::move(kinds));
+  auto specs = standard_knobs(rig.scenario, *rig.platform).value();
+  specs.push_back(rig.kernels.detector->knobs().front());
+  rig.set(KnobSettings{specs});
+  knobs_later = *rig.knobs;
+  ASSERT_TRUE(knobs_later->knobs.set("detector.kind", 1.0));
+  fly(1000ms);
+  ASSERT_GE(looks.size(), 3U);
+  const auto took_s = [](const JobRecord& job) { return to_seconds(job.ended - job.started); };
+  EXPECT_EQ(looks[0].work.charged_as(), "hog") << "began at 50 ms, before the knob was turned";
+  EXPECT_NEAR(took_s(looks[0]), 0.32, 1e-6);
+  EXPECT_EQ(looks[1].work.charged_as(), "haar");
+  EXPECT_NEAR(took_s(looks[1]), 0.15, 1e-6) << "an image and the switch";
+  EXPECT_EQ(looks[2].work.charged_as(), "haar");
+  EXPECT_NEAR(took_s(looks[2]), 0.10, 1e-6);
 }
 
 TEST_F(TargetGraph, hands_the_newest_buffered_frame_on_to_the_real_time_tracker) {

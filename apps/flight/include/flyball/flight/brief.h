@@ -50,6 +50,9 @@ struct Brief {
   /// nowhere else, at any distance.
   bool maps_obstacles{true};
 
+  /// Whether the localizer takes images, so that the place is known from frame to frame only.
+  bool sees_its_place{};
+
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;
   /// The body with its tube in a narrow passage. Nothing is planned, checked or flown with less

@@ -58,6 +58,15 @@ struct KernelSettings {
       true};  ///< Charge the paper's SLAM time per frame beside a localizer that needs none.
 };
 
+/// Knobs that exist only where the mission asks for them.
+struct KnobChoices {
+  std::string planner_kinds{"none"};   ///< Planners that `planner.kind` may put in the place of
+                                       ///< `kernels.planner`: names with commas, or none.
+  std::string detector_kinds{"none"};  ///< The same for `detector.kind`.
+  bool camera_rate{};                  ///< Whether there is `camera.rate_hz`.
+  bool localizer_rate{};               ///< Whether there is `localizer.rate_hz`.
+};
+
 struct MapSettings {
   double resolution_m{0.15};  ///< Default of the knob; a policy sets it in flight.
   double range_m{7.0};
@@ -126,6 +135,7 @@ struct FlightSettings {
   /// Standard deviation of a GPS fix, level [m]; 0 where another localizer is flown with.
   double fix_error_m{};
   KernelSettings kernels{};
+  KnobChoices knobs{};
   MapSettings map{};
   PlannerSettings planner{};
   ScanSettings scan{};

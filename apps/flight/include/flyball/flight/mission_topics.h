@@ -7,6 +7,7 @@
 #include "flyball/flight/brief.h"
 #include "flyball/flight/mission_end.h"
 #include "flyball/runtime/graph.h"
+#include "flyball/runtime/kernel.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/observation.h"
 #include "flyball/runtime/platform.h"
@@ -90,6 +91,9 @@ void end_mission(JobContext& job,
                  const MissionTopics& topics,
                  MissionStatus status,
                  MissionFailure failure);
+/// Tells a kernel the knobs in force, before its job.
+/// @pre The node declares that it reads `knobs`.
+void turn_knobs(JobContext& job, const MissionTopics& topics, Kernel& kernel);
 /// Whether the mission is in this phase; `wait` until its node says otherwise.
 [[nodiscard]] bool is_in(JobContext& job, const MissionTopics& topics, MissionPhase phase);
 

@@ -11,11 +11,12 @@
 namespace flyball {
 
 /// Those of all eleven kernels that the scenario names, in the order in which data passes through
-/// them, then speed, cores and clock. A knob whose name is a setting of the scenario begins with
-/// that setting's value; clocks and cores are the platform's.
+/// them, then speed, the rates that the scenario asks for, cores and clock. A knob whose name is a
+/// setting of the scenario begins with that setting's value; clocks and cores are the platform's.
 ///
 /// @error `not_found` or `invalid_input`: a kernel that is not there, a parameter of one that is
-///        wrong, two knobs of one name, a knob whose first value is not legal, or too many of them.
+///        wrong, a switch without a price, a rate that nothing has, two knobs of one name, a knob
+///        whose first value is not legal, or too many of them.
 [[nodiscard]] Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario,
                                                            const Platform& platform);
 

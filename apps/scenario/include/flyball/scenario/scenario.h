@@ -69,6 +69,7 @@ struct Scenario {
   GpsSpec gps{};
   BarometerSpec barometer{};
   KernelSettings kernels{};
+  KnobChoices knobs{};
   MapSettings map{};
   PlannerSettings planner{};
   ScanSettings scan{};

@@ -25,15 +25,20 @@ struct MapTerms {
   double range_m{};
   Hertz clock{1e9};
   int cores{1};
+  /// From one frame that is mapped to the next, where some of the camera's are left out; else zero.
+  Duration frame_interval{};
+  /// The same of the frames by which the vehicle knows its place.
+  Duration fix_interval{};
   friend bool operator==(const MapTerms& a, const MapTerms& b) {
     return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock == b.clock &&
-           a.cores == b.cores;
+           a.cores == b.cores && a.frame_interval == b.frame_interval &&
+           a.fix_interval == b.fix_interval;
   }
   friend bool operator!=(const MapTerms& a, const MapTerms& b) { return !(a == b); }
 };
 
 /// Of the knobs, and of the clock and cores that the platform grants.
-[[nodiscard]] MapTerms terms_of(const KnobsInForce& knobs);
+[[nodiscard]] MapTerms terms_of(const KnobsInForce& knobs, const Brief& brief);
 
 /// What a frame costs, before one has been measured.
 struct FramePrice {
@@ -47,7 +52,7 @@ struct FramePrice {
 [[nodiscard]] FramePrice frame_price(const Brief& brief);
 
 /// Times as multiples of the platform's price of a frame, each with the settings that it was
-/// measured at: the last 20 of each cell size, range and number of cores.
+/// measured at: the last 20 of each cell size, range, number of cores and interval between frames.
 class MeasuredShares {
  public:
   void add(MissionTime now, const MapTerms& terms, double share);
@@ -60,7 +65,8 @@ class MeasuredShares {
     LatencyWindow shares{Duration{}};  ///< A second stands for 1.
     MissionTime newest{};
   };
-  std::map<std::tuple<int, double, double>, Window> windows_{};  ///< Cores, cell size, range.
+  /// By cores, cell size, range and interval between frames.
+  std::map<std::tuple<int, double, double, Duration>, Window> windows_{};
 };
 
 /// A bound is the largest measured share times the price of the settings in force, so that it
@@ -78,8 +84,17 @@ class MapLatency {
   /// From sensor to published map, and from map to map. Since the settings may change while a map
   /// is made, these are the largest bounds of all settings that have been in force since the newest
   /// map. Zero before the first map, else within the least price and `longest_latency_bound`.
+  /// Where frames are left out, the interval is at least theirs from the moment on at which the
+  /// knob is turned: a vehicle that waited for such an interval to be measured would fly too fast
+  /// until then.
   [[nodiscard]] Duration latency_bound() const { return bounds_.latency; }
   [[nodiscard]] Duration interval_bound() const { return bounds_.interval; }
+  /// Both, and how long the place may be carried on by the last speed because frames of the
+  /// localizer are left out: what the vehicle flies meanwhile may differ from what it believes. It
+  /// is the age of the newest map just before the next one. Zero before the first map.
+  [[nodiscard]] Duration age_bound() const {
+    return bounds_.latency + bounds_.interval + bounds_.reckoned;
+  }
   /// The newest map's share of the bound that was in force when it came.
   [[nodiscard]] double budget_use() const { return budget_use_; }
 
@@ -87,6 +102,7 @@ class MapLatency {
   struct Bounds {
     Duration latency{};
     Duration interval{};
+    Duration reckoned{};
   };
   [[nodiscard]] Duration price(const MapTerms& terms) const;
   [[nodiscard]] Bounds bounds_of(const MapTerms& terms) const;

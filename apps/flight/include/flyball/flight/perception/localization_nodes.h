@@ -5,6 +5,7 @@
 /// From navigation samples and camera frames to poses.
 
 #include "flyball/flight/flight_parts.h"
+#include "flyball/flight/perception/rate_limit.h"
 
 #include <optional>
 
@@ -23,6 +24,13 @@ struct LocalizationTopics {
   Topic<PoseEstimate> poses;         ///< A queue of them all, for those who look back.
   Topic<LocalizationStatus> status;  ///< Only of a localizer that takes images.
 };
+
+/// Whether localization looks at a frame, by the knob `localizer.rate_hz`, if there is one.
+/// @param limit  That of the node. @pre The node reads `knobs`.
+[[nodiscard]] bool is_localizers_turn(JobContext& job,
+                                      const MissionTopics& mission,
+                                      RateLimit& limit,
+                                      MissionTime captured);
 
 /// Adds the node `localize` and, for a localizer that takes images, the node `see`, which processes
 /// frames and takes time for it.

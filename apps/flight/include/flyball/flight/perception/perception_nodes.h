@@ -22,7 +22,7 @@ struct PerceptionTopics {
 };
 
 /// Adds the nodes of the localization, `slam_load` (if the settings ask for it), `points` and
-/// `map`.
+/// `map`; `camera` before them, if its rate is a knob.
 [[nodiscard]] PerceptionTopics add_perception(Graph& graph, const FlightParts& parts);
 
 }  // namespace flyball
