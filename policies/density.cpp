@@ -27,8 +27,9 @@ class Density final : public flyball::Policy {
             {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."},
             {"failures_to_fine", 3.0, 0.0, 1000.0,
              "After so many failed plans in a row: fine, whatever the density. 0: never."},
-            // The first plan that is found there leads to what coarse cells close: a switch back on
-            // the way would block it again. 15 s are the 20 m of a long sensor at some 2 m/s.
+            // The first plan in fine cells leads through a gap that coarse cells close, so a switch
+            // back before that gap would block the path again. 15 s at some 2 m/s are more than the
+            // 20 m range of a long sensor.
             {"stuck_fine_s", 15.0, 0.0, 3600.0, "Then fine lasts at least this long."},
             {"fine_range_m", 0.0, 0.0, 100.0, "Range where fine; 0: as the scenario says."},
             {"coarse_range_m", 0.0, 0.0, 100.0, "Range where coarse; 0: as the scenario says."}};

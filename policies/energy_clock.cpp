@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The clock alone, by mission_energy's reckoning, for an application that sets its map itself: the
-// clock with the least joules per metre for the cells in force, where that saves more than the
-// mission could lose by waiting longer for what else it computes, and only at the mission's own
-// limit of speed. Where the vehicle waits, or flies without a map, the lowest clock that is soon
-// enough.
+// Sets the clock alone, with the model of mission_energy, beside an application that sets its map
+// itself. It takes the clock with the least energy per metre for the cells in force, but only at
+// the mission's own speed limit, and only if that saves more than the mission could lose by waiting
+// longer for everything else that it computes. While the vehicle is idle, it takes the lowest clock
+// that makes maps soon enough.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/idle.h"
@@ -90,11 +90,11 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
       return search_->idle(cells_m, range_m_, *within_s, idle_->raised_by(), seen.now).clock_hz;
     }
     flyball::Surroundings around = flyball::limits_of(seen);
-    // Indoors ways are short and views end at walls: there latency limits the speed long before
-    // the map's range would say so.
+    // Indoors paths are short and walls end the view, so latency limits the speed long before the
+    // map's range does.
     around.visibility_m = flyball::shown_free_m(seen);
     around.coarsest_m = around.finest_m = cells_m;
-    // Plans are not in the model.
+    // The model does not price plans.
     around.needs_top_clock = !flyball::flies_at_limit(seen) || seen.planner_failures > 0;
     around.waits = waiting_;
     return search_->choose(around, seen.now).setting.clock_hz;

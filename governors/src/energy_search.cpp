@@ -87,7 +87,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
     prior.seconds =
         level.latency_s / std::pow(level.range_m, level.range_slope) /
         settings.clock.factor(level.clock_hz > 0.0 ? Hertz{level.clock_hz} : Hertz{most_clock_hz_});
-    prior.sigma = 0.5;
+    prior.sigma = 0.5;  // Chosen: the given latency may be wrong by a factor of 1.6.
     models_.add(std::to_string(level.resolution_m), prior);
   }
 }

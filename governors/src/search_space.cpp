@@ -58,6 +58,7 @@ double path_over_line(const EnergySearchSettings& price, double resolution_m, do
 }
 
 Surroundings limits_of(const Observation& seen) {
+  // The defaults of a mission (MissionSettings).
   constexpr double usual_m_s = 10.0;
   constexpr double usual_m_s2 = 6.0;
   const double limit_m_s = seen.speed_limit_m_s;

@@ -8,8 +8,8 @@
 namespace flyball {
 namespace {
 
-constexpr double memory_s = 60.0;  // Several legs of an exploration, few of a delivery.
-constexpr double standing_m_s = 0.1;
+constexpr double memory_s = 60.0;     // Chosen: several legs of an exploration, few of a delivery.
+constexpr double standing_m_s = 0.1;  // Chosen: slower than any cruise.
 
 }  // namespace
 

@@ -22,7 +22,7 @@ namespace flyball {
 struct EnergySearchSettings {
   double deceleration_m_s2{6.0};
   double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
-  double margin_m{0.5};     ///< Body and tracking tube, off the distance.
+  double margin_m{0.5};     ///< Body and tracking tube, subtracted from the distance. Chosen.
   double frame_s{0.05};     ///< Between two frames of the camera.
   /// What a change of resolution costs, because the other map starts with one frame. Chosen: as
   /// much as .2 s of flight at 300 W.
@@ -172,7 +172,8 @@ class EnergySearch {
   Hertz issued_at_{1e9};        ///< The clock that the ticket assumes.
   double clock_factors_{};      ///< Sum over the observations since then, of the granted clocks.
   int looks_{};                 ///< Number of these observations.
-  double other_core_ghz_{2.5};  ///< Busy cores of everything but the map, times the clock.
+  double other_core_ghz_{2.5};  ///< Busy cores of all but the map, times the clock. Learned; the
+                                ///< first value is chosen: a core and a quarter at 2 GHz.
 };
 
 }  // namespace flyball

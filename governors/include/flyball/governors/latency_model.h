@@ -15,7 +15,8 @@
 
 namespace flyball {
 
-/// Time of one unit of work at a clock: a / f_GHz + b, b the share that waits for memory.
+/// Time of one unit of work at a clock: a / f_GHz + b, where b is the part that waits for memory.
+/// The defaults are chosen: at 1 GHz a twentieth of the time.
 struct ClockScaling {
   double a{0.9};
   double b{0.05};
