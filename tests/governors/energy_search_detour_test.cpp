@@ -39,7 +39,7 @@ EnergySearchSettings among_obstacles() {
   return settings;
 }
 
-TEST(EnergySearchDetour, a_way_past_obstacles_is_longer_by_cells_and_by_what_shows_late) {
+TEST(EnergySearchDetour, a_path_around_obstacles_is_longer_by_cells_and_by_a_late_view) {
   const EnergySearch one = search_with(among_obstacles());
   const EnergySearch plain = search_with({});
   const Surroundings slow = slow_place();

@@ -67,7 +67,7 @@ TEST(Lawnmower, begins_at_the_start_ends_at_the_end_and_stays_at_its_height) {
   EXPECT_DOUBLE_EQ(path->out_m, (path->waypoints_W[1] - field().start_W).norm());
 }
 
-TEST(Lawnmower, takes_the_corner_from_which_the_way_is_shortest) {
+TEST(Lawnmower, takes_the_corner_from_which_the_path_is_shortest) {
   const auto length_from = [](const Vec3& start_W, const Vec3& end_W) {
     CoverageRequest request = field();
     request.start_W = start_W;
@@ -84,7 +84,7 @@ TEST(Lawnmower, takes_the_corner_from_which_the_way_is_shortest) {
   EXPECT_NEAR(length_from(low_far, high_near), lanes_m, 1e-9);
 }
 
-TEST(Lawnmower, counts_the_way_points_of_the_four_ways_that_it_compares) {
+TEST(Lawnmower, counts_the_waypoints_of_the_four_paths_that_it_compares) {
   CoverageRequest request = field();
   request.lanes = 5;
   EXPECT_EQ(lawnmower()->cover(request)->work.count("waypoints"), 4.0 * (2.0 * 5.0 + 2.0));

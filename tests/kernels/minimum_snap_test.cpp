@@ -227,7 +227,7 @@ TEST(MinimumSnap, cuts_a_corner_less_where_something_stands_inside_it) {
   EXPECT_LT(close.length_m(), 38.0);
 }
 
-TEST(MinimumSnap, stops_where_the_way_turns_back) {
+TEST(MinimumSnap, stops_where_the_path_turns_back) {
   const auto request = request_along({{2, 0, 1.5}, {20, 0, 1.5}, {4, 2, 1.5}});
   const SmoothPath smooth = smoothed(request);
   expect_sound(smooth.trajectory, request);

@@ -46,7 +46,7 @@ TEST(EnergyClock, at_the_missions_own_limit_of_speed_it_drops) {
   EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
 }
 
-TEST(EnergyClock, not_where_the_next_way_is_so_short_that_latency_limits_the_speed_after_all) {
+TEST(EnergyClock, not_where_the_next_path_is_so_short_that_latency_limits_the_speed_after_all) {
   Observation seen = cruising(1.0, 0.15, 300.0);
   seen.speed_limit_m_s = seen.speed_m_s = 1.0;
   EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);

@@ -16,7 +16,7 @@ Observation flying(double t_s, std::uint32_t failures) {
   return seen;
 }
 
-TEST(FailedPlans, become_rarer_with_the_way_that_is_flown_in_large_cells) {
+TEST(FailedPlans, become_rarer_with_the_distance_flown_in_large_cells) {
   FailedPlans plans;
   EXPECT_DOUBLE_EQ(plans.per_m(), 0.002);
   for (int i = 0; i <= 60; ++i) {

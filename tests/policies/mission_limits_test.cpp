@@ -93,7 +93,7 @@ TEST(MissionLimits, leaves_finest_cells_only_where_the_mission_is_fast_again) {
   EXPECT_GE(limits->look(seen, finest).coarsest_m, 0.30);
 }
 
-TEST(MissionLimits, leaves_finest_cells_again_on_its_way_to_a_slow_place) {
+TEST(MissionLimits, leaves_finest_cells_again_before_it_reaches_a_slow_place) {
   auto limits = made();
   ASSERT_TRUE(limits.ok());
   Observation seen = kit::cruising();

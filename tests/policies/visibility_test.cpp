@@ -36,7 +36,7 @@ TEST(Visibility, is_longer_at_once_and_shorter_after_about_a_second) {
   EXPECT_LT(visibility.distance_m(), 6.5);
 }
 
-TEST(Visibility, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
+TEST(Visibility, stays_the_same_while_the_vehicle_flies_on_with_one_map) {
   Visibility visibility{10.0};
   for (int i = 0; i < 12; ++i) {
     Observation seen = cruising(10.0 + 0.25 * i, 8.0 - 4.0 * 0.25 * i);
@@ -48,7 +48,7 @@ TEST(Visibility, does_not_saw_while_the_vehicle_flies_on_with_one_map) {
   EXPECT_NEAR(visibility.distance_m(), 10.0, 1e-6);  // 8 m and what was flown since the capture.
 }
 
-TEST(Visibility, takes_latency_for_the_age_of_a_map_that_nobody_tells) {
+TEST(Visibility, takes_latency_for_the_age_of_a_map_whose_age_is_not_known) {
   Visibility visibility{5.0};
   Observation seen = cruising(10.0, 8.0);
   seen.speed_m_s = 4.0;

@@ -45,7 +45,7 @@ TEST(CollapsedBuilding, has_slabs_and_rubble_but_keeps_the_start_clear) {
   }
 }
 
-TEST(CollapsedBuilding, lets_the_body_come_within_sight_of_the_person) {
+TEST(CollapsedBuilding, lets_the_body_come_to_where_it_sees_the_person) {
   const auto world =
       made_world("collapsed_building", 1, {{"length_m", 9.0}, {"width_m", 6.0}, {"walls", 1.0}});
   ASSERT_TRUE(world);

@@ -33,7 +33,7 @@ TEST(FlightLoops, turns_by_a_quarter_turn_a_second_without_leaving_its_place) {
   EXPECT_LT(away_m, 0.05);
 }
 
-TEST(FlightLoops, turns_the_short_way_round) {
+TEST(FlightLoops, turns_to_the_nearer_side) {
   Flight flight;
   Setpoint turned;
   turned.p_WB = {0.0, 0.0, 3.0};

@@ -61,7 +61,7 @@ bool hits_in_samples(const OccupancyView& map, const PolynomialPiece& piece, con
   return false;
 }
 
-TEST(PolynomialSweep, misses_nothing_that_the_body_hits_on_its_way) {
+TEST(PolynomialSweep, misses_nothing_that_the_body_hits) {
   const BrickMap map = scattered_map();
   const BrickView view{map.cells()};
   std::mt19937 generator{5};

@@ -30,7 +30,7 @@ TEST(StandingPlaces, are_free_for_the_whole_body_and_within_the_bounds) {
   }
 }
 
-TEST(StandingPlaces, come_nearest_first_with_the_way_to_them) {
+TEST(StandingPlaces, come_nearest_first_with_the_path_to_them) {
   const ExploreRequest request = kit::request_from({1.0, 1.0, 1.2}, 0.0);
   const Flooded flooded{kit::two_rooms(), request};
   double last_m = 0.0;

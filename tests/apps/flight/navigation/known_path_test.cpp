@@ -28,7 +28,7 @@ TEST(KnownPath, begins_where_the_vehicle_is_by_now) {
   EXPECT_EQ(joined, expected);
 }
 
-TEST(KnownPath, leaves_out_a_corner_that_is_past) {
+TEST(KnownPath, leaves_out_a_corner_that_the_vehicle_has_passed) {
   const auto joined = joined_to(Vec3{12, -1, 1}, {right_turn_W, body}, open_ground());
   const std::vector<Vec3> expected{{12, -1, 1}, {10, -5, 1}};
   EXPECT_EQ(joined, expected);

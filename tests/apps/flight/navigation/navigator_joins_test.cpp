@@ -13,7 +13,7 @@ using kit::straight;
 using kit::Trip;
 
 // Seconds of search are not lost because the vehicle has flown on meanwhile.
-TEST(NavigatorJoins, joins_a_way_that_came_too_late_from_a_place_ahead_and_looks_for_none) {
+TEST(NavigatorJoins, joins_a_path_that_came_too_late_from_a_place_ahead_without_a_search) {
   Trip trip;
   const auto late = trip.fly_until_blocked();
   ASSERT_FALSE(late->known.has_value());

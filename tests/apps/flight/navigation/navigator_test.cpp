@@ -46,7 +46,7 @@ TEST(Navigator, has_arrived_where_a_path_ends_within_the_tolerance_of_the_goal) 
   }
 }
 
-TEST(Navigator, reaches_a_far_goal_through_places_on_the_way) {
+TEST(Navigator, reaches_a_far_goal_through_intermediate_places) {
   Scenario scenario = kit::MissionRig::one_core();
   scenario.planner.horizon_m = 20.0;
   Site site;
@@ -136,7 +136,7 @@ void replan(Trip& trip, double detour_m) {
                               {query->id, detour(query->start_W, query->goal_W, detour_m), ""});
 }
 
-TEST(Navigator, flies_a_longer_way_at_once) {
+TEST(Navigator, flies_a_longer_path_at_once) {
   Trip trip;
   trip.set_goal(Vec3{20, 0, 1.5});
   replan(trip, 0.0);

@@ -55,7 +55,7 @@ TEST(PlanWithTubes, keeps_as_much_room_to_obstacles_as_there_is) {
   }
 }
 
-TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_way) {
+TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_path) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
   ASSERT_TRUE(planning.rig.set("planner.budget", 1600));
@@ -106,7 +106,7 @@ TEST(PlanWithTubes, prefers_a_door_to_a_detour) {
 }
 
 // A tenth of these searches find one: a slow computer flies the detour sooner than it looks on.
-TEST(PlanWithTubes, looks_for_a_shorter_way_no_longer_than_that_may_save) {
+TEST(PlanWithTubes, searches_for_a_shorter_path_no_longer_than_that_may_save) {
   kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{9, 10, 3}}, 0.15, CellState::free};
   map.fill({Vec3{3, -9, 0}, Vec3{3.15, 9.3, 3}}, CellState::occupied);
   Planning planning{map};

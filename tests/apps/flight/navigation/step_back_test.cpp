@@ -45,7 +45,7 @@ TEST(BlindZone, begins_where_the_camera_sees_a_whole_cell) {
   EXPECT_GT(blind_m(1.2, {0.4, 0.2}, 0.5), 2.0);
 }
 
-TEST(StepBack, goes_back_the_way_that_it_came) {
+TEST(StepBack, flies_back_along_its_own_track) {
   Ride ride;
   ASSERT_TRUE(ride.back.begin(2.0, 0.0));
   ride.tick(300);
@@ -61,7 +61,7 @@ TEST(StepBack, goes_no_farther_than_it_has_come) {
   EXPECT_NEAR(ride.hover.p_W.norm(), 1.5, 1e-9);  // Where it began.
 }
 
-TEST(StepBack, does_not_begin_without_a_way) {
+TEST(StepBack, does_not_begin_without_a_track) {
   StepBack back;
   EXPECT_FALSE(back.begin(1.0, 0.0));
   back.flew(Vec3::Zero());

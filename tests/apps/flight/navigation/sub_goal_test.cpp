@@ -33,7 +33,7 @@ TEST(SubGoal, is_the_goal_itself_when_it_is_near_or_no_horizon_is_set) {
   EXPECT_EQ(Strip{}.place(200.0), goal_W);
 }
 
-TEST(SubGoal, lies_on_the_straight_way_at_the_horizon) {
+TEST(SubGoal, lies_on_the_straight_line_at_the_horizon) {
   EXPECT_NEAR((Strip{}.place(40.0) - Vec3{40.0, 0.0, 1.5}).norm(), 0.0, 1e-9);
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Pick, takes_the_surest_person_when_nobody_was_followed) {
+TEST(Pick, takes_the_person_with_the_highest_score_when_nobody_was_followed) {
   const std::vector<Detection> people{{{50, 0, 10, 20}, 0.9}, {{10, 0, 10, 20}, 0.4}};
   EXPECT_EQ(pick(people, std::nullopt, 30.0)->box.x_px, 50.0);
   EXPECT_FALSE(pick({}, std::nullopt, 30.0).has_value());
