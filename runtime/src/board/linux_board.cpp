@@ -274,7 +274,7 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
       return Error{ErrorCode::unavailable,
                    "the clock of " + policy.folder + " is locked at " + mhz_of(policy.max) +
                        " already, which jetson_clocks does; release it (jetson_clocks --restore), "
-                       "or take it as the state to come back to with --adopt"};
+                       "or adopt it as the state to come back to"};
     }
   }
   auto state = std::make_unique<State>(system, options, std::move(found), std::move(*keeper));

@@ -62,6 +62,10 @@ void note_owner(int lock) {
 
 }  // namespace
 
+bool is_board_setting(const std::string& path) {
+  return path.rfind(board_settings, 0) == 0 && path.find("/../") == std::string::npos;
+}
+
 Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
   mkdir(folder.c_str(), 0775);  // It may be there; whether it can be used shows next.
   constexpr int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
@@ -116,7 +120,9 @@ std::vector<KeptSetting> SettingsJournal::read() const {
     if (!content) {
       break;
     }
-    kept.push_back({*path, *content});
+    if (is_board_setting(*path)) {
+      kept.push_back({*path, *content});
+    }
   }
   return kept;
 }

@@ -13,6 +13,11 @@
 
 namespace flyball {
 
+/// Settings stand below this folder. Nothing else is ever restored: others than root may write the
+/// journal, and root may be the one who restores.
+inline constexpr const char* board_settings = "/sys/devices/system/cpu/";
+[[nodiscard]] bool is_board_setting(const std::string& path);
+
 /// Both files, open; the lock is this process's until it is released or all its copies are closed.
 class SettingsJournal {
  public:
@@ -26,7 +31,8 @@ class SettingsJournal {
   ~SettingsJournal();
 
   /// What is written in it, also by the process that this one is a copy of. A record that was cut
-  /// off at the end is left out: its setting was not written yet.
+  /// off at the end is left out, because its setting was not written yet, and so is what is no
+  /// setting of a board.
   [[nodiscard]] std::vector<KeptSetting> read() const;
   /// @error `failed`: it could not be written.
   Status append(const KeptSetting& kept);

@@ -111,6 +111,10 @@ struct SettingsKeeper::State {
   }
 
   Status keep(const std::string& path) {
+    if (!is_board_setting(path)) {
+      return Error{ErrorCode::invalid_input,
+                   path + " is no setting of a board: only files below " + board_settings + " are"};
+    }
     const bool is_kept = std::any_of(
         kept.begin(), kept.end(), [&](const KeptSetting& setting) { return setting.path == path; });
     if (is_kept) {
@@ -141,8 +145,7 @@ Result<std::unique_ptr<SettingsKeeper>> SettingsKeeper::open(LinuxSystem& system
     return Error{ErrorCode::unavailable,
                  "a session that ended has left " + std::to_string(left.size()) +
                      " settings unrestored (" + journal->path() + "), the first of them " +
-                     left.front().path +
-                     "; try: flyball board restore, or adopt them with --adopt"};
+                     left.front().path + "; try: flyball board restore, or adopt them"};
   }
   if (left.empty()) {
     journal->clear();  // Of a record that was cut off.

@@ -146,7 +146,7 @@ TEST_F(SettingsKeeperTest, refuses_what_an_earlier_session_left_unless_it_adopts
   EXPECT_EQ(refused.error().message,
             "a session that ended has left 1 settings unrestored (" + tree_.root() +
                 "/run/board.journal), the first of them " + policy0 +
-                "scaling_governor; try: flyball board restore, or adopt them with --adopt");
+                "scaling_governor; try: flyball board restore, or adopt them");
   auto adopted = SettingsKeeper::open(kernel_, options(true));
   ASSERT_TRUE(adopted.ok());
   EXPECT_TRUE((*adopted)->write(policy0 + "scaling_governor", "performance").ok());
@@ -203,12 +203,34 @@ TEST_F(SettingsKeeperTest, says_where_it_needs_a_folder) {
                 "folder yours, name another one, or see: flyball board setup --print");
 }
 
+TEST_F(SettingsKeeperTest, touches_nothing_but_settings_of_cores) {
+  auto keeper = SettingsKeeper::open(kernel_, options());
+  for (const char* path :
+       {"/etc/passwd", "/sys/devices/system/cpu/../../../kernel/uevent_helper"}) {
+    const Status written = (*keeper)->write(path, "0");
+    ASSERT_FALSE(written.ok());
+    EXPECT_EQ(written.error().message,
+              path + std::string{" is no setting of a board: only files below "
+                                 "/sys/devices/system/cpu/ are"});
+  }
+  EXPECT_TRUE(kernel_.writes.empty());
+}
+
+TEST(SettingsJournal, leaves_out_what_somebody_else_has_put_in) {
+  const ScratchFolder folder;
+  auto journal = SettingsJournal::lock(folder.path());
+  ASSERT_TRUE(journal->append({"/etc/passwd", "root::0:0::/:/bin/sh\n"}).ok());
+  ASSERT_TRUE(journal->append({policy0 + "a", "1\n"}).ok());
+  ASSERT_EQ(journal->read().size(), 1U);
+  EXPECT_EQ(journal->read()[0].path, policy0 + "a");
+}
+
 TEST(SettingsJournal, leaves_out_a_record_that_was_cut_off) {
   const ScratchFolder folder;
   auto journal = SettingsJournal::lock(folder.path());
-  ASSERT_TRUE(journal->append({"/a", "1\n2\n"}).ok());
+  ASSERT_TRUE(journal->append({policy0 + "a", "1\n2\n"}).ok());
   const std::size_t first = folder.content("board.journal").size();
-  ASSERT_TRUE(journal->append({"/b", ""}).ok());
+  ASSERT_TRUE(journal->append({policy0 + "b", ""}).ok());
   const std::string whole = folder.content("board.journal");
   ASSERT_EQ(journal->read().size(), 2U);
   EXPECT_EQ(journal->read()[0].content, "1\n2\n");

@@ -46,7 +46,8 @@ class SettingsKeeper {
 
   /// Keeps what a file holds, once. Whoever changes several files that depend on each other keeps
   /// all of them first: `scaling_setspeed` has another text under another governor.
-  /// @error As `LinuxSystem::read`; `failed`: the journal cannot be written.
+  /// @error As `LinuxSystem::read`; `invalid_input`: it is no file of a core; `failed`: the journal
+  ///        cannot be written.
   Status keep(const std::string& path);
 
   /// Keeps what the file holds where that has not been done, then writes.
