@@ -26,6 +26,7 @@ void add_replay(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program, int& exit_code);
 void add_detect(CLI::App& program, int& exit_code);
 void add_models(CLI::App& program, int& exit_code);
+void add_board(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_world(CLI::App& program, int& exit_code);
 void add_map_from(CLI::App& map, int& exit_code);

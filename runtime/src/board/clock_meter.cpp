@@ -84,8 +84,11 @@ ClockMeter::ClockMeter(double cycles_per_addition)
     close(counter_);
     counter_ = -1;
   }
-  source_ = "additions (no counter of cycles: " + std::system_category().message(number) +
-            "; try: sysctl kernel.perf_event_paranoid=1)";
+  const bool is_forbidden = number == EACCES || number == EPERM;
+  source_ = "additions (no counter of cycles: " +
+            (is_forbidden ? std::system_category().message(number) +
+                                "; try: sysctl kernel.perf_event_paranoid=1)"
+                          : std::string{"this processor or virtual machine shows none)"});
 }
 
 ClockMeter::~ClockMeter() {

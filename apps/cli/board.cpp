@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/runtime/board/board_report.h"
+#include "flyball/runtime/board/settings_keeper.h"
+#include "flyball/scenario/files.h"
+
+#include "commands.h"
+#include "console.h"
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <sys/utsname.h>
+
+namespace flyball {
+namespace {
+
+struct BoardArguments {
+  std::string root{"/"};
+  std::string board{};  ///< Empty: the one whose file names the model that was found.
+  std::string run_folder{KeeperOptions{}.run_folder};
+  bool prints{};
+};
+
+Result<BoardFile> board_named(const std::string& name) {
+  const auto path = find_shipped("boards", name);
+  return path ? load_board_file(*path) : Result<BoardFile>{path.error()};
+}
+
+bool is_x86() {
+  utsname system{};
+  uname(&system);
+  const std::string machine{static_cast<const char*>(system.machine)};
+  return machine == "x86_64" || machine == "i686";
+}
+
+Result<BoardFile> choose_board(const std::string& name, const std::string& model) {
+  if (!name.empty()) {
+    return board_named(name);
+  }
+  std::vector<BoardFile> known;
+  for (const std::string& one : shipped("boards")) {
+    auto board = board_named(one);
+    if (!board) {
+      return board;
+    }
+    known.push_back(std::move(*board));
+  }
+  BoardFile found = board_file_for(known, model);
+  // Firmware names thousands of PCs; a device tree names a board that a file could describe.
+  return found.models.empty() && is_x86() ? board_named("generic_x86") : Result<BoardFile>{found};
+}
+
+int report(const BoardArguments& given) {
+  const auto system = linux_system(given.root);
+  if (system->entries("/").empty()) {
+    return refuse({{ErrorCode::not_found, "no folder \"" + given.root +
+                                              "\" to look for a board "
+                                              "in; --root names one that has sys and proc"}});
+  }
+  const BoardInventory found = discover_board(*system);
+  const auto board = choose_board(given.board, found.model);
+  if (!board) {
+    return refuse({board.error()});
+  }
+  print(board_report(*system, found, *board));
+  return exit_success;
+}
+
+int restore(const BoardArguments& given) {
+  const auto system = linux_system(given.root);
+  const auto keeper = SettingsKeeper::open(*system, {given.run_folder, true});
+  if (!keeper) {
+    return refuse({keeper.error()});
+  }
+  const std::size_t count = (*keeper)->kept().size();
+  const std::vector<Error> errors = (*keeper)->restore();
+  print(std::to_string(count - errors.size()) + " of " + std::to_string(count) +
+        " settings that an earlier session left are restored\n");
+  return errors.empty() ? exit_success : refuse(errors);
+}
+
+int setup(const BoardArguments& given) {
+  if (!given.prints) {
+    return refuse({{ErrorCode::invalid_input,
+                    "board setup changes nothing by itself; try: flyball board setup "
+                    "--print, and run as root what it prints"}});
+  }
+  print(board_setup_script());
+  return exit_success;
+}
+
+}  // namespace
+
+void add_board(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "board", "prints what this computer has, what may be set, what not and why");
+  const auto given = std::make_shared<BoardArguments>();  // Owners: the parser's callbacks.
+  command->add_option("--root", given->root, "look below it instead of /")->type_name("DIR");
+  command->add_option("--board", given->board, "its file, if its model is not enough to find it")
+      ->type_name("NAME");
+  CLI::App* setup_command =
+      command->add_subcommand("setup", "how others than root may set clocks and cores");
+  setup_command->add_flag("--print", given->prints, "print a script for root");
+  setup_command->callback([given, &exit_code] { exit_code = setup(*given); });
+  CLI::App* restore_command = command->add_subcommand(
+      "restore", "restores what a session left that was killed together with its watchdog");
+  restore_command->add_option("--run-folder", given->run_folder, "with its lock and journal")
+      ->type_name("DIR");
+  restore_command->callback([given, &exit_code] { exit_code = restore(*given); });
+  command->callback([command, given, &exit_code] {
+    if (command->get_subcommands().empty()) {
+      exit_code = report(*given);
+    }
+  });
+}
+
+}  // namespace flyball
