@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/colour_camera.h"
 
+#include <array>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -158,6 +161,26 @@ TEST_F(SomebodyWalks, and_the_image_changes_inside_the_persons_box_and_shadow_on
     }
   }
   EXPECT_GT(inside, 0.2 * box->area_px2());
+}
+
+TEST_F(SomebodyWalks, and_each_of_two_threads_sees_the_person_where_its_picture_was_taken) {
+  const Pose X_WC = looking_east({0.0, 0.0, 1.0});
+  constexpr int pictures = 20;
+  const auto alone = [&](double t_s) { return camera->capture(X_WC, at_s(t_s), 0).rgb; };
+  const std::array<std::vector<std::uint8_t>, 2> expected{alone(4.0), alone(6.0)};
+  ASSERT_NE(expected[0], expected[1]);
+  std::array<int, 2> right{};
+  const auto look = [&](std::size_t i) {
+    for (int picture = 0; picture < pictures; ++picture) {
+      const MissionTime at = at_s(i == 0 ? 4.0 : 6.0);
+      const ColourFrame frame = camera->frame({X_WC, Pose::Identity()}, at, 0);
+      right[i] += frame.image.value().rgb == expected[i] ? 1 : 0;
+    }
+  };
+  std::thread other{look, 1};
+  look(0);
+  other.join();
+  EXPECT_EQ(right, (std::array<int, 2>{pictures, pictures}));
 }
 
 TEST(ColourCamera, says_what_is_missing_when_there_is_no_mesh_for_a_person) {

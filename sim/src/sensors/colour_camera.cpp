@@ -6,6 +6,7 @@
 #include "sensors/colour_scene.h"
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 namespace flyball {
@@ -49,6 +50,7 @@ struct ColourCamera::Scene {
 
   ColourCameraSpec spec;
   Intrinsics camera;
+  std::mutex mutex{};  ///< Of `things`, whose people are moved to where they are in each picture.
   ColourScene things;
   Eigen::Vector3f to_sun_W{};
 };
@@ -129,6 +131,7 @@ ColourImage ColourCamera::capture(const Pose& X_WC, MissionTime now, std::uint64
 void ColourCamera::render(const Pose& X_WC,
                           const std::vector<PixelRegion>& regions,
                           ColourImage& into) const {
+  const std::lock_guard lock{scene_->mutex};
   const FlushDenormals flush;
   scene_->things.move_people(into.captured);
   const Eigen::Isometry3f X_WC_single = X_WC.cast<float>();

@@ -32,7 +32,8 @@ struct CameraPose {
   Pose X_LC{Pose::Identity()};
 };
 
-/// One thread, fixed instruction set: the same image on every host of a CPU class.
+/// Fixed instruction set, one thread for one image: the same image on every host of a CPU class.
+/// Whoever looks, on whatever thread, a camera renders one image at a time.
 class ColourCamera {
  public:
   /// @error `not_found`, `invalid_input`: the mesh of somebody in the world (see `Person::look`).
@@ -45,7 +46,7 @@ class ColourCamera {
   /// The image seen from `X_WC` (C: x right, y down, z forward), with everybody where they are at
   /// `now`. A function of these alone. Pixels look as those of `DepthCamera` do.
   ///
-  /// @cost About 20 ms for 384 x 288 pixels on one x86 core. One call at a time: people are moved.
+  /// @cost About 20 ms for 384 x 288 pixels on one x86 core.
   [[nodiscard]] ColourImage capture(const Pose& X_WC,
                                     MissionTime now,
                                     std::uint64_t sequence) const;
