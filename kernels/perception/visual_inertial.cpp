@@ -20,13 +20,13 @@ class VisualInertial final : public flyball::SeeingLocalizer {
  public:
   void start(const flyball::GeodeticOrigin& /*origin*/) override {
     odometry_.start(std::nullopt);
-    reckoning_.start(Pose::Identity());
+    reckon_from(Pose::Identity());
   }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, false, true}; }
 
   void place(const Pose& X_WB) override {
     odometry_.start(X_WB);
-    reckoning_.start(X_WB);
+    reckon_from(X_WB);
   }
 
   void feel(const flyball::ImuSample& sample) override { odometry_.feel(sample); }

@@ -46,7 +46,7 @@ class VisualSlam final : public flyball::SeeingLocalizer {
   void place(const Pose& X_WB) override {
     last_ = {};
     last_.X_WB = X_WB;
-    reckoning_.start(X_WB);
+    reckon_from(X_WB);
     has_begun_ = false;
   }
 
@@ -56,8 +56,8 @@ class VisualSlam final : public flyball::SeeingLocalizer {
       has_begun_ = true;
     }
     auto outcome = slam_->track(frame, work);
-    if (outcome && !outcome->tracked && is_young()) {
-      slam_->start(reckoning_.pose_at(frame.captured) * frame.X_BC);
+    if (outcome && !outcome->tracked && frame.X_WB_reckoned && is_young()) {
+      slam_->start(*frame.X_WB_reckoned * frame.X_BC);
       outcome = slam_->track(frame, work);
     }
     if (!outcome) {
@@ -94,7 +94,7 @@ class VisualSlam final : public flyball::SeeingLocalizer {
   /// the ground, when the ground fills the image and changes fastest, its height is.
   [[nodiscard]] bool is_young() const {
     constexpr std::size_t few_keyframes = 5;
-    return reckoning_.knows_height() && slam_->map().keyframes().size() <= few_keyframes;
+    return slam_->map().keyframes().size() <= few_keyframes;
   }
 
   /// Half of the new difference quotient: a centimetre of noise in 50 ms is .2 m/s. A loop moves

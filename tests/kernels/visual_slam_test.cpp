@@ -162,22 +162,34 @@ NavigationSample felt_at(double t_s, double height_m) {
   return sample;
 }
 
-TEST(VisualSlam, begins_a_young_map_anew_at_the_height_that_the_barometer_says) {
+TEST(VisualSlam, begins_a_young_map_anew_where_the_vehicle_is_reckoned_to_be) {
   const auto localizer = make();
   Clock clock;
   Work work;
-  (void)localizer->estimate(felt_at(0.0, 400.0), work);
+  PoseEstimate reckoned = localizer->estimate(felt_at(0.0, 400.0), work);
   ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
   for (int i = 1; i <= 300; ++i) {
-    (void)localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work);
+    reckoned = localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work);
   }
   clock.frames = 30;
   Pose X_WC = kit::circle_pose(20.0);  // It sees nothing that it knows.
-  const auto fix = localizer->see(clock.look(X_WC), work);
+  VisualFrame frame = clock.look(X_WC);
+  frame.X_WB_reckoned = reckoned.X_WB;
+  const auto fix = localizer->see(frame, work);
   ASSERT_TRUE(fix);
   EXPECT_TRUE(fix->tracked);
   EXPECT_NEAR(fix->X_WB.translation().z(), kit::circle_pose(0.0).translation().z() + 3.0, 0.05);
   EXPECT_EQ(fix->keyframes, 1);
+}
+
+TEST(VisualSlam, begins_no_map_anew_where_nobody_knows_the_height) {
+  const auto localizer = make();
+  Clock clock;
+  Work work;
+  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
+  const auto fix = localizer->see(clock.look(kit::circle_pose(20.0)), work);
+  ASSERT_TRUE(fix);
+  EXPECT_FALSE(fix->tracked);
 }
 
 TEST(VisualSlam, looks_for_as_many_corners_as_it_is_told) {

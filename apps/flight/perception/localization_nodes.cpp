@@ -3,7 +3,9 @@
 #include "flyball/flight/perception/localization_nodes.h"
 
 #include "flyball/flight/perception/localization_watch.h"
+#include "flyball/flight/perception/pose_history.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -102,39 +104,78 @@ void add_localize(Graph& graph,
   graph.node(std::move(spec), [localize](JobContext& job) { return (*localize)(job); });
 }
 
-void add_see(Graph& graph, const FlightParts& parts, Topic<View> view, Topic<VisualFix> fix) {
+/// Hands frames to the localizer, with what it feels and where it is reckoned to be.
+class See {
+ public:
+  See(const FlightParts& parts, Topic<PoseEstimate> poses, Topic<VisualFix> fix)
+      : vehicle_{parts.vehicle},
+        mission_{parts.mission},
+        poses_topic_{poses},
+        fix_{fix},
+        localizer_{parts.kernels.localizer} {}
+
+  Work operator()(JobContext& job) {
+    Work work;
+    const auto seen = job.latest(*vehicle_.view);
+    while (const auto felt = vehicle_.imu ? job.take(*vehicle_.imu) : nullptr) {
+      localizer_->feel(*felt);
+    }
+    poses_.take_from(job, poses_topic_);
+    if (!seen || !is_localizers_turn(job, mission_, limit_, seen->depth.captured)) {
+      return work;
+    }
+    turn_knobs(job, mission_, *localizer_);
+    VisualFrame frame = visual_frame(*seen);
+    frame.X_WB_reckoned = reckoned(job, frame.captured);
+    const auto found = localizer_->see(frame, work);
+    if (found) {
+      job.publish(fix_, *found);
+    } else {
+      log_event(job, mission_, "frame not localized: " + found.error().message);
+    }
+    return work;
+  }
+
+ private:
+  /// Only a barometer tells the height of a vehicle that does not see where it is.
+  [[nodiscard]] std::optional<Pose> reckoned(JobContext& job, MissionTime captured) const {
+    const auto sample = job.latest(vehicle_.navigation);
+    const auto pose = poses_.at(captured);
+    if (!pose || !sample || sample->pressure_pa <= 0.0) {
+      return std::nullopt;
+    }
+    Pose X_WB = pose->X_WB;  // The newest one is some milliseconds older than the frame.
+    X_WB.translation() += std::max(0.0, to_seconds(captured - pose->stamp)) * pose->v_WB;
+    return X_WB;
+  }
+
+  VehicleTopics vehicle_;
+  MissionTopics mission_;
+  Topic<PoseEstimate> poses_topic_;
+  Topic<VisualFix> fix_;
+  std::shared_ptr<Localizer> localizer_;  ///< See MissionKernels.
+  PoseHistory poses_{};
+  RateLimit limit_{};
+};
+
+void add_see(Graph& graph,
+             const FlightParts& parts,
+             Topic<PoseEstimate> poses,
+             Topic<VisualFix> fix) {
   NodeSpec spec;
   spec.name = "see";
   spec.cost = frame_cost(parts.brief->settings.kernels.localizer);
-  spec.trigger = OnMessage{view.index};
+  spec.trigger = OnMessage{parts.vehicle.view->index};
   // It runs before `points` and `map`, because a map is worth nothing without a pose.
   spec.priority = 28;
-  spec.reads = {parts.mission.knobs.index};
+  spec.reads = {parts.mission.knobs.index, poses.index, parts.vehicle.navigation.index};
   spec.writes = {fix.index};
   if (parts.vehicle.imu) {
     spec.reads.push_back(parts.vehicle.imu->index);
   }
   declare_log(spec, parts.mission);
-  auto limit = std::make_shared<RateLimit>();  // Owner: this node alone.
-  graph.node(std::move(spec), [view, fix, limit, imu = parts.vehicle.imu, mission = parts.mission,
-                               localizer = parts.kernels.localizer](JobContext& job) {
-    Work work;
-    const auto seen = job.latest(view);
-    while (const auto felt = imu ? job.take(*imu) : nullptr) {
-      localizer->feel(*felt);
-    }
-    if (!seen || !is_localizers_turn(job, mission, *limit, seen->depth.captured)) {
-      return work;
-    }
-    turn_knobs(job, mission, *localizer);
-    const auto found = localizer->see(visual_frame(*seen), work);
-    if (found) {
-      job.publish(fix, *found);
-    } else {
-      log_event(job, mission, "frame not localized: " + found.error().message);
-    }
-    return work;
-  });
+  auto see = std::make_shared<See>(parts, poses, fix);  // Owner: this node alone.
+  graph.node(std::move(spec), [see](JobContext& job) { return (*see)(job); });
 }
 
 }  // namespace
@@ -157,7 +198,7 @@ LocalizationTopics add_localization(Graph& graph, const FlightParts& parts) {
   Fixes fixes;
   if (parts.vehicle.view) {
     fixes = graph.topic<VisualFix>("fix", 8);
-    add_see(graph, parts, *parts.vehicle.view, *fixes);
+    add_see(graph, parts, topics.poses, *fixes);
   }
   add_localize(graph, parts, topics, fixes);
   return topics;

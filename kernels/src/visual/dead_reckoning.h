@@ -22,9 +22,6 @@ class DeadReckoning {
   void start(const Pose& X_WB);
   void correct(const VisualFix& fix);
   [[nodiscard]] PoseEstimate estimate(const NavigationSample& sample);
-  /// Where it was at a time of the last five seconds, as far as is known now.
-  [[nodiscard]] Pose pose_at(MissionTime t) const;
-  [[nodiscard]] bool knows_height() const { return has_barometer_; }
 
  private:
   struct Felt {
@@ -33,6 +30,8 @@ class DeadReckoning {
     double height_m;  ///< By the barometer.
   };
   void feel(const NavigationSample& sample);
+  /// Where it was at a time of the last five seconds, as far as is known now.
+  [[nodiscard]] Pose pose_at(MissionTime t) const;
   [[nodiscard]] const Felt& felt_at(MissionTime t) const;
 
   std::deque<Felt> felt_;  ///< In the last seconds.
@@ -43,7 +42,8 @@ class DeadReckoning {
   Pose X_WB_start_{Pose::Identity()};
 };
 
-/// A localizer that sees knows a place per frame; between frames it reckons.
+/// A localizer that sees knows a place per frame; between frames it reckons. What it reckons with
+/// is out of reach of `see`, which another thread may call.
 class SeeingLocalizer : public Localizer {
  public:
   void correct(const VisualFix& fix) final { reckoning_.correct(fix); }
@@ -53,6 +53,10 @@ class SeeingLocalizer : public Localizer {
   }
 
  protected:
+  /// Where the vehicle stands.
+  void reckon_from(const Pose& X_WB) { reckoning_.start(X_WB); }
+
+ private:
   DeadReckoning reckoning_;
 };
 

@@ -35,6 +35,11 @@ struct LocalizerInputs {
 /// One that sees is told where it stands (`place`), gets frames (`see`) and, when the computer is
 /// through with a frame, its result (`correct`): what `estimate` says depends on frames only from
 /// then on.
+///
+/// Two threads may use one localizer at the same time once it has been placed: the first calls
+/// `apply`, `feel` and `see`, the second `reveal`, `correct` and `estimate`. So these two groups
+/// share no state; what one has to tell the other goes through `VisualFix` and
+/// `VisualFrame::X_WB_reckoned`.
 class Localizer : public Kernel {
  public:
   /// Once it is configured: where W lies. What was estimated before is forgotten.

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -41,6 +42,9 @@ struct VisualFrame {
   /// Along the optical axis, as many as `grey` or none; infinite, NaN or zero where nothing
   /// returned.
   std::vector<float> depth_m{};
+  /// Where the vehicle was then as far as is known without this frame; empty where nothing tells
+  /// its height.
+  std::optional<Pose> X_WB_reckoned{};
 };
 
 /// The pose that one frame gives.
