@@ -7,9 +7,8 @@
 
 namespace flyball {
 
-DriftingPlatform::DriftingPlatform(const PlatformModel& nominal) : nominal_{nominal} {
-  now_.emplace(nominal);
-}
+DriftingPlatform::DriftingPlatform(const PlatformModel& nominal)
+    : nominal_{nominal}, now_{std::make_shared<const ModeledPlatform>(nominal)} {}
 
 void DriftingPlatform::set(const Strain& strain) {
   FLYBALL_ASSERT(strain.cost > 0.0 && strain.memory_cost > 0.0 && strain.taken_cores >= 0.0,
@@ -22,7 +21,14 @@ void DriftingPlatform::set(const Strain& strain) {
     cost.scale *= strain.cost * (one == strain.kernel_cost.end() ? 1.0 : one->second);
     cost.b *= strain.memory_cost;
   }
-  now_.emplace(std::move(strained));
+  auto next = std::make_shared<const ModeledPlatform>(std::move(strained));
+  const std::lock_guard lock{mutex_};
+  now_ = std::move(next);
+}
+
+std::shared_ptr<const ModeledPlatform> DriftingPlatform::now() const {
+  const std::lock_guard lock{mutex_};
+  return now_;
 }
 
 OperatingPoint DriftingPlatform::granted(const OperatingPoint& wanted) const {

@@ -2,6 +2,8 @@
 #include "flyball/runtime/drifting_platform.h"
 
 #include "computer_rig.h"
+#include <atomic>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,26 @@ struct DriftRig : ComputerRig {
   }
   DriftingPlatform drifting;
 };
+
+TEST(DriftingPlatform, may_be_asked_while_another_thread_changes_it) {
+  DriftingPlatform platform{rig_model(0.0)};
+  Strain twice;
+  twice.cost = 2.0;
+  std::atomic<bool> is_over{false};
+  int wrong = 0;
+  std::thread asker{[&] {
+    while (!is_over) {
+      const double asked_ms = cost_ms(platform, "serial", 1.0);
+      wrong += asked_ms == 10.0 || asked_ms == 20.0 ? 0 : 1;
+    }
+  }};
+  for (int i = 0; i < 1000; ++i) {
+    platform.set(i % 2 == 0 ? twice : Strain{});
+  }
+  is_over = true;
+  asker.join();
+  EXPECT_EQ(wrong, 0);
+}
 
 TEST(DriftingPlatform, without_strain_is_what_its_file_says) {
   const DriftingPlatform platform{rig_model(0.0)};

@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -23,7 +25,8 @@ struct Strain {
 };
 
 /// A model under strain, which may change in flight. Whoever changes it tells the executor
-/// (`platform_changed`).
+/// (`platform_changed`). What work costs may be asked by any thread meanwhile; `strain`, `granted`
+/// and `taken_cores` are for the thread that changes it.
 class DriftingPlatform final : public Platform {
  public:
   explicit DriftingPlatform(const PlatformModel& nominal);
@@ -41,23 +44,27 @@ class DriftingPlatform final : public Platform {
   [[nodiscard]] Duration job_time(std::string_view kernel,
                                   const Work& work,
                                   Hertz frequency) const override {
-    return now_->job_time(kernel, work, frequency);
+    return now()->job_time(kernel, work, frequency);
   }
   [[nodiscard]] double speedup(std::string_view kernel, double cores) const override {
-    return now_->speedup(kernel, cores);
+    return now()->speedup(kernel, cores);
   }
-  [[nodiscard]] bool knows(std::string_view kernel) const override { return now_->knows(kernel); }
+  [[nodiscard]] bool knows(std::string_view kernel) const override { return now()->knows(kernel); }
   [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override {
-    return now_->power(point, busy_cores);
+    return now()->power(point, busy_cores);
   }
   [[nodiscard]] Duration switching_time() const override { return nominal_.switching_time; }
   [[nodiscard]] OperatingPoint granted(const OperatingPoint& wanted) const override;
   [[nodiscard]] double taken_cores() const override { return strain_.taken_cores; }
 
  private:
+  [[nodiscard]] std::shared_ptr<const ModeledPlatform> now() const;
+
   PlatformModel nominal_;
   Strain strain_{};
-  std::optional<ModeledPlatform> now_;  ///< The nominal model with the strain worked in.
+  mutable std::mutex mutex_{};  ///< Of the pointer `now_`.
+  /// The nominal model with the strain worked in. Owners: this, and who is asking it.
+  std::shared_ptr<const ModeledPlatform> now_;
 };
 
 }  // namespace flyball
