@@ -131,6 +131,9 @@ void ClosedLoop::energy_step() {
     log_.airborne_s += dt_s;
     log_.hover_time_s += speed < hover_below_m_s ? dt_s : 0.0;
   }
+  if (on_energy_) {
+    on_energy_();
+  }
 }
 
 void ClosedLoop::publish_navigation() {

@@ -53,6 +53,8 @@ class ClosedLoop {
   void on_navigation(std::function<void(const TruePose&)> listener) {
     on_navigation_ = std::move(listener);
   }
+  /// Calls `listener` when power and the battery's charge have moved on.
+  void on_energy(std::function<void()> listener) { on_energy_ = std::move(listener); }
   /// Calls `listener` with a colour picture's number and the camera's true pose, before the picture
   /// is published.
   void on_picture(std::function<void(std::uint64_t, const Pose&)> listener) {
@@ -97,6 +99,7 @@ class ClosedLoop {
   Imu imu_;
   Wind wind_;
   std::function<void(const TruePose&)> on_navigation_{};
+  std::function<void()> on_energy_{};
   std::function<void(std::uint64_t, const Pose&)> on_picture_{};
   FlightLog log_{};
   double last_busy_core_s_{};

@@ -23,7 +23,7 @@ std::string degrees(double temperature_c) {
 ComputerDrift::ComputerDrift(MissionLink& link,
                              const Scenario& scenario,
                              DriftingPlatform& platform,
-                             VirtualExecutor& executor,
+                             Executor& executor,
                              EventQueue& queue,
                              const ClosedLoop& loop)
     : link_{link},

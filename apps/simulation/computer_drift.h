@@ -24,7 +24,7 @@ class ComputerDrift {
   ComputerDrift(MissionLink& link,
                 const Scenario& scenario,
                 DriftingPlatform& platform,
-                VirtualExecutor& executor,
+                Executor& executor,
                 EventQueue& queue,
                 const ClosedLoop& loop);
 
@@ -49,7 +49,7 @@ class ComputerDrift {
   MissionLink& link_;
   const Scenario& scenario_;
   DriftingPlatform& platform_;
-  VirtualExecutor& executor_;
+  Executor& executor_;
   EventQueue& queue_;
   const ClosedLoop& loop_;
   std::optional<ThermalModel> nominal_{};

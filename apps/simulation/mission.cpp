@@ -42,12 +42,20 @@ OperatingPoint start_point(const Scenario& scenario) {
   return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
 }
 
+std::unique_ptr<Executor> make_virtual(const Graph& graph,
+                                       const Platform& computer,
+                                       EventQueue& queue,
+                                       const OperatingPoint& start) {
+  return std::make_unique<VirtualExecutor>(graph, computer, queue, start);
+}
+
 /// Everything that one flight needs, in the order in which it must be made.
 struct Flight {
   Flight(const Scenario& scenario,
          MissionSetup& setup,
          MemoryRecorder& trace,
-         std::unique_ptr<Workload> made)
+         std::unique_ptr<Workload> made,
+         const MakeExecutor& make_executor = make_virtual)
       : workload{std::move(made)},
         graph{scenario.mission.workload},
         computer{setup.platform->model()},
@@ -60,7 +68,7 @@ struct Flight {
     add_finish(graph, parts.mission);
     add_record(graph, parts.mission, trace);
     add_governing(scenario, setup);
-    executor = std::make_unique<VirtualExecutor>(graph, computer, queue, start_point(scenario));
+    executor = make_executor(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                         parts.vehicle, parts.kernels.localizer);
@@ -101,7 +109,7 @@ struct Flight {
   std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
   std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
   Duration period{};                       ///< Between decisions.
-  std::unique_ptr<VirtualExecutor> executor;
+  std::unique_ptr<Executor> executor;
   std::unique_ptr<MissionLink> link;
   std::unique_ptr<ClosedLoop> loop;
   std::unique_ptr<Referee> referee;
@@ -137,6 +145,8 @@ void connect(Flight& flight, const MissionHooks& hooks) {
   flight.loop->start();
   flight.referee->start();
   flight.drift->start(flight.computer.nominal().thermal);
+  flight.board.measure();
+  flight.loop->on_energy([&flight] { flight.board.measure(); });
 }
 
 /// Flies until the mission is over, and what happens at that same moment.
@@ -146,6 +156,7 @@ void run(Flight& flight, const MissionHooks& hooks) {
   while (queue.next() && *queue.next() <= queue.now()) {
     (void)queue.step();
   }
+  flight.executor->stop();
 }
 
 void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {
@@ -269,7 +280,8 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{scenario, *setup, *record.trace, std::move(*workload)};
+  Flight flight{scenario, *setup, *record.trace, std::move(*workload),
+                hooks.executor ? hooks.executor : make_virtual};
   connect(flight, hooks);
   run(flight, hooks);
   if (const Status written =

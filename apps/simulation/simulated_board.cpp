@@ -11,6 +11,25 @@ void SimulatedBoard::connect(Executor& executor,
   loop_ = &loop;
   drift_ = drift;
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
+  measure();
+}
+
+void SimulatedBoard::measure() {
+  BoardReading now;
+  now.computer_power = Watts{loop_->log().computer_w};
+  now.rotor_power = Watts{loop_->log().rotor_w};
+  now.battery_percent = loop_->battery().percent();
+  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
+    now.temperature_c = heat->temperature_c();
+    now.trip_c = heat->first_trip_c().value_or(0.0);
+  }
+  const std::lock_guard lock{mutex_};
+  gauges_ = now;
+}
+
+BoardReading SimulatedBoard::gauges() const {
+  const std::lock_guard lock{mutex_};
+  return gauges_;
 }
 
 void SimulatedBoard::request(const OperatingPoint& point) {
@@ -23,19 +42,12 @@ BoardReading SimulatedBoard::read() const {
   if (executor_ == nullptr) {
     return unconnected_;
   }
-  BoardReading reading;
+  BoardReading reading = gauges();
   reading.granted = executor_->operating_point();
   reading.busy_core_s = executor_->busy_core_s();
   reading.busiest_core_s = executor_->busiest_core_s();
   reading.drops = executor_->drops();
   reading.deadline_misses = deadline_misses_;
-  reading.computer_power = Watts{loop_->log().computer_w};
-  reading.rotor_power = Watts{loop_->log().rotor_w};
-  reading.battery_percent = loop_->battery().percent();
-  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
-    reading.temperature_c = heat->temperature_c();
-    reading.trip_c = heat->first_trip_c().value_or(0.0);
-  }
   return reading;
 }
 

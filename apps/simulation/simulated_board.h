@@ -9,25 +9,35 @@
 
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
+#include <atomic>
+#include <mutex>
 
 namespace flyball {
 
+/// The simulator's thread moves the gauges (`measure`); whichever thread the governor's node runs
+/// on reads them.
 class SimulatedBoard final : public Board {
  public:
   /// Until it is connected it says that this is granted, and hears no request.
   explicit SimulatedBoard(const OperatingPoint& start) { unconnected_.granted = start; }
   /// All arguments outlive the board; `drift` may be null: then nothing is known of heat.
   void connect(Executor& executor, const ClosedLoop& loop, const ComputerDrift* drift);
+  /// The gauges show what the simulator says now. To be called whenever that has changed.
+  void measure();
 
   [[nodiscard]] BoardReading read() const override;
   void request(const OperatingPoint& point) override;
 
  private:
+  [[nodiscard]] BoardReading gauges() const;
+
   BoardReading unconnected_{};
   Executor* executor_{};
   const ClosedLoop* loop_{};
   const ComputerDrift* drift_{};
-  std::uint64_t deadline_misses_{};
+  std::atomic<std::uint64_t> deadline_misses_{};
+  mutable std::mutex mutex_{};  ///< Of `gauges_`.
+  BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.
 };
 
 }  // namespace flyball

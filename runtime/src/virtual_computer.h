@@ -89,6 +89,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   MissionTime advanced_to{};
   MissionTime stalled_until{};
   bool is_dispatch_pending{};
+  bool is_stopped{};
 };
 
 }  // namespace flyball

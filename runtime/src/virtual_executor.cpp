@@ -59,7 +59,7 @@ void VirtualComputer::at(MissionTime time,
                          EventOrder order,
                          std::function<void(VirtualComputer&)> action) {
   queue.schedule(time, order, [weak = weak_from_this(), action = std::move(action)] {
-    if (const auto computer = weak.lock()) {
+    if (const auto computer = weak.lock(); computer && !computer->is_stopped) {
       action(*computer);
     }
   });
@@ -207,7 +207,7 @@ void VirtualExecutor::platform_changed() {
   computer_->change_platform();
 }
 
-const OperatingPoint& VirtualExecutor::operating_point() const {
+OperatingPoint VirtualExecutor::operating_point() const {
   return computer_->point;
 }
 
@@ -227,6 +227,10 @@ double VirtualExecutor::busy_cores() const {
 
 std::uint64_t VirtualExecutor::drops() const {
   return computer_->drops;
+}
+
+void VirtualExecutor::stop() {
+  computer_->is_stopped = true;
 }
 
 void VirtualExecutor::inject(int topic, Message message) {

@@ -260,6 +260,21 @@ TEST(VirtualExecutor, may_be_gone_before_its_events_are_due) {
   EXPECT_TRUE(rig.records.empty());
 }
 
+TEST(VirtualExecutor, starts_and_ends_no_job_once_it_has_stopped) {
+  ComputerRig rig;
+  const int a = rig.add({100.0, 0, "serial", 1, 50.0});
+  const int b = rig.add({10.0});
+  rig.start(1);
+  rig.trigger(a, 0.0);
+  rig.queue.run([&] { return !rig.taken.empty(); });
+  const std::size_t taken = rig.taken.size();
+  rig.computer->stop();
+  rig.trigger(b, 0.0);
+  rig.run();
+  EXPECT_EQ(rig.taken.size(), taken);
+  EXPECT_TRUE(rig.records.empty());
+}
+
 TEST(VirtualExecutorDeathTest, a_topic_that_the_node_does_not_declare_is_out_of_reach) {
   Graph graph{"undeclared"};
   const auto in = graph.topic<int>("in");

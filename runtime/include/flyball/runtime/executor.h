@@ -25,6 +25,10 @@ struct JobRecord {
   double host_s{};  ///< Host time of the computation: never part of the trace hash.
 };
 
+/// Its owner's thread constructs it, subscribes and publishes from outside. Listeners are called on
+/// that thread, even where jobs run on others. A node runs one job at a time, and its next job sees
+/// all that the last one wrote. A job may set and ask for the operating point and ask for loads and
+/// drops; all else is for the owner's thread.
 class Executor {
  public:
   Executor() = default;
@@ -51,7 +55,10 @@ class Executor {
   /// Running jobs keep their progress and go on at the new rate after the platform's switching
   /// time.
   virtual void set_operating_point(const OperatingPoint& point) = 0;
-  [[nodiscard]] virtual const OperatingPoint& operating_point() const = 0;
+  /// What is granted, which may be less than was set.
+  [[nodiscard]] virtual OperatingPoint operating_point() const = 0;
+  /// What the platform grants, or what work costs on it, is different from now on.
+  virtual void platform_changed() = 0;
   /// Core-seconds of work done since the start.
   [[nodiscard]] virtual double busy_core_s() const = 0;
   /// The same of the core that worked most. Without a map of jobs to cores, the first core is one
@@ -62,6 +69,9 @@ class Executor {
   /// Dropped since the start: messages from full queues, triggers of a latest-value topic that were
   /// overtaken before a job read them, and periods that began while their node was busy.
   [[nodiscard]] virtual std::uint64_t drops() const = 0;
+  /// No job starts from now on; one that runs is waited for. Afterwards the caller may look at what
+  /// the nodes own.
+  virtual void stop() = 0;
 
  protected:
   virtual void inject(int topic, Message message) = 0;

@@ -33,14 +33,15 @@ class VirtualExecutor final : public Executor {
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
   void set_operating_point(const OperatingPoint& point) override;
-  /// What is granted, which may be less than was set.
-  [[nodiscard]] const OperatingPoint& operating_point() const override;
-  /// The platform's costs, taken cores or grants are others from now on: jobs go on at new rates.
-  void platform_changed();
+  [[nodiscard]] OperatingPoint operating_point() const override;
+  /// Running jobs go on at new rates.
+  void platform_changed() override;
   [[nodiscard]] double busy_core_s() const override;
   [[nodiscard]] double busiest_core_s() const override;
   [[nodiscard]] double busy_cores() const override;
   [[nodiscard]] std::uint64_t drops() const override;
+  /// Jobs that have not ended by then never do.
+  void stop() override;
 
  protected:
   void inject(int topic, Message message) override;

@@ -2,16 +2,24 @@
 #pragma once
 
 /// @file
-/// Flies one scenario from take-off to its end, on the virtual executor.
+/// Flies one scenario from take-off to its end.
 
 #include "flyball/records/mission_record.h"
+#include "flyball/runtime/event_queue.h"
+#include "flyball/runtime/executor.h"
 #include "flyball/runtime/result.h"
 #include "flyball/scenario/scenario.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace flyball {
+
+/// What runs the graph of a mission. All arguments outlive the executor; the simulator is on the
+/// queue, and so must be whatever the executor does at a time.
+using MakeExecutor = std::function<std::unique_ptr<Executor>(
+    const Graph&, const Platform&, EventQueue&, const OperatingPoint&)>;
 
 struct MissionHooks {
   /// Called about every 10 s of mission time: progress in words for a terminal.
@@ -20,6 +28,7 @@ struct MissionHooks {
   std::function<bool()> stop{};
   std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
+  MakeExecutor executor{};  ///< Empty: a `VirtualExecutor`, which models the scenario's computer.
 };
 
 /// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out;
