@@ -39,7 +39,8 @@ std::vector<PixelRegion> DeferredImage::Shared::take_missing(const PixelRegion& 
     bool joins = false;
     for (int column = region.x_px / square_px; column < squares(region.x_px + region.width_px);
          ++column) {
-      char& there = is_there[static_cast<std::size_t>(row * columns + column)];
+      char& there = is_there[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(column)];
       if (there != 0) {
         joins = false;
         continue;

@@ -28,6 +28,32 @@ using GridCell = std::array<int, 3>;
                    Vec3::Constant(0.5));
 }
 
+/// Where the straight line crosses the borders of cells: as shares of the line, by axis.
+struct BorderCrossings {
+  std::array<double, 3> next{};   ///< The next border; infinite where none is left.
+  std::array<double, 3> delta{};  ///< From one border to the one after it.
+  std::array<int, 3> left{};      ///< How many are still to be crossed.
+};
+
+/// @pre As `walk_cells`.
+[[nodiscard]] inline BorderCrossings border_crossings(const Vec3& from_W,
+                                                      const Vec3& to_W,
+                                                      double cell_m) {
+  const GridCell cell = grid_cell_of(from_W, cell_m);
+  const GridCell end = grid_cell_of(to_W, cell_m);
+  const Vec3 along = to_W - from_W;
+  BorderCrossings at;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    at.left[i] = std::abs(end[i] - cell[i]);
+    at.delta[i] = cell_m / std::abs(along[axis]);
+    const double border_m = (cell[i] + (end[i] > cell[i] ? 1 : 0)) * cell_m;
+    at.next[i] = at.left[i] > 0 ? (border_m - from_W[axis]) / along[axis]
+                                : std::numeric_limits<double>::infinity();
+  }
+  return at;
+}
+
 /// Visits the cells that the straight line crosses, in order, those of both ends included, until
 /// `visit(cell)` returns false. Amanatides & Woo 1987; the number of steps along each axis is known
 /// beforehand, so rounding never carries the walk past its end.
@@ -39,17 +65,7 @@ bool walk_cells(const Vec3& from_W, const Vec3& to_W, double cell_m, Visit&& vis
   constexpr double never = std::numeric_limits<double>::infinity();
   GridCell cell = grid_cell_of(from_W, cell_m);
   const GridCell end = grid_cell_of(to_W, cell_m);
-  const Vec3 along = to_W - from_W;
-  std::array<double, 3> next{};
-  std::array<double, 3> delta{};
-  std::array<int, 3> left{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    left[i] = std::abs(end[i] - cell[i]);
-    delta[i] = cell_m / std::abs(along[axis]);
-    const double border_m = (cell[i] + (end[i] > cell[i] ? 1 : 0)) * cell_m;
-    next[i] = left[i] > 0 ? (border_m - from_W[axis]) / along[axis] : never;
-  }
+  auto [next, delta, left] = border_crossings(from_W, to_W, cell_m);
   while (true) {
     if (!visit(static_cast<const GridCell&>(cell))) {
       return false;
