@@ -157,11 +157,11 @@ const FamilyChoice& family_choice(std::type_index interface) {
 std::vector<std::string> FamilyChoice::all_kinds(const Scenario& scenario) const {
   std::vector<std::string> all{scenario.kernels.*kernel};
   std::istringstream others{kinds == nullptr ? "" : scenario.knobs.*kinds};
-  for (std::string name; std::getline(others, name, ',');) {
-    name.erase(0, name.find_first_not_of(' '));
-    name.erase(name.find_last_not_of(' ') + 1);
-    if (!name.empty() && name != "none" && std::find(all.begin(), all.end(), name) == all.end()) {
-      all.push_back(name);
+  for (std::string kind; std::getline(others, kind, ',');) {
+    kind.erase(0, kind.find_first_not_of(' '));
+    kind.erase(kind.find_last_not_of(' ') + 1);
+    if (!kind.empty() && kind != "none" && std::find(all.begin(), all.end(), kind) == all.end()) {
+      all.push_back(kind);
     }
   }
   return all;

@@ -135,7 +135,7 @@ TEST(KnobSettings, a_refused_value_changes_nothing_and_names_the_way_out) {
   const Status unknown = knobs.set("map.colour", 1.0);
   ASSERT_FALSE(unknown.ok());
   EXPECT_EQ(unknown.error().code, ErrorCode::not_found);
-  EXPECT_EQ(unknown.error().message, "no knob \"map.colour\"; try: flyball knobs");
+  EXPECT_EQ(unknown.error().message, "no knob \"map.colour\"; try: flyball list knobs");
 }
 
 TEST(KnobSettingsDeathTest, impossible_specs_are_found_at_once) {
