@@ -52,6 +52,11 @@ std::string part_of(const std::string& text) {
   return std::to_string(text.size()) + "\n" + text + "\n";
 }
 
+/// Whatever the mask of whoever made it: in a folder of the group all of its members may have it.
+void share_with_group(int file) {
+  [[maybe_unused]] const int result = fchmod(file, 0660);  // Only the owner may, and only he needs.
+}
+
 void note_owner(int lock) {
   const std::string pid = std::to_string(getpid()) + "\n";
   if (ftruncate(lock, 0) == 0) {
@@ -90,6 +95,8 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
     close(lock);
     return Error{ErrorCode::unavailable, error.message + way_out};
   }
+  share_with_group(lock);
+  share_with_group(journal);
   note_owner(lock);
   return SettingsJournal{lock, journal, path};
 }

@@ -7,6 +7,7 @@
 #include "killed_session.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace flyball {
 namespace {
@@ -201,6 +202,15 @@ TEST_F(SettingsKeeperTest, says_where_it_needs_a_folder) {
             "the lock " + tree_.root() +
                 "/no/folder/board.lock cannot be opened: No such file or directory; make the "
                 "folder yours, name another one, or see: flyball board setup --print");
+}
+
+TEST_F(SettingsKeeperTest, lets_the_group_of_its_folder_use_the_lock) {
+  const mode_t before = umask(077);
+  const auto keeper = SettingsKeeper::open(kernel_, options());
+  umask(before);
+  struct stat lock {};
+  ASSERT_EQ(stat((options().run_folder + "/board.lock").c_str(), &lock), 0);
+  EXPECT_EQ(lock.st_mode & 0777U, 0660U);
 }
 
 TEST_F(SettingsKeeperTest, touches_nothing_but_settings_of_cores) {
