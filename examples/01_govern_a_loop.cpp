@@ -131,15 +131,8 @@ double share_of(const std::vector<double>& all, double value) {
 }  // namespace
 
 int main() {
-  const flyball::KnobSettings knobs{{{"map.resolution_m",
-                                      "m",
-                                      "my_kernel",
-                                      {0.15, 0.80},
-                                      0.15,
-                                      0.80,
-                                      0.15,
-                                      {},
-                                      "Edge of a cell"}}};
+  const flyball::KnobSettings knobs{
+      {{"map.resolution_m", "m", "my_kernel", {0.15, 0.80}, 0.15, 0.80, 0.15, "Edge of a cell"}}};
   const auto governor = make_governor(knobs);
   if (governor == nullptr) {
     std::puts("wrong: no policy \"density\" that takes this knob");
