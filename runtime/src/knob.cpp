@@ -113,7 +113,8 @@ double KnobSettings::value(std::string_view name) const {
 Status KnobSettings::set(std::string_view name, double value) {
   const KnobSpec* knob = spec(name);
   if (knob == nullptr) {
-    return Error{ErrorCode::not_found, "no knob \"" + std::string{name} + "\"; try: flyball list knobs"};
+    return Error{ErrorCode::not_found,
+                 "no knob \"" + std::string{name} + "\"; try: flyball list knobs"};
   }
   if (!knob->is_legal(value)) {
     return Error{ErrorCode::invalid_input, "knob " + knob->name + " cannot be " + text_of(value) +
