@@ -48,9 +48,7 @@ FamilyChoice switched_family(const char* name, const char* description) {
   choice.join = [](std::vector<KernelKind<Kernel>> any) -> std::unique_ptr<Kernel> {
     std::vector<KernelKind<Family>> all;
     for (KernelKind<Kernel>& one : any) {
-      // What the family's factory has made is of that family.
-      auto* kind = static_cast<Family*>(one.kernel.release());
-      all.push_back({std::move(one.name), std::unique_ptr<Family>{kind}});
+      all.push_back({std::move(one.name), of_family<Family>(std::move(one.kernel))});
     }
     return std::make_unique<Switched>(std::move(all));
   };

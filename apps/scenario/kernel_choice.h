@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 namespace flyball {
@@ -84,26 +85,30 @@ struct FamilyChoice {
                                          const Scenario& scenario,
                                          const Platform& platform);
 
+/// What a family's factory has made, as a kernel of that family.
 template <class Family>
-[[nodiscard]] Result<std::unique_ptr<Family>> make_switchable(const Scenario& scenario,
-                                                              const FindModel& find_model) {
-  auto kernel = make_switchable(family_choice(typeid(Family)), scenario, find_model);
+[[nodiscard]] std::unique_ptr<Family> of_family(std::unique_ptr<Kernel> kernel) {
+  return std::unique_ptr<Family>{static_cast<Family*>(kernel.release())};
+}
+
+template <class Family>
+[[nodiscard]] Result<std::unique_ptr<Family>> of_family(Result<std::unique_ptr<Kernel>> kernel) {
   if (!kernel) {
     return kernel.error();
   }
-  // What a family's factory makes is of that family.
-  return std::unique_ptr<Family>{static_cast<Family*>(kernel->release())};
+  return of_family<Family>(std::move(*kernel));
+}
+
+template <class Family>
+[[nodiscard]] Result<std::unique_ptr<Family>> make_switchable(const Scenario& scenario,
+                                                              const FindModel& find_model) {
+  return of_family<Family>(make_switchable(family_choice(typeid(Family)), scenario, find_model));
 }
 
 template <class Family>
 [[nodiscard]] Result<std::unique_ptr<Family>> make_kernel(const KernelSettings& kernels,
                                                           const FindModel& find_model = no_models) {
-  auto kernel = make_kernel(family_choice(typeid(Family)), kernels, find_model);
-  if (!kernel) {
-    return kernel.error();
-  }
-  // What a family's factory makes is of that family.
-  return std::unique_ptr<Family>{static_cast<Family*>(kernel->release())};
+  return of_family<Family>(make_kernel(family_choice(typeid(Family)), kernels, find_model));
 }
 
 /// Looks for weights where the scenario says.

@@ -75,14 +75,15 @@ bool sees(const Scenario& scenario) {
 }
 
 /// Two of its frames must fit in what a localizer that sees can bridge, since one may show nothing.
-double longest_interval_s(const Scenario& scenario) {
-  return sees(scenario) ? 0.5 * longest_reckoning_s : std::numeric_limits<double>::infinity();
+double longest_interval_s(bool has_seeing_localizer) {
+  return has_seeing_localizer ? 0.5 * longest_reckoning_s : std::numeric_limits<double>::infinity();
 }
 
 /// Those that exist only where the scenario asks for them, beside those that choose among kernels.
 Result<std::vector<KnobSpec>> rate_knobs(const Scenario& scenario) {
   const double frames_hz = scenario.camera.rate_hz;
-  const double longest_s = longest_interval_s(scenario);
+  const bool has_seeing_localizer = sees(scenario);
+  const double longest_s = longest_interval_s(has_seeing_localizer);
   std::vector<KnobSpec> all;
   if (scenario.knobs.camera_rate) {
     all.push_back(rate_knob("camera.rate_hz", "camera", frames_hz, longest_s));
@@ -91,14 +92,14 @@ Result<std::vector<KnobSpec>> rate_knobs(const Scenario& scenario) {
   if (!scenario.knobs.localizer_rate) {
     return all;
   }
-  if (!sees(scenario) && !scenario.kernels.slam_load) {
+  if (!has_seeing_localizer && !scenario.kernels.slam_load) {
     return Error{ErrorCode::invalid_input,
                  "knobs.localizer_rate = true has no effect with localizer \"" +
                      scenario.kernels.localizer +
                      "\", which takes no frames; set it to false, or kernels.slam_load to true"};
   }
-  all.push_back(
-      rate_knob("localizer.rate_hz", sees(scenario) ? "see" : "slam_load", frames_hz, longest_s));
+  all.push_back(rate_knob("localizer.rate_hz", has_seeing_localizer ? "see" : "slam_load",
+                          frames_hz, longest_s));
   all.back().description = "frames that localization looks at a second, of those that are used";
   return all;
 }

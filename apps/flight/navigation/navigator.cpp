@@ -33,6 +33,9 @@ Navigator::Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTra
       map_latency_{frame_price(*brief_)} {}
 
 void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs) {
+  if (knobs == knobs_) {
+    return;  // The same message: it is the newest one at most ticks.
+  }
   knobs_ = std::move(knobs);
   follower_.set_knobs(knobs_);
   path_tracker_->apply(knobs_->knobs);

@@ -70,8 +70,8 @@ std::vector<Hertz> listed_clocks(const LinuxSystem& system, const std::string& f
   // acpi-cpufreq and others list clocks above the nominal one in a file of their own.
   for (const char* file : {"/scaling_available_frequencies", "/scaling_boost_frequencies"}) {
     for (const std::string& word : words_of(text_in(system, folder + file).value_or(""))) {
-      if (const auto khz = integer_of(word); khz && *khz > 0) {
-        clocks.emplace_back(1e3 * static_cast<double>(*khz));
+      if (const auto clock = clock_of(word)) {
+        clocks.push_back(*clock);
       }
     }
   }

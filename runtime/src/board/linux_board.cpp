@@ -41,11 +41,11 @@ double process_seconds() {
 /// The limits before an adopted session changed them.
 void undo_adopted(ClockPolicy& policy, const std::vector<KeptSetting>& kept) {
   for (const KeptSetting& setting : kept) {
-    const auto khz = integer_of(trimmed(setting.content));
-    if (khz && setting.path == policy.folder + "/scaling_min_freq") {
-      policy.min = Hertz{1e3 * static_cast<double>(*khz)};
-    } else if (khz && setting.path == policy.folder + "/scaling_max_freq") {
-      policy.max = Hertz{1e3 * static_cast<double>(*khz)};
+    const auto clock = clock_of(trimmed(setting.content));
+    if (clock && setting.path == policy.folder + "/scaling_min_freq") {
+      policy.min = *clock;
+    } else if (clock && setting.path == policy.folder + "/scaling_max_freq") {
+      policy.max = *clock;
     }
   }
 }
@@ -105,11 +105,12 @@ struct LinuxBoard::State {
       note(topic + error.message, error.message);
     }
   }
-  void note_rivals();
+  void note_rivals(const std::vector<Rival>& rivals);
   void note_meters();
   void add_controls();
   void set_clock(Hertz wanted);
   void look_after_clock();
+  void read_reported_clock();
   void read_clock();
   void read_power();
   void read_heat();
@@ -137,8 +138,8 @@ void LinuxBoard::State::add_controls() {
        "knob");
 }
 
-void LinuxBoard::State::note_rivals() {
-  for (const Rival& rival : find_rivals(system)) {
+void LinuxBoard::State::note_rivals(const std::vector<Rival>& rivals) {
+  for (const Rival& rival : rivals) {
     note("rival " + rival.name, rival.name + " (process " + std::to_string(rival.pid) +
                                     ") sets clocks too; " + rival.advice);
   }
@@ -199,15 +200,19 @@ void LinuxBoard::State::look_after_clock() {
   }
   note("changed",
        "somebody else has changed the limits or the governor of the clock; it is set again");
-  note_rivals();
+  note_rivals(find_rivals(system));
   set_clock(clock.requested);
 }
 
-void LinuxBoard::State::read_clock() {
+void LinuxBoard::State::read_reported_clock() {
   clock.reported.reset();
   for (const ClockControl& control : controls) {
     clock.reported = clock.reported ? clock.reported : control.reported();
   }
+}
+
+void LinuxBoard::State::read_clock() {
+  read_reported_clock();
   const auto measured = options.measure_clock ? options.measure_clock() : meter->measure();
   if (measured) {
     clock.measured = nearest_listed(*measured, clocks);
@@ -279,7 +284,7 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
   }
   auto state = std::make_unique<State>(system, options, std::move(found), std::move(*keeper));
   state->add_controls();
-  state->note_rivals();
+  state->note_rivals(state->found.rivals);
   state->note_meters();
   if (options.unplug_cores && !options.file.may_unplug_cores) {
     state->note("unplug", "cores stay on-line: the file of board " + options.file.name +
@@ -319,10 +324,7 @@ void LinuxBoard::request(const OperatingPoint& point) {
   }
   state.note_all("bind", state.cores.bind());
   state.note_all("core", state.cores.unplug_rest(state.now));
-  state.clock.reported.reset();
-  for (const ClockControl& control : state.controls) {
-    state.clock.reported = state.clock.reported ? state.clock.reported : control.reported();
-  }
+  state.read_reported_clock();
   state.fill_reading();
 }
 

@@ -87,9 +87,14 @@ std::optional<long long> integer_in(const LinuxSystem& system, const std::string
   return text ? integer_of(*text) : std::nullopt;
 }
 
-std::optional<Hertz> clock_in(const LinuxSystem& system, const std::string& path) {
-  const auto khz = integer_in(system, path);
+std::optional<Hertz> clock_of(std::string_view text) {
+  const auto khz = integer_of(text);
   return khz && *khz > 0 ? std::optional{Hertz{1e3 * static_cast<double>(*khz)}} : std::nullopt;
+}
+
+std::optional<Hertz> clock_in(const LinuxSystem& system, const std::string& path) {
+  const auto text = text_in(system, path);
+  return text ? clock_of(*text) : std::nullopt;
 }
 
 std::string khz_of(Hertz clock) {

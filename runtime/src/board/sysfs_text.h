@@ -30,7 +30,9 @@ namespace flyball {
                                                  const std::string& path);
 [[nodiscard]] std::optional<long long> integer_in(const LinuxSystem& system,
                                                   const std::string& path);
-/// The file has kHz.
+/// The text is a number of kHz; empty where it is not, or not positive.
+[[nodiscard]] std::optional<Hertz> clock_of(std::string_view text);
+/// The same of a file.
 [[nodiscard]] std::optional<Hertz> clock_in(const LinuxSystem& system, const std::string& path);
 /// The clock as cpufreq's files have it: whole kHz.
 [[nodiscard]] std::string khz_of(Hertz clock);
