@@ -7,15 +7,14 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
-#include "flyball/governors/required_knobs.h"
-#include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
-#include "mission_limits.h"
+#include "limited_search.h"
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -43,32 +42,13 @@ class MissionEnergy final : public flyball::Policy,
                         const flyball::KnobSettings& knobs,
                         const flyball::BoardModel& board) override {
     deceleration_m_s2_ = given.number("deceleration_m_s2");
-    const std::string self = "policy \"mission_energy\"";
-    if (flyball::Status status = flyball::require_knobs(
-            self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
-        !status) {
-      return status;
+    auto made = flyball::LimitedSearch::make(std::string{self}, given, knobs, board,
+                                             search_settings(given));
+    if (!made) {
+      return made.error();
     }
-    const auto power = flyball::required_power(self, board);
-    if (!power) {
-      return power.error();
-    }
-    auto limits = flyball::MissionLimits::make(self, given, knobs);
-    if (!limits) {
-      return limits.error();
-    }
-    const auto settings = search_settings(given, limits->spacing_m());
-    if (!settings) {
-      return settings.error();
-    }
-    const auto levels =
-        limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(*settings, levels, limits->ranges_m(), knobs, *power);
-    if (!search) {
-      return refused(search.error().message);
-    }
-    limits_.emplace(std::move(*limits));
-    search_.emplace(std::move(*search));
+    limits_.emplace(std::move(made->limits));
+    search_.emplace(std::move(made->search));
     return flyball::Done{};
   }
 
@@ -92,19 +72,18 @@ class MissionEnergy final : public flyball::Policy,
   }
 
  private:
-  static flyball::Error refused(const std::string& why) {
-    return {flyball::ErrorCode::invalid_input, "policy \"mission_energy\": " + why};
-  }
+  static constexpr const char* self = "policy \"mission_energy\"";
 
   [[nodiscard]] static flyball::Result<flyball::EnergySearchSettings> search_settings(
-      const flyball::Parameters& given, double spacing_m) {
+      const flyball::Parameters& given) {
     flyball::EnergySearchSettings settings;
     settings.bound.alpha = given.number("alpha");
     settings.learn_s = given.number("learn_s");
-    settings.spacing_m = spacing_m;
     if (const double margin = given.number("margin"); margin != 0.0) {
       if (margin < 1.0) {
-        return refused("margin = " + std::to_string(margin) + " must be at least 1, or 0");
+        return flyball::Error{flyball::ErrorCode::invalid_input,
+                              std::string{self} + ": margin = " + std::to_string(margin) +
+                                  " must be at least 1, or 0"};
       }
       settings.bound.first = std::log(margin);
       settings.bound.eta = 0.0;

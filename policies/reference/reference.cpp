@@ -8,15 +8,14 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
-#include "flyball/governors/required_knobs.h"
-#include "flyball/governors/required_power.h"
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include "horizon_search.h"
-#include "mission_energy/mission_limits.h"
+#include "mission_energy/limited_search.h"
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace {
 
@@ -47,32 +46,14 @@ class Reference final : public flyball::Policy,
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs,
                         const flyball::BoardModel& board) override {
-    const std::string self = "policy \"reference\"";
-    if (flyball::Status status = flyball::require_knobs(
-            self, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
-        !status) {
-      return status;
+    auto made = flyball::LimitedSearch::make("policy \"reference\"", given, knobs, board,
+                                             flyball::EnergySearchSettings{});
+    if (!made) {
+      return made.error();
     }
-    const auto power = flyball::required_power(self, board);
-    if (!power) {
-      return power.error();
-    }
-    auto limits = flyball::MissionLimits::make(self, given, knobs);
-    if (!limits) {
-      return limits.error();
-    }
-    flyball::EnergySearchSettings settings;
-    settings.spacing_m = limits->spacing_m();
-    const auto levels =
-        limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make(settings, levels, limits->ranges_m(), knobs, *power);
-    if (!search) {
-      return flyball::Error{flyball::ErrorCode::invalid_input,
-                            self + ": " + search.error().message};
-    }
-    levels_m_ = search->points().axes().front().values;
-    limits_.emplace(std::move(*limits));
-    search_.emplace(std::move(*search));
+    levels_m_ = made->search.points().axes().front().values;
+    limits_.emplace(std::move(made->limits));
+    search_.emplace(std::move(made->search));
     horizon_.emplace(flyball::HorizonSettings{}, *search_);
     around_.resize(flyball::HorizonSettings{}.places);
     return flyball::Done{};
