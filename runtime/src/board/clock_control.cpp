@@ -19,10 +19,10 @@ Status ClockControl::set(Hertz wanted, const std::vector<Hertz>& clocks) {
   for (const Hertz step : clocks) {
     clock = wanted < step ? clock : step;
   }
-  if (const Status kept = keep_files(); !kept) {
+  if (Status kept = keep_files(); !kept) {
     return kept;
   }
-  if (const Status taken = take_governor(); !taken) {
+  if (Status taken = take_governor(); !taken) {
     return taken;
   }
   Status moved = move_limits(clock);
@@ -33,7 +33,7 @@ Status ClockControl::set(Hertz wanted, const std::vector<Hertz>& clocks) {
     return moved;
   }
   if (is_by_hand_) {
-    if (const Status set = keeper_.write(file("scaling_setspeed"), khz_of(clock)); !set) {
+    if (Status set = keeper_.write(file("scaling_setspeed"), khz_of(clock)); !set) {
       return set;
     }
   }
@@ -49,7 +49,7 @@ Status ClockControl::keep_files() {
     if (is_kept_ || !is_needed) {
       continue;
     }
-    if (const Status kept = keeper_.keep(file(name)); !kept) {
+    if (Status kept = keeper_.keep(file(name)); !kept) {
       return kept;
     }
   }
@@ -62,7 +62,7 @@ Status ClockControl::take_governor() {
   if (!is_by_hand_ || text_in(system_, file("scaling_governor")) == "userspace") {
     return Done{};
   }
-  const Status taken = keeper_.write(file("scaling_governor"), "userspace");
+  Status taken = keeper_.write(file("scaling_governor"), "userspace");
   if (!taken && taken.error().code == ErrorCode::invalid_input) {
     is_by_hand_ = false;  // Listed, but not to be had: the limits do it too.
     return Done{};
@@ -100,7 +100,7 @@ Status ClockControl::move_limits(Hertz clock) {
       continue;
     }
     const char* name = is_upper ? "scaling_max_freq" : "scaling_min_freq";
-    if (const Status written = keeper_.write(file(name), khz_of(to)); !written) {
+    if (Status written = keeper_.write(file(name), khz_of(to)); !written) {
       return written;
     }
   }

@@ -9,7 +9,7 @@ namespace flyball {
 CoreControl::CoreControl(LinuxSystem& system,
                          SettingsKeeper& keeper,
                          const std::vector<BoardCore>& cores,
-                         std::vector<int> order,
+                         const std::vector<int>& order,
                          bool unplugs)
     : system_{system}, keeper_{keeper}, unplugs_{unplugs} {
   for (const int id : order) {

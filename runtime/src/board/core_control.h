@@ -23,7 +23,7 @@ class CoreControl {
   CoreControl(LinuxSystem& system,
               SettingsKeeper& keeper,
               const std::vector<BoardCore>& cores,
-              std::vector<int> order,
+              const std::vector<int>& order,
               bool unplugs);
 
   [[nodiscard]] int max_cores() const { return static_cast<int>(order_.size()); }

@@ -74,14 +74,14 @@ class RootedSystem final : public LinuxSystem {
     return Done{};
   }
 
-  Status may_write(const std::string& path) const override {
+  [[nodiscard]] Status may_write(const std::string& path) const override {
     if (access((root_ + path).c_str(), W_OK) != 0) {
       return system_error(path + " cannot be written", errno);
     }
     return Done{};
   }
 
-  std::vector<std::string> entries(const std::string& folder) const override {
+  [[nodiscard]] std::vector<std::string> entries(const std::string& folder) const override {
     std::vector<std::string> names;
     DIR* open_folder = opendir((root_ + folder).c_str());
     if (open_folder == nullptr) {

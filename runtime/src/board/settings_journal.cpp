@@ -144,10 +144,12 @@ Status SettingsJournal::append(const KeptSetting& kept) {
   return Done{};
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the file behind the descriptor changes
 void SettingsJournal::clear() {
   [[maybe_unused]] const int result = ftruncate(journal_, 0);
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): so does the lock behind this one
 void SettingsJournal::unlock() {
   flock(lock_, LOCK_UN);
 }

@@ -53,6 +53,17 @@ bool has_lost_some(const LinuxSystem& system, std::vector<Pending>& pending) {
   return has;
 }
 
+/// What a setting that could not be restored held, for whoever restores it by hand.
+Error not_restored(const Pending& one) {
+  const std::string why = one.error.empty() ? one.kept->path + " does not take it" : one.error;
+  std::string text = "not restored: " + why + "; it held " +
+                     std::to_string(one.kept->content.size()) + " bytes: " + one.kept->content;
+  while (!text.empty() && text.back() == '\n') {
+    text.pop_back();
+  }
+  return {ErrorCode::failed, std::move(text)};
+}
+
 }  // namespace
 
 std::vector<Error> restore_settings(LinuxSystem& system, const std::vector<KeptSetting>& kept) {
@@ -73,13 +84,7 @@ std::vector<Error> restore_settings(LinuxSystem& system, const std::vector<KeptS
   std::vector<Error> errors;
   for (const Pending& one : pending) {
     if (!one.is_written) {
-      const std::string why = one.error.empty() ? one.kept->path + " does not take it" : one.error;
-      errors.push_back({ErrorCode::failed, "not restored: " + why + "; it held " +
-                                               std::to_string(one.kept->content.size()) +
-                                               " bytes: " + one.kept->content});
-      while (!errors.back().message.empty() && errors.back().message.back() == '\n') {
-        errors.back().message.pop_back();
-      }
+      errors.push_back(not_restored(one));
     }
   }
   return errors;
@@ -125,7 +130,7 @@ struct SettingsKeeper::State {
       return content.error();
     }
     KeptSetting setting{path, *content};
-    if (const Status appended = journal.append(setting); !appended) {
+    if (Status appended = journal.append(setting); !appended) {
       return appended;
     }
     kept.push_back(std::move(setting));
@@ -179,7 +184,7 @@ Status SettingsKeeper::write(const std::string& path, const std::string& text) {
       return Error{ErrorCode::failed, path + " is not written: " + watched.error().message};
     }
   }
-  if (const Status kept = state_->keep(path); !kept) {
+  if (Status kept = state_->keep(path); !kept) {
     return kept;
   }
   return state_->system.write(path, text);
