@@ -6,50 +6,61 @@
 
 #include "flyball/runtime/graph.h"
 
-#include <deque>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace flyball {
 
+/// A message and its place in its topic's history; see `MessageVersion`.
+struct VersionedMessage {
+  Message message{};
+  std::uint64_t version{};
+};
+
 /// A latest-value topic is a queue of one. In the inbox of the topic that triggers the node, each
-/// unread message is owed a job; one that is pushed out is owed none.
+/// unread message is owed a job; one that is pushed out is owed none. Allocates only when it is
+/// made.
 class Inbox {
  public:
-  Inbox(int topic, std::size_t capacity) : topic_{topic}, capacity_{capacity} {}
+  Inbox(int topic, std::size_t capacity) : topic_{topic}, letters_(capacity) {}
 
   [[nodiscard]] int topic() const { return topic_; }
-  [[nodiscard]] std::size_t capacity() const { return capacity_; }
+  [[nodiscard]] std::size_t capacity() const { return letters_.size(); }
   /// Whether an older message was pushed out.
-  [[nodiscard]] bool add(Message message, MissionTime arrived) {
-    unread_.push_back({std::move(message), arrived});
-    if (unread_.size() <= capacity_) {
-      return false;
+  [[nodiscard]] bool add(VersionedMessage message, MissionTime arrived) {
+    const bool is_full = count_ == letters_.size();
+    if (is_full) {
+      (void)take();
     }
-    unread_.pop_front();
-    return true;
+    letters_[(first_ + count_) % letters_.size()] = {std::move(message), arrived};
+    ++count_;
+    return is_full;
   }
   /// Oldest unread message, which is removed; null when there is none.
-  [[nodiscard]] Message take() {
-    if (unread_.empty()) {
-      return nullptr;
+  [[nodiscard]] VersionedMessage take() {
+    if (count_ == 0) {
+      return {};
     }
-    Message oldest = std::move(unread_.front().message);
-    unread_.pop_front();
+    VersionedMessage oldest = std::exchange(letters_[first_].message, {});
+    first_ = (first_ + 1) % letters_.size();
+    --count_;
     return oldest;
   }
   [[nodiscard]] std::optional<MissionTime> oldest_arrival() const {
-    return unread_.empty() ? std::nullopt : std::optional{unread_.front().arrived};
+    return count_ == 0 ? std::nullopt : std::optional{letters_[first_].arrived};
   }
 
  private:
   struct Letter {
-    Message message;
-    MissionTime arrived;
+    VersionedMessage message{};
+    MissionTime arrived{};
   };
   int topic_;
-  std::size_t capacity_;
-  std::deque<Letter> unread_;
+  std::vector<Letter> letters_;  ///< A ring.
+  std::size_t first_{};
+  std::size_t count_{};
 };
 
 }  // namespace flyball

@@ -17,6 +17,7 @@ namespace flyball {
 struct Job {
   std::uint64_t id{};  ///< In the order of release.
   bool has_started{};
+  bool is_told_to_stop{};
   JobRecord record{};
 
   double left{1.0};     ///< Share of the work that is still to do.

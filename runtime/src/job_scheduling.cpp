@@ -10,6 +10,7 @@
 #include "virtual_computer.h"
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace flyball {
 
@@ -31,12 +32,16 @@ class RunningJob final : public JobContext {
  protected:
   [[nodiscard]] Message read(int topic) const override {
     (void)inbox(topic);
-    return computer_.topics[VirtualComputer::index(topic)].newest;
+    const VersionedMessage& newest = computer_.topics[VirtualComputer::index(topic)].newest;
+    job_.record.reads.push_back({topic, newest.version});
+    return newest.message;
   }
   [[nodiscard]] Message pop(int topic) override {
     Inbox& box = inbox(topic);
     has_taken_trigger_ = has_taken_trigger_ || &box == &node().inboxes.front();
-    return box.take();
+    VersionedMessage taken = box.take();
+    job_.record.reads.push_back({topic, taken.version});
+    return std::move(taken.message);
   }
   void push(int topic, Message message) override {
     const NodeSpec& spec = computer_.spec(node_);
@@ -117,6 +122,7 @@ void VirtualComputer::compute(int node) {
   Job& job = *here.job;
   job.has_started = true;
   job.record.started = queue.now();
+  job.record.clock = point.frequency;
   RunningJob context{*this, node, job};
   const auto begin = std::chrono::steady_clock::now();
   job.record.work = graph.nodes()[index(node)].body(context);

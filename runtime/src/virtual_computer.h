@@ -22,7 +22,7 @@ struct NodeState {
 };
 
 struct TopicState {
-  Message newest{};
+  VersionedMessage newest{};
   std::vector<int> readers{};  ///< Nodes, ascending.
   /// A deque: a listener may add another one while it runs.
   std::deque<std::function<void(const Message&)>> listeners{};
@@ -38,13 +38,15 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
 
   // Messages and jobs.
   void publish(int topic, const Message& message);
-  void deliver(int node, int topic, const Message& message);
+  void deliver(int node, int topic, const VersionedMessage& message);
   void trigger_periodically(int node);
   void release(int node, MissionTime at);
   void release_next(int node);
   void pass_deadline(int node, std::uint64_t job);
   void end_job(int node);
   void kill_job(int node);
+  /// Tells the job of `node` to stop: it works on for its node's stop latency, for nothing.
+  void tell_to_stop(int node);
   Job take_job(int node);
   void tell(const JobRecord& record);
 

@@ -77,9 +77,9 @@ void VirtualComputer::trigger_periodically(int node) {
 
 void VirtualComputer::publish(int topic, const Message& message) {
   TopicState& here = topics[index(topic)];
-  here.newest = message;
+  here.newest = {message, here.newest.version + 1};
   for (const int node : here.readers) {
-    deliver(node, topic, message);
+    deliver(node, topic, here.newest);
   }
   const std::size_t listeners = here.listeners.size();
   for (std::size_t i = 0; i < listeners; ++i) {
@@ -87,7 +87,7 @@ void VirtualComputer::publish(int topic, const Message& message) {
   }
 }
 
-void VirtualComputer::deliver(int node, int topic, const Message& message) {
+void VirtualComputer::deliver(int node, int topic, const VersionedMessage& message) {
   NodeState& reader = nodes[index(node)];
   const auto inbox = std::find_if(reader.inboxes.begin(), reader.inboxes.end(),
                                   [topic](const Inbox& box) { return box.topic() == topic; });
@@ -136,8 +136,23 @@ void VirtualComputer::pass_deadline(int node, std::uint64_t job) {
     miss_listeners[i](node, on_miss);
   }
   if (on_miss == OnMiss::skip) {
-    kill_job(node);
+    tell_to_stop(node);
   }
+}
+
+void VirtualComputer::tell_to_stop(int node) {
+  Job& job = *nodes[index(node)].job;
+  const Duration latency = spec(node).stop_latency;
+  if (!job.has_started || latency <= Duration::zero()) {
+    kill_job(node);
+    return;
+  }
+  job.is_told_to_stop = true;
+  at(queue.now() + latency, EventOrder::trigger, [node, id = job.id](VirtualComputer& computer) {
+    if (const auto& present = computer.nodes[index(node)].job; present && present->id == id) {
+      computer.kill_job(node);
+    }
+  });
 }
 
 Job VirtualComputer::take_job(int node) {
@@ -151,6 +166,10 @@ Job VirtualComputer::take_job(int node) {
 }
 
 void VirtualComputer::end_job(int node) {
+  if (nodes[index(node)].job->is_told_to_stop) {
+    kill_job(node);
+    return;
+  }
   const Job job = take_job(node);
   release_next(node);
   for (const auto& action : job.at_end) {

@@ -3,9 +3,9 @@
 
 #include "flyball/runtime/random.h"
 
-#include "pool_job.h"
+#include "message_exchange.h"
+#include "node_job.h"
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -27,16 +27,12 @@ std::size_t index(int i) {
 
 struct PoolNode {
   enum class State { idle, ready, running };
-  State state{State::idle};
-  MissionTime released{};
-  std::uint64_t due_slice{};  ///< The job has ended when this slice has.
-  std::vector<Inbox> inboxes{};
-  bool has_trigger_inbox{};
-};
+  explicit PoolNode(const NodeSpec& spec) : job{spec, nullptr} {}
 
-struct PoolTopic {
-  Message newest{};
-  std::vector<int> readers{};
+  State state{State::idle};
+  std::uint64_t due_slice{};  ///< The job has ended when this slice has.
+  std::chrono::microseconds pause{};
+  NodeJob job;
 };
 
 /// What listeners have not yet been told: a message, or that a job has ended.
@@ -55,21 +51,18 @@ struct PoolExecutor::Pool : std::enable_shared_from_this<Pool> {
         queue{events},
         settings{chosen},
         random{chosen.seed, "pool"},
-        nodes(hosted.nodes().size()),
-        topics(hosted.topics().size()),
+        exchange{hosted},
         listeners(hosted.topics().size()) {}
 
   [[nodiscard]] const NodeSpec& spec(int node) const { return graph.nodes()[index(node)].spec; }
-  void open_inboxes(int node);
   void start();
   void every(MissionTime first, Duration period, EventOrder order, std::function<void()> action);
 
   // With the lock held.
   void put(int topic, const Message& message);
-  void deliver(int node, int topic, const Message& message);
   void release(int node, MissionTime at);
-  void begin(int node, PoolJob& job);
-  void end(int node, PoolJob& job);
+  void begin(int node);
+  void end(int node);
   [[nodiscard]] bool has_job_due(std::uint64_t by_slice) const;
 
   void work();
@@ -91,15 +84,15 @@ struct PoolExecutor::Pool : std::enable_shared_from_this<Pool> {
   RandomStream random;
   MissionTime now{};
   std::uint64_t slice{};
-  std::vector<PoolNode> nodes;
-  std::vector<PoolTopic> topics;
+  MessageExchange exchange;
+  std::deque<PoolNode> nodes{};
+  std::uint64_t dropped_periods{};
   std::vector<int> ready{};
   std::vector<int> running{};
   std::deque<News> news{};
   std::set<std::pair<int, int>> overlaps{};
   bool is_stopped{};
 
-  std::atomic<std::uint64_t> drops{};
   mutable std::mutex point_mutex{};  ///< Of the two points.
   OperatingPoint wanted{};
   OperatingPoint granted{};
@@ -109,22 +102,6 @@ struct PoolExecutor::Pool : std::enable_shared_from_this<Pool> {
   std::deque<std::function<void(const JobRecord&)>> job_listeners{};
   std::vector<std::thread> threads{};
 };
-
-void PoolExecutor::Pool::open_inboxes(int node) {
-  PoolNode& here = nodes[index(node)];
-  std::vector<int> reads = spec(node).reads;
-  if (const auto* message = std::get_if<OnMessage>(&spec(node).trigger)) {
-    here.has_trigger_inbox = true;
-    reads.insert(reads.begin(), message->topic);
-  }
-  for (const int topic : reads) {
-    auto& readers = topics[index(topic)].readers;
-    if (readers.empty() || readers.back() != node) {
-      readers.push_back(node);
-      here.inboxes.emplace_back(topic, graph.topics()[index(topic)].capacity);
-    }
-  }
-}
 
 void PoolExecutor::Pool::every(MissionTime first,
                                Duration period,
@@ -138,8 +115,8 @@ void PoolExecutor::Pool::every(MissionTime first,
 }
 
 void PoolExecutor::Pool::start() {
-  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    open_inboxes(node);
+  for (int node = 0; node < static_cast<int>(graph.nodes().size()); ++node) {
+    exchange.equip(node, nodes.emplace_back(spec(node)).job);
     if (const auto* period = std::get_if<OnPeriod>(&spec(node).trigger)) {
       every(queue.now() + period->phase, period->period, EventOrder::trigger,
             [this, node] { trigger(node); });
@@ -153,30 +130,19 @@ void PoolExecutor::Pool::start() {
 }
 
 void PoolExecutor::Pool::put(int topic, const Message& message) {
-  PoolTopic& here = topics[index(topic)];
-  here.newest = message;
-  for (const int node : here.readers) {
-    deliver(node, topic, message);
-  }
-}
-
-void PoolExecutor::Pool::deliver(int node, int topic, const Message& message) {
-  PoolNode& reader = nodes[index(node)];
-  const auto inbox = std::find_if(reader.inboxes.begin(), reader.inboxes.end(),
-                                  [topic](const Inbox& box) { return box.topic() == topic; });
-  const bool is_trigger = reader.has_trigger_inbox && inbox == reader.inboxes.begin();
-  if (inbox->add(message, now) && (is_trigger || inbox->capacity() > 1)) {
-    ++drops;
-  }
-  if (is_trigger && reader.state == PoolNode::State::idle) {
-    release(node, now);
+  for (const int node : exchange.put(topic, message, now)) {
+    if (nodes[index(node)].state == PoolNode::State::idle) {
+      release(node, now);
+    }
   }
 }
 
 void PoolExecutor::Pool::release(int node, MissionTime at) {
   PoolNode& here = nodes[index(node)];
   here.state = PoolNode::State::ready;
-  here.released = at;
+  here.job.renew();
+  here.job.record.node = node;
+  here.job.record.released = at;
   std::uint64_t more = random.next() % (static_cast<std::uint64_t>(settings.most_slices_more) + 1);
   if (const Duration deadline = spec(node).deadline; deadline > Duration::zero()) {
     const auto whole_slices = static_cast<std::uint64_t>(deadline / settings.slice);
@@ -187,49 +153,37 @@ void PoolExecutor::Pool::release(int node, MissionTime at) {
   ready_or_stopped.notify_one();
 }
 
-/// The inboxes go with the job; what arrives meanwhile is collected in empty ones.
-void PoolExecutor::Pool::begin(int node, PoolJob& job) {
+void PoolExecutor::Pool::begin(int node) {
   PoolNode& here = nodes[index(node)];
   here.state = PoolNode::State::running;
   for (const int other : running) {
     overlaps.emplace(std::min(node, other), std::max(node, other));
   }
   running.push_back(node);
-  job.record.node = node;
-  job.record.released = here.released;
+  here.job.record.started = now;
+  here.pause = {};
   if (random.next() % jobs_per_pause == 0) {
-    job.pause = std::chrono::microseconds{random.next() % longest_pause_us};
+    here.pause = std::chrono::microseconds{random.next() % longest_pause_us};
   }
-  for (Inbox& inbox : here.inboxes) {
-    job.newest.push_back(topics[index(inbox.topic())].newest);
-    job.unread.push_back(std::exchange(inbox, Inbox{inbox.topic(), inbox.capacity()}));
-  }
+  exchange.open(node, here.job);
 }
 
-void PoolExecutor::Pool::end(int node, PoolJob& job) {
+void PoolExecutor::Pool::end(int node) {
   PoolNode& here = nodes[index(node)];
-  if (here.has_trigger_inbox && !job.has_taken_trigger) {
-    (void)job.unread.front().take();  // Read by `latest`, or of no interest: one job, one message.
-  }
-  for (std::size_t i = 0; i < here.inboxes.size(); ++i) {
-    Inbox arrived = std::exchange(here.inboxes[i], std::move(job.unread[i]));
-    while (const auto at = arrived.oldest_arrival()) {
-      const bool counts = (here.has_trigger_inbox && i == 0) || arrived.capacity() > 1;
-      drops += here.inboxes[i].add(arrived.take(), *at) && counts ? 1 : 0;
-    }
-  }
+  NodeJob& job = here.job;
+  exchange.close(node, job);
   running.erase(std::find(running.begin(), running.end(), node));
-  here.state = PoolNode::State::idle;
-  if (const auto next = here.has_trigger_inbox ? here.inboxes.front().oldest_arrival()
-                                               : std::optional<MissionTime>{}) {
-    release(node, *next);
-  }
+  job.note_questions();
   job.record.ended = now;
   for (const auto& [topic, message] : job.outputs) {
     put(topic, message);
     news.push_back({topic, message, {}});
   }
   news.push_back({-1, nullptr, job.record});
+  here.state = PoolNode::State::idle;
+  if (const auto since = exchange.owed_since(node)) {
+    release(node, *since);
+  }
   job_ended.notify_all();
 }
 
@@ -243,16 +197,16 @@ void PoolExecutor::Pool::work() {
     std::swap(ready[random.next() % ready.size()], ready.back());
     const int node = ready.back();
     ready.pop_back();
-    PoolJob job{spec(node), now};
-    begin(node, job);
+    begin(node);
     lock.unlock();
-    std::this_thread::sleep_for(job.pause);
+    NodeJob& job = nodes[index(node)].job;
+    std::this_thread::sleep_for(nodes[index(node)].pause);
     job.record.work = graph.nodes()[index(node)].body(job);
     for (const auto& action : job.last_actions) {
       action(job.now());
     }
     lock.lock();
-    end(node, job);
+    end(node);
   }
 }
 
@@ -262,7 +216,7 @@ void PoolExecutor::Pool::trigger(int node) {
   if (nodes[index(node)].state == PoolNode::State::idle) {
     release(node, now);
   } else {
-    ++drops;
+    ++dropped_periods;
   }
 }
 
@@ -359,7 +313,8 @@ void PoolExecutor::platform_changed() {
 }
 
 std::uint64_t PoolExecutor::drops() const {
-  return pool_->drops.load(std::memory_order_relaxed);
+  const std::lock_guard lock{pool_->mutex};
+  return pool_->exchange.drops() + pool_->dropped_periods;
 }
 
 void PoolExecutor::stop() {

@@ -44,6 +44,7 @@ struct RigJob {
   double deadline_ms{};
   OnMiss on_miss{OnMiss::warn};
   std::size_t capacity{1};
+  double stop_latency_ms{};
 };
 
 /// Nodes that a message starts. Each publishes, as an output, how many jobs it has computed.
@@ -64,6 +65,7 @@ struct ComputerRig {
     spec.threads = job.threads;
     spec.deadline = at_ms(job.deadline_ms).time_since_epoch();
     spec.on_miss = job.on_miss;
+    spec.stop_latency = at_ms(job.stop_latency_ms).time_since_epoch();
     spec.writes = {outputs.back().index};
     graph.node(spec, [this, job, in = triggers.back(), out = outputs.back()](JobContext& context) {
       const auto message = context.take(in);

@@ -55,6 +55,31 @@ TEST(Deadline, a_skipped_job_leaves_nothing_and_frees_its_core) {
   EXPECT_EQ(rig.end_ms(other), 50.0);
 }
 
+TEST(Deadline, a_job_that_is_told_to_stop_works_on_until_its_body_would_ask) {
+  ComputerRig rig;
+  RigJob slow{100.0, 1, "serial", 1, 30.0, OnMiss::skip};
+  slow.stop_latency_ms = 5.0;
+  const int late = rig.add(slow);
+  slow.time_ms = 33.0;  // Told to stop at 30, it ends by itself before it asks.
+  slow.priority = 0;
+  const int nearly = rig.add(slow);
+  const int other = rig.add({20.0, -1});
+  rig.start(1);
+  int heard = 0;
+  rig.computer->subscribe<int>(rig.outputs[0], [&](const int&) { ++heard; });
+  rig.computer->subscribe<int>(rig.outputs[1], [&](const int&) { ++heard; });
+  rig.trigger(late, 0.0);
+  rig.trigger(nearly, 100.0);
+  rig.trigger(other, 0.0);
+  rig.run();
+  EXPECT_EQ(heard, 0);
+  EXPECT_TRUE(rig.of(late).killed && rig.of(late).missed);
+  EXPECT_EQ(rig.of(late).ended, at_ms(35.0));
+  EXPECT_EQ(rig.end_ms(other), 55.0);
+  EXPECT_TRUE(rig.of(nearly).killed);
+  EXPECT_EQ(rig.of(nearly).ended, at_ms(133.0));
+}
+
 TEST(Deadline, a_job_skipped_before_it_got_a_core_never_computes) {
   ComputerRig rig;
   const int low = rig.add({10.0, 0, "serial", 1, 30.0, OnMiss::skip});

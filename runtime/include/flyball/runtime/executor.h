@@ -2,15 +2,27 @@
 #pragma once
 
 /// @file
-/// Runs a graph: on a modeled computer in mission time, or (later) on threads in real time.
+/// Runs a graph: on a modeled computer in mission time, or on threads in real time.
 
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/platform.h"
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace flyball {
+
+/// A message by its place in its topic's history: the first one has version 1, and 0 stands for
+/// none.
+struct MessageVersion {
+  int topic{};
+  std::uint64_t version{};
+  friend bool operator==(const MessageVersion& a, const MessageVersion& b) {
+    return a.topic == b.topic && a.version == b.version;
+  }
+  friend bool operator!=(const MessageVersion& a, const MessageVersion& b) { return !(a == b); }
+};
 
 /// One job from release to end.
 struct JobRecord {
@@ -23,6 +35,11 @@ struct JobRecord {
   bool killed{};    ///< By `OnMiss::skip`.
   bool missed{};    ///< Its deadline.
   double host_s{};  ///< Host time of the computation: never part of the trace hash.
+  int core{-1};     ///< On which it began; -1: not known, as on a modeled computer.
+  Hertz clock{};    ///< That was granted when it began.
+  std::vector<MessageVersion> reads{};  ///< In the order in which the body asked.
+  /// How often it asked whether to stop before it was told so; all its questions if it never was.
+  std::uint64_t questions_before_stop{};
 };
 
 /// Its owner's thread constructs it, subscribes and publishes from outside. Listeners are called on
@@ -31,7 +48,8 @@ struct JobRecord {
 /// drops; all else is for the owner's thread.
 class Executor {
  public:
-  Executor() = default;
+  /// @param pool  Where what is published takes its memory; null: the heap.
+  explicit Executor(std::shared_ptr<MessagePool> pool = nullptr) : pool_{std::move(pool)} {}
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
   virtual ~Executor() = default;
@@ -39,7 +57,7 @@ class Executor {
   /// Publishes from outside the graph (a sensor, the mission) at the present time.
   template <class T>
   void publish(Topic<T> topic, T value) {
-    inject(topic.index, std::make_shared<const T>(std::move(value)));
+    inject(topic.index, make_message(pool_, std::move(value)));
   }
   /// Calls `listener` when a message appears on the topic (the flight controller, a recorder).
   template <class T>
@@ -69,6 +87,9 @@ class Executor {
   /// Dropped since the start: messages from full queues, triggers of a latest-value topic that were
   /// overtaken before a job read them, and periods that began while their node was busy.
   [[nodiscard]] virtual std::uint64_t drops() const = 0;
+  /// The owner's thread calls it before it does what is due at `at`. In real time it returns then,
+  /// having told the listeners meanwhile what has happened; on modeled time, at once.
+  virtual void serve_until(MissionTime /*at*/) {}
   /// No job starts from now on; one that runs is waited for. Afterwards the caller may look at what
   /// the nodes own.
   virtual void stop() = 0;
@@ -76,6 +97,9 @@ class Executor {
  protected:
   virtual void inject(int topic, Message message) = 0;
   virtual void listen(int topic, std::function<void(const Message&)> listener) = 0;
+
+ private:
+  std::shared_ptr<MessagePool> pool_;  ///< Owners: see `PoolAllocator`.
 };
 
 }  // namespace flyball

@@ -5,6 +5,7 @@
 /// A workload as nodes that talk by typed topics and services; the same graph for every executor.
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/realtime/message_pool.h"
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/work.h"
 
@@ -43,7 +44,7 @@ struct TopicSpec {
 
 enum class OnMiss : std::uint8_t {
   warn,   ///< Count it.
-  skip,   ///< Kill the job; its outputs never appear.
+  skip,   ///< Tell the job to stop; its outputs never appear.
   brake,  ///< Tell the guard to stop the vehicle.
 };
 
@@ -66,6 +67,9 @@ struct NodeSpec {
   int priority{};       ///< Higher runs first.
   Duration deadline{};  ///< From release to end; zero: none.
   OnMiss on_miss{OnMiss::warn};
+  /// Under `skip`, how long a job that was told to stop goes on at most: the longest time between
+  /// two questions of its body (`JobContext::should_stop`). A modeled computer works so long on it.
+  Duration stop_latency{};
   /// Cores that the job can use at once; every shipped kernel uses one. The modeled computer then
   /// gives it so many, and `Platform::speedup` says what they bring.
   int threads{1};
@@ -78,7 +82,8 @@ struct NodeSpec {
 /// What a job may touch. Its publications appear when the job's time has passed.
 class JobContext {
  public:
-  JobContext() = default;
+  /// @param pool  Where its publications take their memory; null: the heap.
+  explicit JobContext(std::shared_ptr<MessagePool> pool = nullptr) : pool_{std::move(pool)} {}
   JobContext(const JobContext&) = delete;
   JobContext& operator=(const JobContext&) = delete;
   virtual ~JobContext() = default;
@@ -99,8 +104,11 @@ class JobContext {
   }
   template <class T>
   void publish(Topic<T> topic, T value) {
-    push(topic.index, std::make_shared<const T>(std::move(value)));
+    push(topic.index, make_message(pool_, std::move(value)));
   }
+  /// A long computation asks now and then, and returns early when it is true: the job's deadline
+  /// has passed under `OnMiss::skip`, or the executor stops, so that nobody will see its outputs.
+  [[nodiscard]] virtual bool should_stop() const { return false; }
   /// Runs when the job ends, before its publications appear; never when it was killed.
   virtual void at_end(std::function<void(MissionTime)> action) = 0;
 
@@ -108,6 +116,9 @@ class JobContext {
   [[nodiscard]] virtual Message read(int topic) const = 0;
   [[nodiscard]] virtual Message pop(int topic) = 0;
   virtual void push(int topic, Message message) = 0;
+
+ private:
+  std::shared_ptr<MessagePool> pool_;  ///< Owners: see `PoolAllocator`.
 };
 
 /// The node's computation; returns the work that it did.

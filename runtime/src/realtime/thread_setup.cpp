@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: realtime_executor
+#include "realtime/thread_setup.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace flyball {
+namespace {
+
+constexpr std::size_t prefaulted_bytes = 256 * 1024;  // Chosen: more than OMPL's deepest recursion.
+
+std::string reason(int number) {
+  return std::strerror(number);  // NOLINT(concurrency-mt-unsafe): glibc's is safe per thread.
+}
+
+/// Touches the pages of the stack below, so that none of them faults during a job.
+[[gnu::noinline]] void touch_stack() {
+  std::array<volatile char, prefaulted_bytes> pages;  // NOLINT: it is written in the next lines.
+  for (std::size_t i = 0; i < pages.size(); i += 4096) {
+    pages[i] = 1;
+  }
+}
+
+std::optional<std::string> set_fifo(const std::string& name, int priority) {
+  sched_param wanted{};
+  wanted.sched_priority = priority;
+  const int failed = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+  int policy{};
+  sched_param granted{};
+  pthread_getschedparam(pthread_self(), &policy, &granted);
+  if (failed == 0 && policy == SCHED_FIFO && granted.sched_priority == priority) {
+    return std::nullopt;
+  }
+  return "thread " + name + " runs under ordinary scheduling, not SCHED_FIFO at priority " +
+         std::to_string(priority) + (failed != 0 ? " (" + reason(failed) + ")" : "") +
+         "; give the program CAP_SYS_NICE, or its user an rtprio limit of " +
+         std::to_string(priority);
+}
+
+std::optional<std::string> set_nice(const std::string& name, int nice) {
+  const auto thread = static_cast<id_t>(thread_id());
+  errno = 0;
+  const bool is_set = setpriority(PRIO_PROCESS, thread, nice) == 0;
+  const int failed = errno;
+  if (is_set && getpriority(PRIO_PROCESS, thread) == nice) {
+    return std::nullopt;
+  }
+  return "thread " + name + " did not get the nice value " + std::to_string(nice) + " (" +
+         reason(failed) + ")";
+}
+
+}  // namespace
+
+pid_t thread_id() {
+  return static_cast<pid_t>(syscall(SYS_gettid));
+}
+
+std::vector<std::string> set_up_thread(const ThreadWish& wish) {
+  std::vector<std::string> notes;
+  pthread_setname_np(pthread_self(), wish.name.substr(0, 15).c_str());
+  // Timers of ordinary threads may otherwise come 50 us late.
+  prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
+  std::optional<std::string> note;
+  if (wish.fifo_priority) {
+    note = set_fifo(wish.name, *wish.fifo_priority);
+  } else if (wish.nice > 0) {
+    note = set_nice(wish.name, wish.nice);
+  }
+  if (note) {
+    notes.push_back(*note);
+  }
+  if (wish.prefault_stack) {
+    touch_stack();
+  }
+  return notes;
+}
+
+std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus) {
+  cpu_set_t wanted;
+  CPU_ZERO(&wanted);
+  std::string names;
+  for (const int cpu : cpus) {
+    CPU_SET(static_cast<std::size_t>(cpu), &wanted);
+    names += (names.empty() ? "" : ", ") + std::to_string(cpu);
+  }
+  const bool is_set = sched_setaffinity(thread, sizeof wanted, &wanted) == 0;
+  const int failed = errno;
+  cpu_set_t granted;
+  CPU_ZERO(&granted);
+  sched_getaffinity(thread, sizeof granted, &granted);
+  if (is_set && CPU_EQUAL(&wanted, &granted)) {
+    return std::nullopt;
+  }
+  return "a thread could not be bound to the cores " + names + " (" +
+         (is_set ? "the system granted fewer" : reason(failed)) + "); is one of them off-line?";
+}
+
+std::optional<std::string> lock_process_memory() {
+#ifdef MCL_ONFAULT
+  constexpr int what = MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT;
+#else
+  constexpr int what = MCL_CURRENT | MCL_FUTURE;
+#endif
+  if (mlockall(what) == 0) {
+    return std::nullopt;
+  }
+  return "the program's memory is not locked (" + reason(errno) +
+         "): a page that the system took away costs milliseconds; give the program CAP_IPC_LOCK, "
+         "or its user an unlimited memlock limit";
+}
+
+std::vector<int> usable_cpus() {
+  cpu_set_t usable;
+  CPU_ZERO(&usable);
+  sched_getaffinity(0, sizeof usable, &usable);
+  std::vector<int> cpus;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (CPU_ISSET(static_cast<std::size_t>(cpu), &usable)) {
+      cpus.push_back(cpu);
+    }
+  }
+  return cpus;
+}
+
+}  // namespace flyball

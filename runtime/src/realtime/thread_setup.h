@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What a thread of the real-time executor asks of the operating system, and what it was granted.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace flyball {
+
+struct ThreadWish {
+  std::string name{};                  ///< At most 15 characters, for `top` and debuggers.
+  std::optional<int> fifo_priority{};  ///< Empty: ordinary scheduling with `nice`.
+  int nice{};
+  bool prefault_stack{};
+};
+
+/// For the calling thread. Each wish is read back; one sentence for each that was not granted, with
+/// what would help.
+[[nodiscard]] std::vector<std::string> set_up_thread(const ThreadWish& wish);
+
+/// Binds a thread (0: the calling one) to these cores; a sentence if that failed.
+[[nodiscard]] std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus);
+
+/// Keeps what the process touches from now on in memory; a sentence if that failed.
+[[nodiscard]] std::optional<std::string> lock_process_memory();
+
+/// Cores that the process may use, ascending.
+[[nodiscard]] std::vector<int> usable_cpus();
+
+/// Of the calling thread, as the kernel counts it.
+[[nodiscard]] pid_t thread_id();
+
+}  // namespace flyball
