@@ -152,7 +152,9 @@ void connect(Flight& flight, const MissionHooks& hooks) {
 /// Flies until the mission is over, and what happens at that same moment.
 void run(Flight& flight, const MissionHooks& hooks) {
   EventQueue& queue = flight.queue;
-  queue.run([&] { return flight.link->outcome() || (hooks.stop && hooks.stop()); });
+  do {
+    flight.executor->serve_until(queue.next().value_or(queue.now()));
+  } while (queue.step() && !flight.link->outcome() && !(hooks.stop && hooks.stop()));
   while (queue.next() && *queue.next() <= queue.now()) {
     (void)queue.step();
   }
@@ -202,6 +204,9 @@ void fill_computing(Summary& summary, const Flight& flight) {
   summary.kernels = flight.recorder->kernels();
   summary.quality = flight.workload->quality();
   summary.quality.merge(flight.referee->figures());
+  if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
+    summary.quality["simulator_late_s_max"] = to_seconds(late);
+  }
   if (const auto& localization = flight.link->localization()) {
     summary.quality["localization_lost"] = localization->times_lost;
     summary.quality["localization_lost_s"] = localization->lost_s;

@@ -136,6 +136,7 @@ struct RealtimeEngine {
   // The owner's thread only. Deques: a listener may add another one while it runs.
   bool is_started{};
   bool is_stopped{};
+  Duration longest_delay{};
   NewsList told{};
   std::vector<std::deque<std::function<void(const Message&)>>> listeners;
   std::deque<std::function<void(const JobRecord&)>> job_listeners{};

@@ -2,9 +2,9 @@
 #include "flyball/runtime/realtime/realtime_executor.h"
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/realtime/cpus.h"
 
 #include "realtime/realtime_engine.h"
-#include "realtime/thread_setup.h"
 #include <algorithm>
 #include <ctime>
 #include <utility>
@@ -164,7 +164,11 @@ void RealtimeExecutor::serve_until(MissionTime at) {
       return;
     }
     engine_->tell_news();
-    if (engine_->is_stopped || engine_->now() >= at) {
+    if (engine_->is_stopped) {
+      return;
+    }
+    if (const Duration late = engine_->now() - at; late >= Duration::zero()) {
+      engine_->longest_delay = std::max(engine_->longest_delay, late);
       return;
     }
     engine_->owner.wait(ticket, {}, engine_->host_time(at));
@@ -225,8 +229,8 @@ void RealtimeExecutor::stop() {
   }
 }
 
-const std::vector<std::string>& RealtimeExecutor::notes() const {
-  return engine_->notes;
+Duration RealtimeExecutor::longest_delay() const {
+  return engine_->longest_delay;
 }
 
 void RealtimeExecutor::inject(int topic, Message message) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: realtime_executor
+#include "flyball/runtime/realtime/cpus.h"
+
 #include "realtime/realtime_engine.h"
 #include "realtime/thread_setup.h"
 #include <algorithm>
@@ -49,6 +51,11 @@ void RealtimeEngine::start() {
   }
   threads.emplace_back([this] { keep_time(); });
   wait_for_threads(threads.size());
+  for (const std::string& note : notes) {  // No thread adds to them any more.
+    if (settings.refused) {
+      settings.refused(note);
+    }
+  }
   {
     const std::lock_guard lock{mutex};
     for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {

@@ -2,6 +2,8 @@
 // tested-in: realtime_executor
 #include "realtime/thread_setup.h"
 
+#include "flyball/runtime/realtime/cpus.h"
+
 #include <array>
 #include <cerrno>
 #include <cstring>

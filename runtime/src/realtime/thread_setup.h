@@ -23,14 +23,8 @@ struct ThreadWish {
 /// what would help.
 [[nodiscard]] std::vector<std::string> set_up_thread(const ThreadWish& wish);
 
-/// Binds a thread (0: the calling one) to these cores; a sentence if that failed.
-[[nodiscard]] std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus);
-
 /// Keeps what the process touches from now on in memory; a sentence if that failed.
 [[nodiscard]] std::optional<std::string> lock_process_memory();
-
-/// Cores that the process may use, ascending.
-[[nodiscard]] std::vector<int> usable_cpus();
 
 /// Of the calling thread, as the kernel counts it.
 [[nodiscard]] pid_t thread_id();

@@ -90,6 +90,9 @@ class Executor {
   /// The owner's thread calls it before it does what is due at `at`. In real time it returns then,
   /// having told the listeners meanwhile what has happened; on modeled time, at once.
   virtual void serve_until(MissionTime /*at*/) {}
+  /// How much later than asked `serve_until` returned at most: by so much the owner's thread was
+  /// behind the clock. Zero on modeled time.
+  [[nodiscard]] virtual Duration longest_delay() const { return Duration::zero(); }
   /// No job starts from now on; one that runs is waited for. Afterwards the caller may look at what
   /// the nodes own.
   virtual void stop() = 0;

@@ -36,6 +36,9 @@ struct RealtimeSettings {
   /// Asks the board for a clock, and says what it granted. Empty: the clock is what it was at the
   /// start, whatever is asked. Called by whoever sets the operating point.
   std::function<OperatingPoint(const OperatingPoint& wanted)> grant{};
+  /// Told at the start, on the owner's thread, one sentence for each thing that the system did not
+  /// permit, and what would help.
+  std::function<void(const std::string& sentence)> refused{};
   /// Where each step is written; null: nowhere. Outlives the executor.
   RunLog* log{};
 };
@@ -63,6 +66,7 @@ class RealtimeExecutor final : public Executor {
   /// Now; zero before the first `serve_until`.
   [[nodiscard]] MissionTime now() const;
   void serve_until(MissionTime at) override;
+  [[nodiscard]] Duration longest_delay() const override;
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
   /// Told once for each job that has run for `stuck_after`, with how long it has.
@@ -79,8 +83,6 @@ class RealtimeExecutor final : public Executor {
   [[nodiscard]] std::uint64_t drops() const override;
   /// Jobs that run are told to stop.
   void stop() override;
-  /// One sentence for each thing that the system did not permit, from the start on.
-  [[nodiscard]] const std::vector<std::string>& notes() const;
 
  protected:
   void inject(int topic, Message message) override;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Which cores a process and its threads may use.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace flyball {
+
+/// Cores that the process may use, ascending.
+[[nodiscard]] std::vector<int> usable_cpus();
+
+/// Binds a thread (0: the calling one) to these cores, and reads that back; a sentence if it
+/// failed.
+[[nodiscard]] std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus);
+
+}  // namespace flyball
