@@ -51,7 +51,7 @@ struct RealtimeEngine {
   RealtimeEngine(const Graph& hosted,
                  const RealtimeSettings& chosen,
                  const OperatingPoint& first,
-                 std::shared_ptr<MessagePool> pool);
+                 const std::shared_ptr<MessagePool>& pool);
 
   // Jobs; all of them with the lock held.
   void put(int topic, const Message& message, MissionTime now);
@@ -63,7 +63,10 @@ struct RealtimeEngine {
   void release_owed(int node);
   void pass_deadline(int node);
   void tell_job(const JobRecord& record);
-  void log(RunEvent::Kind kind, int index, const JobRecord& record, const Message& message = {});
+  void log(RunEvent::Kind kind,
+           int index,
+           const JobRecord& record,
+           const Message& message = {}) const;
   void note_running(int change);
   void wake_timer_for(MissionTime at);
 

@@ -27,7 +27,7 @@ std::vector<int> distinct_priorities(const Graph& graph) {
 RealtimeEngine::RealtimeEngine(const Graph& hosted,
                                const RealtimeSettings& chosen,
                                const OperatingPoint& first,
-                               std::shared_ptr<MessagePool> pool)
+                               const std::shared_ptr<MessagePool>& pool)
     : graph{hosted},
       settings{chosen},
       cpus{chosen.cpus.empty() ? usable_cpus() : chosen.cpus},
@@ -139,12 +139,11 @@ RealtimeExecutor::RealtimeExecutor(const Graph& graph,
                                    const RealtimeSettings& settings)
     : RealtimeExecutor{std::make_shared<MessagePool>(), graph, point, settings} {}
 
-RealtimeExecutor::RealtimeExecutor(std::shared_ptr<MessagePool> pool,
+RealtimeExecutor::RealtimeExecutor(const std::shared_ptr<MessagePool>& pool,
                                    const Graph& graph,
                                    const OperatingPoint& point,
                                    const RealtimeSettings& settings)
-    : Executor{pool},
-      engine_{std::make_unique<RealtimeEngine>(graph, settings, point, std::move(pool))} {}
+    : Executor{pool}, engine_{std::make_unique<RealtimeEngine>(graph, settings, point, pool)} {}
 
 RealtimeExecutor::~RealtimeExecutor() {
   stop();

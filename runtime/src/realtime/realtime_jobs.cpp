@@ -142,7 +142,7 @@ void RealtimeEngine::tell_job(const JobRecord& record) {
 void RealtimeEngine::log(RunEvent::Kind kind,
                          int index,
                          const JobRecord& record,
-                         const Message& message) {
+                         const Message& message) const {
   if (settings.log != nullptr) {
     settings.log->events.push_back({kind, now(), index, message, record});
   }

@@ -19,7 +19,7 @@
 namespace flyball {
 namespace {
 
-constexpr std::size_t prefaulted_bytes = 256 * 1024;  // Chosen: more than OMPL's deepest recursion.
+constexpr std::size_t prefaulted_bytes = 262'144;  // Chosen: more than OMPL's deepest recursion.
 
 std::string reason(int number) {
   return std::strerror(number);  // NOLINT(concurrency-mt-unsafe): glibc's is safe per thread.

@@ -89,7 +89,7 @@ class RealtimeExecutor final : public Executor {
   void listen(int topic, std::function<void(const Message&)> listener) override;
 
  private:
-  RealtimeExecutor(std::shared_ptr<MessagePool> pool,
+  RealtimeExecutor(const std::shared_ptr<MessagePool>& pool,
                    const Graph& graph,
                    const OperatingPoint& point,
                    const RealtimeSettings& settings);
