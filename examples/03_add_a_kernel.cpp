@@ -38,8 +38,8 @@ ColourImage painted() {
   return image;
 }
 
-bool finds_what_was_painted() {
-  const auto detector = flyball::all_plugins().make<flyball::Detector>("blue_trousers");
+bool finds_what_was_painted(const flyball::Plugins& plugins) {
+  const auto detector = plugins.make<flyball::Detector>("blue_trousers");
   flyball::Work work;
   const auto found = detector->detect(painted(), 1.0, work);
   const flyball::ImageBox person{30.0, 28.0, 6.0, 24.0};
@@ -48,10 +48,10 @@ bool finds_what_was_painted() {
 
 /// Ten seconds of the shipped photography, priced as HOG: the modeled computer has no price for a
 /// kernel that it has never seen.
-flyball::Result<flyball::MissionRecord> follow_somebody() {
+flyball::Result<flyball::MissionRecord> follow_somebody(const flyball::Plugins& plugins) {
   auto loaded = flyball::load_scenario(
       "photography_park",
-      {"detector.cost_of=hog", "photography.limit_s=10", "photography.success_s=8"});
+      {"detector.cost_of=hog", "photography.limit_s=10", "photography.success_s=8"}, plugins);
   if (const auto* errors = std::get_if<std::vector<flyball::Error>>(&loaded)) {
     return errors->front();
   }
@@ -64,9 +64,9 @@ flyball::Result<flyball::MissionRecord> follow_somebody() {
 }  // namespace
 
 int main() {
-  flyball::add_plugins(flyball_plugin_blue_trousers);
-  const bool finds = finds_what_was_painted();
-  const auto flown = follow_somebody();
+  const flyball::Plugins plugins = flyball::Plugins{}.with(flyball_plugin_blue_trousers);
+  const bool finds = finds_what_was_painted(plugins);
+  const auto flown = follow_somebody(plugins);
   if (!flown && flown.error().code == flyball::ErrorCode::not_found) {
     std::printf("not flown: %s\n", flown.error().message.c_str());  // No mesh of a person.
     return finds ? 0 : 1;

@@ -23,7 +23,7 @@ int bound(const BoundOptions& options) {
   if (!options.seed.empty()) {
     settings.push_back("seed=" + options.seed);
   }
-  const auto loaded = load_scenario(options.flight.scenario, settings);
+  const auto loaded = load_scenario(options.flight.scenario, settings, options.flight.plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

@@ -13,7 +13,7 @@ namespace flyball {
 namespace {
 
 int config(const FlightOptions& options) {
-  const auto loaded = load_scenario(options.scenario, options.settings);
+  const auto loaded = load_scenario(options.scenario, options.settings, options.plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

@@ -20,7 +20,8 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupted = 0;
 
-// Of the first result that could not be written; 0: all could.
+// Standard output is the process's, and so is what became of it: the `errno` of the first result
+// that could not be written; 0: all could.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 int output_error = 0;
 

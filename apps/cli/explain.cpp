@@ -18,7 +18,7 @@ namespace {
 struct ExplainOptions {
   std::string folder;
   bool trusts{};
-  std::vector<std::string> kernels{};
+  Plugins plugins{};
   double at_s{};
 };
 
@@ -68,7 +68,7 @@ std::string worth_text(const Explanation& e) {
 }
 
 int run_explain(const ExplainOptions& options) {
-  Result<RecordedFlight> flight = read_flight(options.folder);
+  Result<RecordedFlight> flight = read_flight(options.folder, options.plugins);
   if (!flight) {
     return refuse({flight.error()});
   }
@@ -91,7 +91,7 @@ void add_explain(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<ExplainOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
-  add_kernels(*command, options->kernels);
+  add_kernels(*command, options->plugins);
   refuse_nan(*command->add_option("--at", options->at_s, "mission time")
                   ->type_name("SECONDS")
                   ->required()

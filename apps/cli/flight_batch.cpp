@@ -61,7 +61,7 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
                                                             const std::string& folder) {
   std::vector<std::string> settings = options.settings;
   settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
-  auto loaded = load_scenario(options.scenario, settings);
+  auto loaded = load_scenario(options.scenario, settings, options.plugins);
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }
@@ -77,7 +77,7 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
   for (const std::string& setting : options.settings) {
     flight.arguments.insert(flight.arguments.end(), {"--set", setting});
   }
-  for (const std::string& library : options.kernels) {
+  for (const std::string& library : options.plugins.libraries()) {
     flight.arguments.insert(flight.arguments.end(), {"--kernels", library});
   }
   if (step_s) {

@@ -2,8 +2,6 @@
 
 #include "flight_options.h"
 
-#include "flyball/scenario/kernel_library.h"
-
 #include <cmath>
 #include <filesystem>
 
@@ -22,21 +20,27 @@ void add_scenario(CLI::App& command, FlightOptions& options) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  add_kernels(command, options.kernels);
+  add_kernels(command, options.plugins);
 }
 
-void add_kernels(CLI::App& command, std::vector<std::string>& files) {
-  const auto load = [](const std::string& file) {
-    const Status loaded = load_kernels(file);
-    return loaded ? std::string{} : loaded.error().message;
+void add_kernels(CLI::App& command, Plugins& plugins) {
+  const std::string option = "--kernels";
+  const auto load = [option, &plugins](const std::vector<std::string>& files) {
+    for (const std::string& file : files) {
+      auto more = plugins.with_library(file);
+      if (!more) {
+        throw CLI::ValidationError{option, more.error().message};
+      }
+      plugins = std::move(*more);
+    }
   };
   command
-      .add_option("--kernels", files,
-                  "a library with your own kernels; its code runs in this program with your rights")
+      .add_option_function<std::vector<std::string>>(
+          option, load,
+          "a library with your own kernels; its code runs in this program with your rights")
       ->type_name("./libNAME.so")
       ->expected(1)
-      ->take_all()
-      ->check(CLI::Validator{load, ""});
+      ->take_all();
 }
 
 void refuse_empty(CLI::Option& option) {

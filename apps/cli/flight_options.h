@@ -21,7 +21,7 @@ namespace flyball {
 struct FlightOptions {
   std::string scenario;
   std::vector<std::string> settings{};  ///< `KEY=VALUE`
-  std::vector<std::string> kernels{};   ///< Libraries; they are loaded as the options are read.
+  Plugins plugins{};                    ///< With those of the libraries that options name.
   std::string out{};
   bool json{};
 };
@@ -41,8 +41,9 @@ void add_contest(CLI::App& command, std::vector<std::string>& policies, std::str
 /// Adds `--jobs`.
 void add_jobs(CLI::App& command, std::size_t& jobs);
 
-/// Adds `--kernels`: a library that cannot be loaded is refused like any bad value of an option.
-void add_kernels(CLI::App& command, std::vector<std::string>& files);
+/// Adds `--kernels`: what the libraries bring joins `plugins`, which outlive the command. A library
+/// that cannot be loaded is refused like any bad value of an option.
+void add_kernels(CLI::App& command, Plugins& plugins);
 /// Adds `--trust`, for records, which may be somebody else's.
 void add_trust(CLI::App& command, bool& trusts);
 

@@ -19,7 +19,7 @@ struct GraphOptions {
 };
 
 int graph(const GraphOptions& options) {
-  const std::vector<std::string> known = workload_names();
+  const std::vector<std::string> known = workload_names(Plugins{});
   if (std::find(known.begin(), known.end(), options.workload) == known.end()) {
     return refuse({{ErrorCode::not_found,
                     "no workload \"" + options.workload + "\"; try: flyball list workloads"}});

@@ -52,9 +52,9 @@ Result<Lines> list_files(const std::string& kind) {
   return lines;
 }
 
-Result<Lines> list_kernels() {
+Result<Lines> list_kernels(const Plugins& plugins) {
   Lines lines;
-  for (const KernelFamily& family : kernel_families()) {
+  for (const KernelFamily& family : kernel_families(plugins)) {
     for (const std::string& name : family.kernels) {
       lines.push_back({family.name, name});
     }
@@ -82,18 +82,18 @@ void add_parameters(const std::vector<ParameterSpec>& specs, Lines& lines) {
   }
 }
 
-Result<Lines> list_worlds() {
+Result<Lines> list_worlds(const Plugins& plugins) {
   Lines lines;
-  for (const std::string& name : world_names()) {
+  for (const std::string& name : world_names(plugins)) {
     lines.push_back({name});
-    add_parameters(all_plugins().make<WorldGenerator>(name)->parameters(), lines);
+    add_parameters(plugins.make<WorldGenerator>(name)->parameters(), lines);
   }
   return lines;
 }
 
-Result<Lines> list_policies() {
+Result<Lines> list_policies(const Plugins& plugins) {
   Lines lines;
-  for (const std::string& name : policy_names()) {
+  for (const std::string& name : policy_names(plugins)) {
     const Result<std::string> file = find_shipped("presets", name);
     if (!file) {
       lines.push_back({name, "policy with its default parameters"});
@@ -124,23 +124,25 @@ std::string legal_values(const KnobSpec& knob) {
 
 /// Names with commas between them.
 template <class Family>
-std::string all_of_family() {
+std::string all_of_family(const Plugins& plugins) {
   std::string text;
-  for (const std::string& name : all_plugins().names<Family>()) {
+  for (const std::string& name : plugins.names<Family>()) {
     text += (text.empty() ? "" : ",") + name;
   }
   return text;
 }
 
 /// Among them those that exist only where a scenario asks for them.
-Scenario with_all_knobs() {
+Scenario with_all_knobs(const Plugins& plugins) {
   Scenario scenario;
-  scenario.knobs = {all_of_family<PathPlanner>(), all_of_family<Detector>(), true, true};
+  scenario.plugins = plugins;
+  scenario.knobs = {all_of_family<PathPlanner>(plugins), all_of_family<Detector>(plugins), true,
+                    true};
   return scenario;
 }
 
-Result<Lines> list_knobs() {
-  const Scenario scenario = with_all_knobs();
+Result<Lines> list_knobs(const Plugins& plugins) {
+  const Scenario scenario = with_all_knobs(plugins);
   const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
   if (!file) {
     return file.error();
@@ -161,9 +163,9 @@ Result<Lines> list_knobs() {
   return lines;
 }
 
-Result<Lines> list_workloads() {
+Result<Lines> list_workloads(const Plugins& plugins) {
   Lines lines;
-  for (const std::string& name : workload_names()) {
+  for (const std::string& name : workload_names(plugins)) {
     lines.push_back({name});
   }
   return lines;
@@ -171,18 +173,18 @@ Result<Lines> list_workloads() {
 
 struct Listing {
   const char* kind;
-  Result<Lines> (*list)();
+  Result<Lines> (*list)(const Plugins&);
 };
 
 constexpr std::array<Listing, 9> listings{{
-    {"scenarios", [] { return list_files("scenarios"); }},
+    {"scenarios", [](const Plugins&) { return list_files("scenarios"); }},
     {"workloads", list_workloads},
     {"kernels", list_kernels},
     {"policies", list_policies},
-    {"platforms", [] { return list_files("platforms"); }},
-    {"boards", [] { return list_files("boards"); }},
+    {"platforms", [](const Plugins&) { return list_files("platforms"); }},
+    {"boards", [](const Plugins&) { return list_files("boards"); }},
     {"worlds", list_worlds},
-    {"airframes", [] { return list_files("airframes"); }},
+    {"airframes", [](const Plugins&) { return list_files("airframes"); }},
     {"knobs", list_knobs},
 }};
 
@@ -194,12 +196,12 @@ std::string kinds() {
   return text;
 }
 
-int list(const std::string& kind) {
+int list(const std::string& kind, const Plugins& plugins) {
   for (const Listing& listing : listings) {
     if (kind != listing.kind) {
       continue;
     }
-    const Result<Lines> lines = listing.list();
+    const Result<Lines> lines = listing.list(plugins);
     if (!lines) {
       return refuse({lines.error()});
     }
@@ -215,10 +217,10 @@ int list(const std::string& kind) {
 void add_list(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("list", "prints what can be named: " + kinds());
   const auto kind = std::make_shared<std::string>();  // Owners: the parser's callbacks.
-  const auto kernels = std::make_shared<std::vector<std::string>>();
+  const auto plugins = std::make_shared<Plugins>();
   command->add_option("KIND", *kind, kinds())->required();
-  add_kernels(*command, *kernels);
-  command->callback([kind, kernels, &exit_code] { exit_code = list(*kind); });
+  add_kernels(*command, *plugins);
+  command->callback([kind, plugins, &exit_code] { exit_code = list(*kind, *plugins); });
 }
 
 }  // namespace flyball

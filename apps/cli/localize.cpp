@@ -71,7 +71,7 @@ std::string to_text(const LocalizationRun& run, double uncertain_above_m) {
 }
 
 int localize(const LocalizeOptions& options) {
-  auto localizer = make_seeing_localizer(options.localizer);
+  auto localizer = make_seeing_localizer(options.localizer, Plugins{});
   if (!localizer) {
     return refuse({localizer.error()});
   }

@@ -23,7 +23,7 @@ struct MapOptions {
 
 /// The map in a file, as a mapper of this name holds it.
 Result<std::unique_ptr<Mapper>> load(const std::string& mapper_name, const std::string& file) {
-  auto mapper = all_plugins().make<Mapper>(mapper_name);
+  auto mapper = Plugins{}.make<Mapper>(mapper_name);
   if (!mapper) {
     return Error{ErrorCode::unavailable, "this build has no mapper " + mapper_name};
   }

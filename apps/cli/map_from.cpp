@@ -75,7 +75,7 @@ Pose level_camera() {
 /// The localizer's path, moved to where the true one begins. Without one, a localizer that feels
 /// gravity is upright already; another one begins as a level camera.
 Result<std::vector<TimedPose>> localized(const Recording& recording, const std::string& name) {
-  auto localizer = make_seeing_localizer(name);
+  auto localizer = make_seeing_localizer(name, Plugins{});
   if (!localizer) {
     return localizer.error();
   }
@@ -145,7 +145,7 @@ int map_from(MapFromOptions& options) {
   if (const Status usable = check(options); !usable) {
     return refuse({usable.error()});
   }
-  auto mapper = make_mapper(options.mapper);
+  auto mapper = make_mapper(options.mapper, Plugins{});
   if (!mapper) {
     return refuse({mapper.error()});
   }

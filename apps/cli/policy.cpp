@@ -14,7 +14,7 @@ namespace {
 
 int check(const std::string& file) {
   constexpr std::uint64_t seed = 1;
-  const Result<PolicyChoice> choice = choose_policy(file, seed);
+  const Result<PolicyChoice> choice = choose_policy(file, Plugins{}, seed);
   if (!choice) {
     return refuse({choice.error()});
   }

@@ -17,7 +17,7 @@ namespace {
 struct ReplayOptions {
   std::string folder;
   bool trusts{};
-  std::vector<std::string> kernels{};
+  Plugins plugins{};
   std::string policy{};
 };
 
@@ -68,7 +68,7 @@ int ask(const RecordedFlight& flight, const std::string& policy) {
 }
 
 int run_replay(const ReplayOptions& options) {
-  Result<RecordedFlight> flight = read_flight(options.folder);
+  Result<RecordedFlight> flight = read_flight(options.folder, options.plugins);
   if (!flight) {
     return refuse({flight.error()});
   }
@@ -84,7 +84,7 @@ void add_replay(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<ReplayOptions>();  // Owners: the parser's callbacks.
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
-  add_kernels(*command, options->kernels);
+  add_kernels(*command, options->plugins);
   refuse_empty(*command
                     ->add_option("--policy", options->policy,
                                  "lists where the decisions of this policy differ")

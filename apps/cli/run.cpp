@@ -119,7 +119,8 @@ int exit_code_of(const Summary& summary) {
 }
 
 int run(const RunOptions& options) {
-  const auto loaded = load_scenario(options.flight.scenario, overrides_of(options));
+  const auto loaded =
+      load_scenario(options.flight.scenario, overrides_of(options), options.flight.plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

@@ -252,7 +252,7 @@ void add_tournament(CLI::App& program, int& exit_code) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  add_kernels(*command, options->flight.kernels);
+  add_kernels(*command, options->flight.plugins);
   command->add_flag("--keep-records", options->keeps_records,
                     "keeps the whole record of each flight, not only its summary");
   command->add_flag("--bound", options->shows_bound,

@@ -20,10 +20,11 @@ constexpr Rgb box_colour{255, 40, 40};
 
 Result<std::unique_ptr<Detector>> detector_of(const DetectionRun& run) {
   Scenario scenario;
+  scenario.plugins = run.plugins;
   scenario.kernels.detector = run.detector;
   scenario.kernels.detector_parameters = run.parameters;
   scenario.detector.models_folder = run.models_folder;
-  return make_kernel<Detector>(scenario.kernels, model_finder(scenario));
+  return make_kernel<Detector>(scenario.plugins, scenario.kernels, model_finder(scenario));
 }
 
 /// `vtest_000040.png`: of a video each frame has its own file.

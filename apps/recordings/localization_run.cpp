@@ -2,7 +2,6 @@
 #include "flyball/recordings/localization_run.h"
 
 #include "flyball/kernels/localizer.h"
-#include "flyball/scenario/plugins.h"
 
 #include <algorithm>
 
@@ -29,14 +28,15 @@ Status check_inputs(const Recording& recording, const LocalizerInputs& inputs) {
 
 }  // namespace
 
-Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name) {
-  auto localizer = all_plugins().make<Localizer>(name);
+Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name,
+                                                         const Plugins& plugins) {
+  auto localizer = plugins.make<Localizer>(name);
   if (localizer && localizer->inputs().images) {
     return localizer;
   }
   std::string names;
-  for (const std::string& other : all_plugins().names<Localizer>()) {
-    if (all_plugins().make<Localizer>(other)->inputs().images) {
+  for (const std::string& other : plugins.names<Localizer>()) {
+    if (plugins.make<Localizer>(other)->inputs().images) {
       names += (names.empty() ? "" : ", ") + other;
     }
   }

@@ -2,7 +2,6 @@
 #include "flyball/recordings/recorded_map.h"
 
 #include "flyball/kernels/pixel_point.h"
-#include "flyball/scenario/plugins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,12 +78,12 @@ std::optional<Pose> pose_between(const std::vector<TimedPose>& poses,
   return X_WB;
 }
 
-Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name) {
-  if (auto mapper = all_plugins().make<Mapper>(name)) {
+Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name, const Plugins& plugins) {
+  if (auto mapper = plugins.make<Mapper>(name)) {
     return mapper;
   }
   std::string names;
-  for (const std::string& other : all_plugins().names<Mapper>()) {
+  for (const std::string& other : plugins.names<Mapper>()) {
     names += (names.empty() ? "" : ", ") + other;
   }
   return Error{ErrorCode::not_found, "no mapper \"" + name + "\"; there are: " + names};

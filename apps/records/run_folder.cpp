@@ -5,7 +5,6 @@
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/scenario/files.h"
-#include "flyball/scenario/kernel_library.h"
 #include "flyball/sim/platform_file.h"
 
 #include "records/frame_files.h"
@@ -52,7 +51,7 @@ std::string data_fingerprint(const Scenario& scenario) {
   for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
     hash.add(content_of(file));
   }
-  for (const std::string& file : loaded_kernel_libraries()) {
+  for (const std::string& file : scenario.plugins.libraries()) {
     hash.add(content_of(file));
   }
   return hash.hex();
@@ -83,9 +82,9 @@ void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
 }
 
 /// The libraries whose kernels the mission may name. They are needed to fly it again.
-std::string libraries_line() {
+std::string libraries_line(const Plugins& plugins) {
   std::string names;
-  for (const std::string& file : loaded_kernel_libraries()) {
+  for (const std::string& file : plugins.libraries()) {
     names += (names.empty() ? "" : ", ") + fs::path{file}.filename().string();
   }
   return names.empty() ? "" : "# Flown with --kernels: " + names + "\n";
@@ -190,7 +189,7 @@ Status write_file(const std::string& path, const std::string& content) {
 
 std::string mission_file(const Scenario& scenario) {
   return "# Flyball " + version() + ", build " + build_fingerprint() + ", data " +
-         data_fingerprint(scenario) + "\n" + libraries_line() + to_toml(scenario);
+         data_fingerprint(scenario) + "\n" + libraries_line(scenario.plugins) + to_toml(scenario);
 }
 
 std::string scenario_html(const Scenario& scenario) {

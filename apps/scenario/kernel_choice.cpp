@@ -16,7 +16,6 @@
 #include "flyball/kernels/tracker.h"
 #include "flyball/runtime/assert.h"
 #include "flyball/scenario/models.h"
-#include "flyball/scenario/plugins.h"
 
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
@@ -34,9 +33,9 @@ FamilyChoice family(const char* name, const char* description) {
           kernel,
           parameters,
           [](Scenario& scenario) { return &(scenario.kernels.*kernel); },
-          [] { return all_plugins().names<Family>(); },
-          [](const std::string& of) -> std::unique_ptr<Kernel> {
-            return all_plugins().make<Family>(of);
+          [](const Plugins& plugins) { return plugins.names<Family>(); },
+          [](const Plugins& plugins, const std::string& of) -> std::unique_ptr<Kernel> {
+            return plugins.make<Family>(of);
           }};
 }
 
@@ -94,13 +93,20 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+/// A kernel that is to be made.
+struct WantedKernel {
+  const FamilyChoice& family;
+  const std::string& name;
+  const ParameterValues& parameters;
+};
+
 /// @param must_be_usable  Else it only declares its knobs, and a file that it needs may be missing.
-Result<std::unique_ptr<Kernel>> make_one(const FamilyChoice& family,
-                                         const std::string& name,
-                                         const ParameterValues& parameters,
+Result<std::unique_ptr<Kernel>> make_one(const WantedKernel& wanted,
+                                         const Plugins& plugins,
                                          const FindModel& find_model,
                                          bool must_be_usable) {
-  auto kernel = family.make(name);
+  const auto& [family, name, parameters] = wanted;
+  auto kernel = family.make(plugins, name);
   if (!kernel) {
     return unknown(family.name, name, "kernels");
   }
@@ -122,12 +128,12 @@ Result<std::unique_ptr<Kernel>> make_all(const FamilyChoice& family,
   if (const Status known = check_kinds(family, scenario); !known) {
     return known.error();
   }
+  const ParameterValues by_default;
   std::vector<KernelKind<Kernel>> kinds;
   for (const std::string& name : family.all_kinds(scenario)) {
-    const bool is_first = kinds.empty();
+    const auto& parameters = kinds.empty() ? scenario.kernels.*family.parameters : by_default;
     auto kernel =
-        make_one(family, name, is_first ? scenario.kernels.*family.parameters : ParameterValues{},
-                 find_model, must_be_usable);
+        make_one({family, name, parameters}, scenario.plugins, find_model, must_be_usable);
     if (!kernel) {
       return kernel.error();
     }
@@ -166,9 +172,11 @@ std::vector<std::string> FamilyChoice::all_kinds(const Scenario& scenario) const
 }
 
 Result<std::unique_ptr<Kernel>> make_kernel(const FamilyChoice& family,
+                                            const Plugins& plugins,
                                             const KernelSettings& kernels,
                                             const FindModel& find_model) {
-  return make_one(family, kernels.*family.kernel, kernels.*family.parameters, find_model, true);
+  return make_one({family, kernels.*family.kernel, kernels.*family.parameters}, plugins, find_model,
+                  true);
 }
 
 Result<std::unique_ptr<Kernel>> make_switchable(const FamilyChoice& family,
@@ -187,7 +195,7 @@ Result<std::vector<KnobSpec>> knobs_of(const FamilyChoice& family, const Scenari
 
 Status check_kinds(const FamilyChoice& family, const Scenario& scenario, const std::string& place) {
   const std::vector<std::string> kinds = family.all_kinds(scenario);
-  const std::vector<std::string> known = family.names();
+  const std::vector<std::string> known = family.names(scenario.plugins);
   for (std::size_t i = 1; i < kinds.size(); ++i) {
     if (std::find(known.begin(), known.end(), kinds[i]) == known.end()) {
       return Error{ErrorCode::not_found,

@@ -25,8 +25,9 @@ struct FamilyChoice {
   std::string KernelSettings::*kernel;
   ParameterValues KernelSettings::*parameters;
   std::string* (*place)(Scenario&);  ///< Of the kernel's name.
-  std::vector<std::string> (*names)();
-  std::unique_ptr<Kernel> (*make)(const std::string& name);  ///< Null when there is none.
+  std::vector<std::string> (*names)(const Plugins&);
+  /// Null when there is none of this name.
+  std::unique_ptr<Kernel> (*make)(const Plugins&, const std::string& name);
 
   // Null where no knob chooses among kernels of the family in flight.
   std::string KnobChoices::*kinds{};                                   ///< Names, with commas.
@@ -48,9 +49,9 @@ struct FamilyChoice {
 /// The kernel of a family that the scenario names, configured.
 ///
 /// @error `not_found` (no such kernel, or a file that it needs), `invalid_input` with a sentence
-/// for
-///        each wrong parameter.
+///        for each wrong parameter.
 [[nodiscard]] Result<std::unique_ptr<Kernel>> make_kernel(const FamilyChoice& family,
+                                                          const Plugins& plugins,
                                                           const KernelSettings& kernels,
                                                           const FindModel& find_model);
 
@@ -106,9 +107,11 @@ template <class Family>
 }
 
 template <class Family>
-[[nodiscard]] Result<std::unique_ptr<Family>> make_kernel(const KernelSettings& kernels,
+[[nodiscard]] Result<std::unique_ptr<Family>> make_kernel(const Plugins& plugins,
+                                                          const KernelSettings& kernels,
                                                           const FindModel& find_model = no_models) {
-  return of_family<Family>(make_kernel(family_choice(typeid(Family)), kernels, find_model));
+  return of_family<Family>(
+      make_kernel(family_choice(typeid(Family)), plugins, kernels, find_model));
 }
 
 /// Looks for weights where the scenario says.

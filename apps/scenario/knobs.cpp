@@ -70,7 +70,8 @@ KnobSpec rate_knob(const char* name, const char* owner, double frames_hz, double
 
 /// Whether the localizer takes images.
 bool sees(const Scenario& scenario) {
-  const auto kernel = family_choice(typeid(Localizer)).make(scenario.kernels.localizer);
+  const auto kernel =
+      family_choice(typeid(Localizer)).make(scenario.plugins, scenario.kernels.localizer);
   return kernel && static_cast<const Localizer&>(*kernel).inputs().images;
 }
 

@@ -4,7 +4,6 @@
 #include "flyball/governors/combined_policy.h"
 #include "flyball/governors/preset.h"
 #include "flyball/scenario/files.h"
-#include "flyball/scenario/plugins.h"
 
 #include "scenario/scenario_parameters.h"
 #include <filesystem>
@@ -24,10 +23,10 @@ Preset combination_of(const std::string& name) {
 }
 
 Result<std::unique_ptr<Policy>> start_one(const std::string& name,
-                                          std::uint64_t seed,
+                                          const Scenario& scenario,
                                           const KnobSettings& knobs,
                                           const BoardModel& board) {
-  const auto choice = choose_policy(name, seed);
+  const auto choice = choose_policy(name, scenario.plugins, scenario.seed);
   if (!choice) {
     return choice.error();
   }
@@ -36,14 +35,14 @@ Result<std::unique_ptr<Policy>> start_one(const std::string& name,
 
 /// One half of a combination.
 Result<std::unique_ptr<Policy>> start_half(const std::string& name,
-                                           std::uint64_t seed,
+                                           const Scenario& scenario,
                                            const KnobSettings& knobs,
                                            const BoardModel& board) {
   if (combination_of(name).is_combination()) {
     return Error{ErrorCode::invalid_input,
                  "policy \"" + name + "\" is a combination itself; name one policy"};
   }
-  return start_one(name, seed, knobs, board);
+  return start_one(name, scenario, knobs, board);
 }
 
 /// The library that one policy comes from; empty: none.
@@ -68,38 +67,39 @@ std::string library_of_policy(const std::string& name) {
   return library.empty() ? library_of_one(both.clock) : library;
 }
 
-Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed) {
+Result<PolicyChoice> choose_policy(const std::string& name,
+                                   const Plugins& plugins,
+                                   std::uint64_t seed) {
   const auto file = find_shipped("presets", name);
   if (file) {
-    return load_policy(*file, all_plugins(), seed);
+    return load_policy(*file, plugins.registry(), seed);
   }
-  if (all_plugins().make<Policy>(name)) {
-    return PolicyChoice{"policy \"" + name + "\"", [name] {
-                          return Result<std::unique_ptr<Policy>>{all_plugins().make<Policy>(name)};
+  if (plugins.make<Policy>(name)) {
+    return PolicyChoice{"policy \"" + name + "\"", [name, plugins] {
+                          return Result<std::unique_ptr<Policy>>{plugins.make<Policy>(name)};
                         }};
   }
   return file.error();
 }
 
-Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
-                                             std::uint64_t seed,
-                                             Duration application_period,
+Result<std::unique_ptr<Policy>> start_policy(const Scenario& scenario,
                                              const KnobSettings& knobs,
                                              const BoardModel& board) {
+  const std::string& name = scenario.governor.policy;
   const Preset both = combination_of(name);
   if (!both.is_combination()) {
-    return start_one(name, seed, knobs, board);
+    return start_one(name, scenario, knobs, board);
   }
-  auto application = start_half(both.application, seed, knobs, board);
+  auto application = start_half(both.application, scenario, knobs, board);
   if (!application) {
     return application.error();
   }
-  auto clock = start_half(both.clock, seed, knobs, board);
+  auto clock = start_half(both.clock, scenario, knobs, board);
   if (!clock) {
     return clock.error();
   }
   return std::unique_ptr<Policy>{std::make_unique<CombinedPolicy>(
-      std::move(*application), std::move(*clock), application_period)};
+      std::move(*application), std::move(*clock), from_seconds(scenario.governor.period_s))};
 }
 
 }  // namespace flyball

@@ -156,7 +156,9 @@ std::vector<ConfigEntry> entries_of(const Scenario& scenario,
 }  // namespace
 
 std::variant<LoadedScenario, std::vector<Error>> load_scenario(
-    const std::string& name_or_path, const std::vector<std::string>& overrides) {
+    const std::string& name_or_path,
+    const std::vector<std::string>& overrides,
+    const Plugins& plugins) {
   const Result<std::string> file = find_shipped("scenarios", name_or_path);
   if (!file) {
     return std::vector<Error>{file.error()};
@@ -168,6 +170,7 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
   }
   const Fields fields = scenario_fields();
   Scenario scenario;
+  scenario.plugins = plugins;
   assign_all(scenario, fields, read);
   drop_exchanged(filed, parameter_groups(scenario), read.values);
   report_unknown_keys(fields, parameter_groups(scenario), read);

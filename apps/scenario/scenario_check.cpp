@@ -46,12 +46,14 @@ Error unknown(const NamedThing& wanted, const GivenValues& given) {
 
 std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {
   std::vector<NamedThing> things{
-      {"mission.workload", "workload", scenario.mission.workload, workload_names(), "workloads"},
-      {"world.generator", "world", scenario.world.generator, world_names(), "worlds"},
+      {"mission.workload", "workload", scenario.mission.workload, workload_names(scenario.plugins),
+       "workloads"},
+      {"world.generator", "world", scenario.world.generator, world_names(scenario.plugins),
+       "worlds"},
   };
   for (const FamilyChoice& family : family_choices()) {
     things.push_back({"kernels." + family.name, family.name, scenario.kernels.*family.kernel,
-                      family.names(), "kernels"});
+                      family.names(scenario.plugins), "kernels"});
   }
   return things;
 }
@@ -61,7 +63,8 @@ std::vector<NamedThing> files_of(const Scenario& scenario) {
       {"vehicle.airframe", "airframe", scenario.vehicle.airframe, shipped("airframes"),
        "airframes"},
       {"platform.name", "platform", scenario.platform.name, shipped("platforms"), "platforms"},
-      {"governor.policy", "policy", scenario.governor.policy, policy_names(), "policies"},
+      {"governor.policy", "policy", scenario.governor.policy, policy_names(scenario.plugins),
+       "policies"},
   };
 }
 
@@ -134,7 +137,7 @@ bool is_folder_name(const std::string& name) {
 
 std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given) {
   const FamilyChoice& family = family_choice(typeid(Mapper));
-  const auto unconfigured = family.make(scenario.kernels.mapper);
+  const auto unconfigured = family.make(scenario.plugins, scenario.kernels.mapper);
   if (!unconfigured || !resolved(family.owner(scenario.kernels), unconfigured->parameters(),
                                  scenario.kernels.mapper_parameters)) {
     return {};  // Named elsewhere.
@@ -143,7 +146,7 @@ std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given)
     return {{ErrorCode::invalid_input,
              "mapper \"" + scenario.kernels.mapper + "\" refuses: " + error.message}};
   };
-  const auto mapper = make_kernel<Mapper>(scenario.kernels);
+  const auto mapper = make_kernel<Mapper>(scenario.plugins, scenario.kernels);
   if (!mapper) {
     return refused(mapper.error());
   }

@@ -2,7 +2,6 @@
 
 #include "scenario/scenario_parameters.h"
 
-#include "flyball/scenario/plugins.h"
 #include "flyball/sim/world.h"
 
 #include "scenario/kernel_choice.h"
@@ -11,20 +10,22 @@
 namespace flyball {
 namespace {
 
-ParameterGroup world_group(const std::string& name) {
+ParameterGroup world_group(const Scenario& scenario) {
+  const std::string& name = scenario.world.generator;
   ParameterGroup group{"world.generator", "world.", "world \"" + name + "\""};
-  if (const auto generator = all_plugins().make<WorldGenerator>(name)) {
+  if (const auto generator = scenario.plugins.make<WorldGenerator>(name)) {
     group.exists = true;
     group.specs = generator->parameters();
   }
   return group;
 }
 
-ParameterGroup group_of(const FamilyChoice& family, const KernelSettings& kernels) {
+ParameterGroup group_of(const FamilyChoice& family, const Scenario& scenario) {
+  const KernelSettings& kernels = scenario.kernels;
   const std::string selector = "kernels." + family.name;
   ParameterGroup group{selector, selector + "_parameters.", family.owner(kernels)};
   group.of_kernel = family.parameters;
-  if (const auto kernel = family.make(kernels.*family.kernel)) {
+  if (const auto kernel = family.make(scenario.plugins, kernels.*family.kernel)) {
     group.exists = true;
     group.specs = kernel->parameters();
   }
@@ -74,9 +75,9 @@ std::vector<Error> take_parameters(ParameterValues& values,
 }  // namespace
 
 std::vector<ParameterGroup> parameter_groups(const Scenario& scenario) {
-  std::vector<ParameterGroup> groups{world_group(scenario.world.generator)};
+  std::vector<ParameterGroup> groups{world_group(scenario)};
   for (const FamilyChoice& family : family_choices()) {
-    groups.push_back(group_of(family, scenario.kernels));
+    groups.push_back(group_of(family, scenario));
   }
   return groups;
 }

@@ -21,8 +21,8 @@ constexpr double nearest_m = 20.0;
 constexpr double path_width_reach_m = 8.0;  // Farther on the path will often be another one.
 
 template <class Family>
-std::unique_ptr<Family> made(const KernelSettings& kernels) {
-  auto kernel = make_kernel<Family>(kernels);
+std::unique_ptr<Family> made(const Plugins& plugins, const KernelSettings& kernels) {
+  auto kernel = make_kernel<Family>(plugins, kernels);
   FLYBALL_ASSERT(kernel.ok(), "%s", kernel.error().message.c_str());
   return std::move(*kernel);
 }
@@ -36,15 +36,16 @@ Vec3 level(const Vec3& direction_W) {
 }  // namespace
 
 FutureFrames::FutureFrames(std::shared_ptr<const Brief> brief,
+                           const Plugins& plugins,
                            const World& world,
                            const Platform& computer,
                            std::vector<MapSetting> settings)
     : brief_{std::move(brief)},
-      point_cloud_{made<PointCloudBuilder>(brief_->settings.kernels)},
+      point_cloud_{made<PointCloudBuilder>(plugins, brief_->settings.kernels)},
       computer_{computer},
       settings_{std::move(settings)},
       camera_{world, brief_->settings.camera, brief_->settings.seed},
-      mapper_{made<Mapper>(brief_->settings.kernels)} {}
+      mapper_{made<Mapper>(plugins, brief_->settings.kernels)} {}
 
 FutureFrames::Spot FutureFrames::spot(const NavigatorState& navigator, double ahead_m) {
   Vec3 end_W = navigator.position_W;

@@ -9,6 +9,7 @@
 #include "flyball/governors/foresight.h"
 #include "flyball/kernels/mapper.h"
 #include "flyball/kernels/point_cloud.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/depth_camera.h"
 
 #include <array>
@@ -23,8 +24,9 @@ namespace flyball {
 /// 4 m that are looked at from in nearly the same direction share a frame.
 class FutureFrames final : public ForesightSource {
  public:
-  /// All arguments outlive this but `settings`. @pre The scenario's mapper is one.
+  /// `world` and `computer` outlive this. @pre The mapper of `brief` is one of `plugins`.
   FutureFrames(std::shared_ptr<const Brief> brief,
+               const Plugins& plugins,
                const World& world,
                const Platform& computer,
                std::vector<MapSetting> settings);

@@ -6,7 +6,6 @@
 #include "flyball/records/version.h"
 #include "flyball/runtime/quantile.h"
 #include "flyball/runtime/virtual_executor.h"
-#include "flyball/scenario/plugins.h"
 
 #include "records/fingerprint.h"
 #include "simulation/closed_loop.h"
@@ -90,8 +89,8 @@ struct Flight {
     GovernorInputs inputs = governor_inputs(graph);
     std::vector<MapSetting> settings = setup.governor->foresees();
     if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
-      future = std::make_unique<FutureFrames>(parts.brief, setup.things.world, computer,
-                                              std::move(settings));
+      future = std::make_unique<FutureFrames>(parts.brief, scenario.plugins, setup.things.world,
+                                              computer, std::move(settings));
       inputs.future = future.get();
     }
     governor = std::make_shared<GovernorLoop>(parts, setup.equipment.knobs, *setup.governor, board,
@@ -214,7 +213,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
 }
 
 Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
-  auto workload = all_plugins().make<Workload>(scenario.mission.workload);
+  auto workload = scenario.plugins.make<Workload>(scenario.mission.workload);
   if (!workload) {
     return Error{ErrorCode::not_found,
                  "no workload \"" + scenario.mission.workload + "\"; try: flyball list workloads"};

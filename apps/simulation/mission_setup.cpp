@@ -3,7 +3,6 @@
 
 #include "flyball/flight/workload.h"
 #include "flyball/scenario/files.h"
-#include "flyball/scenario/plugins.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/sim/platform_file.h"
 #include "flyball/sim/worlds.h"
@@ -29,7 +28,7 @@ Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario)
 }
 
 Result<World> make_world(const Scenario& scenario) {
-  const auto generator = all_plugins().make<WorldGenerator>(scenario.world.generator);
+  const auto generator = scenario.plugins.make<WorldGenerator>(scenario.world.generator);
   if (!generator) {
     return unknown("world", scenario.world.generator, "worlds");
   }
@@ -74,8 +73,7 @@ Result<MissionKernels> make_kernels(const Scenario& scenario) {
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs,
                                                       const BoardModel& board) {
-  auto policy = start_policy(scenario.governor.policy, scenario.seed,
-                             from_seconds(scenario.governor.period_s), knobs, board);
+  auto policy = start_policy(scenario, knobs, board);
   if (!policy) {
     return policy.error();
   }

@@ -2,7 +2,6 @@
 #include "simulation/seeing_setup.h"
 
 #include "flyball/flight/workload.h"
-#include "flyball/scenario/plugins.h"
 
 #include "scenario/kernel_choice.h"
 
@@ -62,7 +61,7 @@ Result<ColourCameras> equip_to_see(const Scenario& scenario,
   }
   cameras.forward = std::move(*forward);
   equipment.has_rgb_camera = cameras.forward != nullptr;
-  const auto workload = all_plugins().make<Workload>(scenario.mission.workload);
+  const auto workload = scenario.plugins.make<Workload>(scenario.mission.workload);
   if (!workload || !workload->looks_for_people()) {
     return cameras;
   }
@@ -76,7 +75,7 @@ Result<ColourCameras> equip_to_see(const Scenario& scenario,
   }
   equipment.kernels.detector = std::move(*detector);
   for (auto* place : {&equipment.kernels.buffered_tracker, &equipment.kernels.real_time_tracker}) {
-    auto tracker = make_kernel<Tracker>(scenario.kernels, find_model);
+    auto tracker = make_kernel<Tracker>(scenario.plugins, scenario.kernels, find_model);
     if (!tracker) {
       return tracker.error();
     }

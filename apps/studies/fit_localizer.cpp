@@ -68,7 +68,7 @@ Status see(const std::vector<Stretch>& stretches,
     if (!frames) {
       return frames.error();
     }
-    const auto made = make_kernel<Localizer>(kernels);
+    const auto made = make_kernel<Localizer>(scenario.plugins, kernels);
     if (!made) {
       return made.error();
     }

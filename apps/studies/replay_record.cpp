@@ -106,8 +106,8 @@ Status read_trace(const std::string& path, RecordedFlight& flight) {
   return Done{};
 }
 
-Status read_scenario(const std::string& path, RecordedFlight& flight) {
-  auto loaded = load_scenario(path, {});
+Status read_scenario(const std::string& path, const Plugins& plugins, RecordedFlight& flight) {
+  auto loaded = load_scenario(path, {}, plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     Error all{errors->front().code, ""};
     for (const Error& error : *errors) {
@@ -149,13 +149,13 @@ Status read_decisions(const std::string& path, RecordedFlight& flight) {
 
 }  // namespace
 
-Result<RecordedFlight> read_flight(const std::string& folder) {
+Result<RecordedFlight> read_flight(const std::string& folder, const Plugins& plugins) {
   const fs::path in{folder};
   RecordedFlight flight;
   if (const Status read = read_trace((in / "trace.jsonl").string(), flight); !read) {
     return read.error();
   }
-  if (const Status read = read_scenario((in / "mission.toml").string(), flight); !read) {
+  if (const Status read = read_scenario((in / "mission.toml").string(), plugins, flight); !read) {
     return read.error();
   }
   if (const Status read = read_decisions((in / "summary.json").string(), flight); !read) {

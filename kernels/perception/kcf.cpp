@@ -94,7 +94,7 @@ class Kcf final : public flyball::Tracker {
     }
     work.add("starts", 1.0);
     try {
-      cv::setNumThreads(1);
+      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       bgr_ = cv::Mat::zeros(size, CV_8UC3);
       filter_ = cv::TrackerKCF::create(settings_);
       filter_->init(as_trained(patch), inside);
@@ -124,7 +124,7 @@ class Kcf final : public flyball::Tracker {
     }
     work.add("updates", 1.0);
     try {
-      cv::setNumThreads(1);
+      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       cv::Rect box;
       if (!filter_->update(as_trained(patch), box)) {
         return std::optional<ImageBox>{};

@@ -54,7 +54,7 @@ class Yolo final : public flyball::Detector {
       return weights.error();
     }
     try {
-      cv::setNumThreads(1);
+      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       net_ = cv::dnn::readNetFromDarknet(*layers, *weights);
       net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
       net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);

@@ -157,7 +157,8 @@ int measure() {
     Scenario scenario;
     scenario.kernels.detector = subject.kind;
     scenario.kernels.detector_parameters = subject.parameters;
-    auto detector = make_kernel<Detector>(scenario.kernels, model_finder(scenario));
+    auto detector =
+        make_kernel<Detector>(scenario.plugins, scenario.kernels, model_finder(scenario));
     if (!detector) {
       std::printf("%s is left out: %s\n", subject.title.c_str(), detector.error().message.c_str());
       continue;

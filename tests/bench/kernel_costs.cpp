@@ -59,7 +59,7 @@ PointCloud every_fourth(const PointCloud& cloud) {
 
 std::vector<Look> look_around(const Scenario& scenario, const World& world) {
   const DepthCamera camera{world, scenario.camera, scenario.seed};
-  const auto builder = all_plugins().make<PointCloudBuilder>(scenario.kernels.point_cloud);
+  const auto builder = Plugins{}.make<PointCloudBuilder>(scenario.kernels.point_cloud);
   const Clearance clearance{world};
   std::vector<Look> views;
   double host_s = 0.0;
@@ -89,7 +89,7 @@ std::vector<Look> look_around(const Scenario& scenario, const World& world) {
 void measure_octomap(const std::vector<Look>& views, double range_m) {
   std::vector<Sample> samples;
   for (const double resolution_m : {0.15, 0.2, 0.3, 0.5, 0.8, 0.98}) {
-    const auto counter = all_plugins().make<Mapper>("octomap");
+    const auto counter = Plugins{}.make<Mapper>("octomap");
     octomap::OcTree full{resolution_m};
     octomap::OcTree sparse{resolution_m};
     for (octomap::OcTree* tree : {&full, &sparse}) {
@@ -149,12 +149,12 @@ void measure_flyball(const std::vector<Look>& views, double range_m, const Platf
   std::vector<Sample> samples;
   for (const double resolution_m : {0.15, 0.3, 0.6, 1.2}) {
     octomap::OcTree tree{resolution_m};
-    const auto counter = all_plugins().make<Mapper>("octomap");
+    const auto counter = Plugins{}.make<Mapper>("octomap");
     for (const char* front_end : {"pyramid", "exact", "rays"}) {
       KernelSettings chosen;
       chosen.mapper = "flyball";
       chosen.mapper_parameters["front_end"] = std::string{front_end};
-      const auto mapper = std::move(make_kernel<Mapper>(chosen).value());
+      const auto mapper = std::move(make_kernel<Mapper>(Plugins{}, chosen).value());
       double total_s = 0.0;
       for (const Look& view : views) {
         Sample sample;
@@ -212,7 +212,7 @@ void see_and_time(const std::vector<VisualFrame>& frames,
   KernelSettings kernels;
   kernels.localizer = "visual_slam";
   kernels.localizer_parameters = {{"weak_corner", weak_corner}};
-  const auto localizer = std::move(make_kernel<Localizer>(kernels).value());
+  const auto localizer = std::move(make_kernel<Localizer>(Plugins{}, kernels).value());
   localizer->start({});
   localizer->place(X_WB);
   for (const VisualFrame& frame : frames) {

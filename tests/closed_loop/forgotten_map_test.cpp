@@ -23,7 +23,7 @@ std::unique_ptr<Mapper> map_left_by(const Scenario& scenario) {
   hooks.final_map = scratch.path("map.bt");
   const auto record = fly(scenario, hooks);
   EXPECT_TRUE(record.ok());
-  auto mapper = all_plugins().make<Mapper>("flyball");
+  auto mapper = Plugins{}.make<Mapper>("flyball");
   EXPECT_TRUE(mapper->read(hooks.final_map).ok());
   return mapper;
 }

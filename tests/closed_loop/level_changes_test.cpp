@@ -57,7 +57,7 @@ Cells occupied_after(const Scenario& scenario, double time_s) {
   hooks.final_map = scratch.path("map.bt");
   const auto record = fly(scenario, hooks);
   EXPECT_TRUE(record.ok());
-  const auto mapper = all_plugins().make<Mapper>("flyball");
+  const auto mapper = Plugins{}.make<Mapper>("flyball");
   EXPECT_TRUE(mapper->read(hooks.final_map).ok());
   return finest_cells(*mapper);
 }
@@ -90,17 +90,15 @@ struct FinePeriod {
   std::size_t kept{};
   std::size_t added{};
 };
-std::vector<FinePeriod>& fine_periods() {
-  static std::vector<FinePeriod> all;
-  return all;
-}
 
 /// Mapper flyball, and beside it one that takes the same scans at .15 m.
 class Accompanied final : public Mapper {
  public:
-  Accompanied() : flown_{all_plugins().make<Mapper>("flyball")} {
-    fine_ = all_plugins().make<Mapper>("flyball");
-  }
+  /// @param periods  Outlives this; each fine period that has ended is added to it.
+  explicit Accompanied(std::vector<FinePeriod>& periods)
+      : periods_{periods},
+        flown_{Plugins{}.make<Mapper>("flyball")},
+        fine_{Plugins{}.make<Mapper>("flyball")} {}
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
     return flown_->parameters();
   }
@@ -143,30 +141,27 @@ class Accompanied final : public Mapper {
     for (const auto& cell : expected) {
       kept += found.count(cell);
     }
-    fine_periods().push_back({expected.size(), kept, found.size() - kept});
+    periods_.push_back({expected.size(), kept, found.size() - kept});
   }
 
+  std::vector<FinePeriod>& periods_;
   std::unique_ptr<Mapper> flown_;
   std::unique_ptr<Mapper> fine_;
   bool was_fine_{};
 };
 
-// Before main, because plug-ins cannot be added after the first flight.
-[[maybe_unused]] const bool is_added = [] {
-  add_plugins([](Registry& registry) {
-    registry.add<Mapper>("accompanied", [] { return std::make_unique<Accompanied>(); });
-  });
-  return true;
-}();
-
 TEST(LevelChanges, every_5_s_keep_and_inflate_nothing_beside_a_map_that_is_always_fine) {
   for (Scenario scenario : {among_trees(), in_rooms()}) {
+    std::vector<FinePeriod> periods;
+    scenario.plugins = Plugins{}.with([&periods](Registry& registry) {
+      registry.add<Mapper>("accompanied",
+                           [&periods] { return std::make_unique<Accompanied>(periods); });
+    });
     scenario.kernels.mapper = "accompanied";
     scenario.mission.time_limit_s = 60.0;
-    fine_periods().clear();
     (void)kit::flown(scenario);
-    ASSERT_GE(fine_periods().size(), 3U) << scenario.world.generator;
-    for (const FinePeriod& period : fine_periods()) {
+    ASSERT_GE(periods.size(), 3U) << scenario.world.generator;
+    for (const FinePeriod& period : periods) {
       const auto expected = static_cast<double>(period.expected);
       EXPECT_GE(static_cast<double>(period.kept), 0.98 * expected) << scenario.world.generator;
       EXPECT_LT(static_cast<double>(period.added), 0.02 * expected) << scenario.world.generator;

@@ -23,7 +23,7 @@ double number(const MemoryRecorder::Row& row, std::string_view name) {
 }
 
 TEST(RoborunFlight, reaches_its_largest_speed_within_10_s_in_open_space) {
-  if (all_plugins().make<Policy>("roborun") == nullptr) {
+  if (Plugins{}.make<Policy>("roborun") == nullptr) {
     GTEST_SKIP() << "built without NLopt";
   }
   Scenario scenario = kit::short_delivery(120.0);

@@ -25,7 +25,7 @@ std::vector<std::string> examples() {
 }
 
 PolicyChoice chosen(const std::string& file) {
-  auto choice = choose_policy(file, 1);
+  auto choice = choose_policy(file, Plugins{}, 1);
   EXPECT_TRUE(choice.ok()) << choice.error().message;
   return *choice;
 }

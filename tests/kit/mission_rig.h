@@ -7,7 +7,6 @@
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/navigation/situation.h"
 #include "flyball/scenario/knobs.h"
-#include "flyball/scenario/plugins.h"
 
 #include "grid_map.h"
 #include <memory>
@@ -52,7 +51,7 @@ struct MissionRig {
     brief->body = {0.325, 0.1};
     set(KnobSettings{standard_knobs(scenario, *platform).value()});
     kernels.mapper = std::make_shared<GridMapper>(map);
-    kernels.path_tracker = all_plugins().make<PathTracker>("feedforward_pd");
+    kernels.path_tracker = scenario.plugins.make<PathTracker>("feedforward_pd");
   }
 
   static Scenario one_core() {

@@ -12,7 +12,7 @@
 #include <flyball/scenario/scenario.h>
 
 int main() {
-  const auto& plugins = flyball::all_plugins();
+  const flyball::Plugins plugins;
   const bool has_kernels = plugins.make<flyball::Mapper>("octomap") != nullptr &&
                            plugins.make<flyball::PathPlanner>("rrt_connect") != nullptr;
   const bool has_policies = !plugins.names<flyball::Policy>().empty();

@@ -7,7 +7,6 @@
 #include <flyball/flight/legs.h>
 #include <flyball/flight/navigation/navigation_nodes.h>
 #include <flyball/flight/workload.h>
-#include <flyball/scenario/plugins.h>
 #include <flyball/simulation/mission.h>
 
 using namespace flyball;
@@ -49,10 +48,10 @@ class LookAround final : public Workload {
   MissionTime land_at_{};
 };
 int main() {
-  add_plugins([](Registry& registry) {
+  Scenario scenario;
+  scenario.plugins = Plugins{}.with([](Registry& registry) {
     registry.add<Workload>("look_around", [] { return std::make_unique<LookAround>(); });
   });
-  Scenario scenario;
   scenario.mission.workload = "look_around";
   const auto record = fly(scenario, {});
   std::puts(record ? to_string(record->summary.status) : record.error().message.c_str());

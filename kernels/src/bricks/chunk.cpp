@@ -15,6 +15,21 @@ constexpr std::array<std::uint16_t, Chunk::brick_count> places_of_numbers() {
 }
 constexpr std::array<std::uint16_t, Chunk::brick_count> place_of = places_of_numbers();
 
+/// A chunk of unknown cells, whose tag has to be none in particular, with its log-odds. It stays
+/// where it is made.
+struct UnknownChunk {
+  UnknownChunk() : chunk{CellKey{-1, -1, -1}, log_odds} {
+    clear(log_odds);
+    chunk.tag_bits = 0;
+  }
+  UnknownChunk(const UnknownChunk&) = delete;
+  UnknownChunk& operator=(const UnknownChunk&) = delete;
+  ~UnknownChunk() = default;
+
+  Chunk::Bricks log_odds{};
+  Chunk chunk;
+};
+
 }  // namespace
 
 Chunk::Chunk(const CellKey& at, Bricks& log_odds) : bricks{log_odds.data()} {
@@ -72,19 +87,9 @@ void clear(Chunk::Bricks& log_odds) {
   }
 }
 
-/// Its tag has to be none in particular.
 const Chunk& unknown_chunk() {
-  static Chunk::Bricks log_odds = [] {
-    Chunk::Bricks bricks{};
-    clear(bricks);
-    return bricks;
-  }();
-  static const Chunk nothing = [] {
-    Chunk chunk{CellKey{-1, -1, -1}, log_odds};
-    chunk.tag_bits = 0;
-    return chunk;
-  }();
-  return nothing;
+  static const UnknownChunk nothing;
+  return nothing.chunk;
 }
 
 }  // namespace flyball

@@ -166,7 +166,7 @@ StageResult search_with_ompl(const SearchStage& stage,
                              Iterations iterations) {
   StageResult result;
   try {
-    ompl::msg::noOutputHandler();
+    ompl::msg::noOutputHandler();  // For the whole process: libraries do not print.
     PlanSampler sampler{
         checker, {stage.box_W, stage.start_W, stage.goal_W, stage.shorter_than_m}, stage.seed};
     const auto space = make_space(stage, checker, sampler);

@@ -193,7 +193,7 @@ struct FeatureExtractor::Detector {
 };
 
 FeatureExtractor::FeatureExtractor(const FeatureSettings& settings) {
-  cv::setNumThreads(1);
+  cv::setNumThreads(1);  // For the whole process: results must not depend on the host's cores.
   constexpr int border_px = 19;  // ORB's patch and its rotation need so much.
   detector_ = std::make_unique<Detector>(
       Detector{settings, cv::ORB::create(0, static_cast<float>(octave_scale), octaves, border_px, 0,

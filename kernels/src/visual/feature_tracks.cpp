@@ -171,7 +171,7 @@ void FeatureTracks::Images::refill(const cv::Mat& image, const TrackSettings& se
 
 FeatureTracks::FeatureTracks(const TrackSettings& settings)
     : settings_{settings}, images_{std::make_unique<Images>()} {
-  cv::setNumThreads(1);
+  cv::setNumThreads(1);  // For the whole process: results must not depend on the host's cores.
 }
 
 FeatureTracks::~FeatureTracks() = default;

@@ -160,7 +160,7 @@ std::optional<Pose> sampled_pose(const std::vector<LandmarkSighting>& sightings,
   cv::Mat translation;
   std::vector<int> inliers;
   try {
-    cv::setRNGSeed(1);
+    cv::setRNGSeed(1);  // OpenCV's generator is the thread's; each call begins it anew.
     const bool solved =
         cv::solvePnPRansac(places, pixels, matrix, cv::noArray(), rotation, translation, false,
                            max_samples, reach_px, confidence, inliers, cv::SOLVEPNP_P3P);

@@ -46,7 +46,7 @@ TEST(Localize, finds_the_path_of_a_rendered_flight) {
   settings.intrinsics = {112.0, 112.0, 111.5, 83.5};
   const auto recording = read_tum(flight().place.path(), settings);
   ASSERT_TRUE(recording) << recording.error().message;
-  const auto localizer = make_seeing_localizer("visual_slam");
+  const auto localizer = make_seeing_localizer("visual_slam", Plugins{});
   ASSERT_TRUE(localizer);
   const auto run = localize(*recording, **localizer, [] { return false; });
   ASSERT_TRUE(run) << run.error().message;
@@ -79,7 +79,7 @@ TEST(Localize, counts_the_poses_that_the_localizer_does_not_trust_itself) {
   const auto recording = read_tum(place.path(), settings);
   ASSERT_TRUE(recording);
   const auto run =
-      localize(*recording, **make_seeing_localizer("visual_slam"), [] { return false; });
+      localize(*recording, **make_seeing_localizer("visual_slam", Plugins{}), [] { return false; });
   ASSERT_TRUE(run);
   ASSERT_TRUE(run->error);
   EXPECT_GT(run->error->max_m, 0.05);
@@ -89,7 +89,7 @@ TEST(Localize, counts_the_poses_that_the_localizer_does_not_trust_itself) {
 }
 
 TEST(Localize, knows_which_localizers_see) {
-  const auto unknown = make_seeing_localizer("orb");
+  const auto unknown = make_seeing_localizer("orb", Plugins{});
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().message,
             "no localizer \"orb\"; there are: visual_inertial, visual_slam");

@@ -105,7 +105,7 @@ TEST(RecordedMap, agrees_with_the_world_that_was_recorded_whatever_the_mapper) {
   const auto recording = flight().read();
   ASSERT_TRUE(recording) << recording.error().message;
   for (const char* name : {"flyball", "octomap"}) {
-    const auto mapper = make_mapper(name);
+    const auto mapper = make_mapper(name, Plugins{});
     ASSERT_TRUE(mapper);
     const auto run =
         map_recording(*recording, recording->truth, settings(), **mapper, [] { return false; });
@@ -121,7 +121,7 @@ TEST(RecordedMap, agrees_with_the_world_that_was_recorded_whatever_the_mapper) {
 
 TEST(RecordedMap, disagrees_with_another_place) {
   const auto recording = flight().read();
-  const auto mapper = make_mapper("flyball");
+  const auto mapper = make_mapper("flyball", Plugins{});
   ASSERT_TRUE(
       map_recording(*recording, recording->truth, settings(), **mapper, [] { return false; }));
   EXPECT_LT(agreement(**mapper, Vec3{0.0, 0.0, 1.5}).precision, 0.5);
@@ -140,7 +140,7 @@ TEST(RecordedMap, frees_nothing_where_a_pixel_has_no_depth) {
   RecordingSettings as_it_is;
   as_it_is.intrinsics = {4.0, 4.0, 3.5, 2.5};
   const auto recording = read_tum(place.path(), as_it_is);
-  const auto mapper = make_mapper("octomap");
+  const auto mapper = make_mapper("octomap", Plugins{});
   MappingSettings fine;
   fine.map = {0.05, 5.0};
   ASSERT_TRUE(map_recording(*recording, recording->truth, fine, **mapper, [] { return false; }));
@@ -152,7 +152,7 @@ TEST(RecordedMap, frees_nothing_where_a_pixel_has_no_depth) {
 
 TEST(RecordedMap, leaves_out_frames_that_have_no_pose) {
   const auto recording = flight().read();
-  const auto mapper = make_mapper("flyball");
+  const auto mapper = make_mapper("flyball", Plugins{});
   const std::vector<TimedPose> two{recording->truth[2], recording->truth[3]};
   const auto run = map_recording(*recording, two, settings(), **mapper, [] { return false; });
   ASSERT_TRUE(run);
@@ -192,7 +192,7 @@ TEST(MapFrom, writes_a_map_that_any_mapper_reads) {
     const auto json = nlohmann::json::parse(said.output);
     EXPECT_EQ(json.at("frames"), frames);
     EXPECT_EQ(json.at("without_pose"), 0);
-    const auto mapper = make_mapper("octomap");
+    const auto mapper = make_mapper("octomap", Plugins{});
     const std::string file = flyball.place.path(how.substr(how.size() - 4));
     ASSERT_TRUE((*mapper)->read(file));
     EXPECT_EQ((*mapper)->contents().levels.front().occupied_cells, json.at("occupied_cells"));
@@ -213,7 +213,7 @@ TEST(MapFrom, takes_poses_from_a_file) {
   const auto said = flyball.run("map from " + flight().place.path() + intrinsics +
                                 " --poses poses.txt --every 2 --out a.bt");
   ASSERT_EQ(said.exit_code, 0) << said.errors;
-  const auto mapper = make_mapper("flyball");
+  const auto mapper = make_mapper("flyball", Plugins{});
   ASSERT_TRUE((*mapper)->read(flyball.place.path("a.bt")));
   EXPECT_GT(agreement(**mapper, Vec3{-4.0, 0.0, 0.0}).precision, 0.95);
 }

@@ -211,13 +211,11 @@ class KnobbyCheck final : public CollisionChecker {
 
 class OwnKnobs : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    add_plugins([](Registry& all) {
-      all.add<CollisionChecker>("knobby", [] { return std::make_unique<KnobbyCheck>(); });
-    });
-  }
   static Scenario with(const std::string& parameter, ParameterValue value) {
     Scenario scenario = one_gigahertz();
+    scenario.plugins = Plugins{}.with([](Registry& registry) {
+      registry.add<CollisionChecker>("knobby", [] { return std::make_unique<KnobbyCheck>(); });
+    });
     scenario.kernels.collision_check = "knobby";
     scenario.kernels.collision_check_parameters = {{parameter, std::move(value)}};
     return scenario;

@@ -15,7 +15,7 @@ TEST(PolicyChoice, is_a_preset_a_policy_or_a_file) {
   const std::string mine =
       scratch.file("mine.toml", "policy = 'fixed'\n[parameters]\nresolution_m = 0.3\n");
   for (const std::string& name : {std::string{"two_level"}, std::string{"density"}, mine}) {
-    const auto choice = choose_policy(name, 1);
+    const auto choice = choose_policy(name, Plugins{}, 1);
     ASSERT_TRUE(choice.ok()) << choice.error().message;
     EXPECT_TRUE(choice->started(conformance_knobs(), conformance_board()).ok()) << name;
   }
@@ -23,8 +23,8 @@ TEST(PolicyChoice, is_a_preset_a_policy_or_a_file) {
 
 TEST(PolicyChoice, that_does_not_exist_is_named_with_the_way_out) {
   EXPECT_EQ("no policy \"just_in_tme\"; try: flyball list policies",
-            choose_policy("just_in_tme", 1).error().message);
-  const std::string message = choose_policy("./gone.lua", 1).error().message;
+            choose_policy("just_in_tme", Plugins{}, 1).error().message);
+  const std::string message = choose_policy("./gone.lua", Plugins{}, 1).error().message;
   EXPECT_NE(std::string::npos, message.find("no file \"./gone.lua\" to read the policy from; give "
                                             "a path to a .toml, .lua or .so file"))
       << message;

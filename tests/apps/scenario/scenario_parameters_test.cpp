@@ -110,7 +110,7 @@ TEST(ScenarioParameters, a_localizer_has_its_own_too) {
   const KernelSettings& kernels = std::get<LoadedScenario>(result).scenario.kernels;
   EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("weak_corner")), 7.0);
   EXPECT_EQ(std::get<double>(kernels.localizer_parameters.at("strong_corner")), 5.0);
-  EXPECT_TRUE(make_kernel<Localizer>(kernels));
+  EXPECT_TRUE(make_kernel<Localizer>(Plugins{}, kernels));
   EXPECT_EQ(said("", {slam[0], "kernels.localizer_parameters.weak_corner=0"}),
             "localizer \"visual_slam\", weak_corner: 0 is not within 1 to 100\n");
 }
@@ -164,15 +164,15 @@ TEST(ScenarioParameters, are_those_of_every_family) {
 
 TEST(ScenarioParameters, make_every_kernel_of_every_family) {
   for (const FamilyChoice& family : family_choices()) {
-    for (const std::string& name : family.names()) {
+    for (const std::string& name : family.names(Plugins{})) {
       KernelSettings kernels;
       kernels.*family.kernel = name;
-      const auto kernel = make_kernel(family, kernels, model_finder({}));
+      const auto kernel = make_kernel(family, Plugins{}, kernels, model_finder({}));
       // What a machine lacks is said, and nothing else is wrong with the defaults.
       EXPECT_TRUE(kernel || kernel.error().code == ErrorCode::not_found)
           << family.owner(kernels) << ": " << kernel.error().message;
       (kernels.*family.parameters)["no_such"] = 1.0;
-      const auto refused = make_kernel(family, kernels, no_models);
+      const auto refused = make_kernel(family, Plugins{}, kernels, no_models);
       ASSERT_FALSE(refused.ok());
       EXPECT_NE(refused.error().message.find(family.owner(kernels)), std::string::npos);
     }

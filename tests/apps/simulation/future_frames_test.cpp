@@ -27,7 +27,8 @@ struct Ground {
   }
   /// What policies would be told here.
   FutureFrames frames() const {
-    return {std::make_shared<const Brief>(bench.brief), setup.things.world, *setup.platform, asked};
+    return {std::make_shared<const Brief>(bench.brief), flown.plugins, setup.things.world,
+            *setup.platform, asked};
   }
   static MissionSetup made() {
     auto setup = set_up(scenario());
@@ -69,7 +70,7 @@ TEST(FutureFrames, tells_what_the_frame_takes_that_is_taken_there) {
   const DepthFrame frame = camera.frame(X_WC, MissionTime{}, 0);
   Work points;
   const auto cloud = ground.bench.kernels.point_cloud->build(frame, 7.0, points);
-  const auto mapper = make_kernel<Mapper>(scenario.kernels);
+  const auto mapper = make_kernel<Mapper>(scenario.plugins, scenario.kernels);
   const auto work = (*mapper)->prepare(cloud.cloud_C.value(), X_WC, {0.15, 7.0});
   ASSERT_TRUE(work.ok());
   const Platform& computer = *ground.setup.platform;

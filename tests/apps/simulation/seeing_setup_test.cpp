@@ -26,7 +26,7 @@ TEST(SeeingSetup, gives_a_localizer_that_takes_images_a_camera_when_it_has_a_pri
   scenario.kernels.localizer = "visual_slam";
   PlatformModel model{kit::free_of_charge()};
   MissionEquipment equipment;
-  equipment.kernels.localizer = all_plugins().make<Localizer>("visual_slam");
+  equipment.kernels.localizer = Plugins{}.make<Localizer>("visual_slam");
   const auto unpriced = equip_to_see(scenario, ModeledPlatform{model}, World{}, equipment);
   ASSERT_FALSE(unpriced.ok());
   EXPECT_NE(unpriced.error().message.find("[kernels.visual_slam_frames]"), std::string::npos);

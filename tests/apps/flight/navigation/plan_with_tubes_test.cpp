@@ -36,7 +36,7 @@ struct Planning {
   }
   void fly_within(const Aabb& bounds_W) { rig.brief->site.bounds_W = bounds_W; }
   Plan plan(Cylinder& body) { return plan_with_tubes(rig.situation(), *planner, query, body); }
-  std::unique_ptr<PathPlanner> planner{all_plugins().make<PathPlanner>("rrt_connect")};
+  std::unique_ptr<PathPlanner> planner{Plugins{}.make<PathPlanner>("rrt_connect")};
   kit::MissionRig rig;
   PlanQuery query{};
 };

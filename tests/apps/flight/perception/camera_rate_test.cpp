@@ -84,7 +84,7 @@ TEST_F(CameraRate, adds_nothing_to_a_mission_without_that_knob) {
 
 TEST_F(CameraRate, the_localizers_rate_counts_among_the_frames_that_are_used) {
   Graph graph{"camera"};
-  rig.kernels.point_cloud = all_plugins().make<PointCloudBuilder>("depth_to_points");
+  rig.kernels.point_cloud = Plugins{}.make<PointCloudBuilder>("depth_to_points");
   const FlightParts parts = rig.parts(graph);
   (void)add_perception(graph, parts);
   ASSERT_TRUE(rig.set("localizer.rate_hz", 5.0));

@@ -5,6 +5,7 @@
 /// A detector on real pictures and video: what `flyball detect` does.
 
 #include "flyball/kernels/detector.h"
+#include "flyball/scenario/plugins.h"
 
 #include <functional>
 #include <map>
@@ -15,6 +16,7 @@ namespace flyball {
 
 struct DetectionRun {
   std::string input;  ///< A picture, a video, or a folder of pictures.
+  Plugins plugins{};  ///< With the detector.
   std::string detector{"hog"};
   std::map<std::string, ParameterValue> parameters{};
   double scale{1.0};

@@ -5,6 +5,7 @@
 /// A localizer on a recorded flight.
 
 #include "flyball/recordings/trajectory_error.h"
+#include "flyball/scenario/plugins.h"
 
 #include <functional>
 #include <memory>
@@ -36,8 +37,9 @@ struct LocalizationRun {
                                                const std::function<bool()>& stop,
                                                double uncertain_above_m = 0.1);
 
-/// A localizer that sees, by name.
+/// A localizer that sees, by its name among `plugins`.
 /// @error `not_found`, `invalid_input` with the names of those that do.
-[[nodiscard]] Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name);
+[[nodiscard]] Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name,
+                                                                       const Plugins& plugins);
 
 }  // namespace flyball

@@ -6,6 +6,7 @@
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/recordings/recording.h"
+#include "flyball/scenario/plugins.h"
 
 #include <functional>
 #include <memory>
@@ -48,7 +49,9 @@ struct MappingRun {
                                                MissionTime t,
                                                Duration widest_gap);
 
+/// A mapper, by its name among `plugins`.
 /// @error `not_found` with the names of those that there are.
-[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name);
+[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name,
+                                                          const Plugins& plugins);
 
 }  // namespace flyball

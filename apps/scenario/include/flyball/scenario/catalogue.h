@@ -2,7 +2,9 @@
 #pragma once
 
 /// @file
-/// The names that a scenario may use: plug-ins that are compiled in, and data that is shipped.
+/// The names that a scenario may use: plug-ins, and data that is shipped.
+
+#include "flyball/scenario/plugins.h"
 
 #include <string>
 #include <vector>
@@ -14,11 +16,11 @@ struct KernelFamily {
   std::string name;  ///< As in the scenario's section `kernels`: `mapper`.
   std::vector<std::string> kernels;
 };
-[[nodiscard]] std::vector<KernelFamily> kernel_families();
+[[nodiscard]] std::vector<KernelFamily> kernel_families(const Plugins& plugins);
 
-[[nodiscard]] std::vector<std::string> world_names();
-[[nodiscard]] std::vector<std::string> workload_names();
+[[nodiscard]] std::vector<std::string> world_names(const Plugins& plugins);
+[[nodiscard]] std::vector<std::string> workload_names(const Plugins& plugins);
 /// Presets, and policies that have no preset of their name, sorted.
-[[nodiscard]] std::vector<std::string> policy_names();
+[[nodiscard]] std::vector<std::string> policy_names(const Plugins& plugins);
 
 }  // namespace flyball

@@ -5,24 +5,26 @@
 /// The policy that a scenario names.
 
 #include "flyball/governors/policy_file.h"
+#include "flyball/scenario/scenario.h"
 
 namespace flyball {
 
-/// @param name  A preset, a policy with its default parameters, or a path to a policy's file
-///              (policy_file.h).
-/// @param seed  Of the random stream that a file's policy may draw from.
+/// @param name     A preset, a policy with its default parameters, or a path to a policy's file
+///                 (policy_file.h).
+/// @param plugins  With the policies that names stand for.
+/// @param seed     Of the random stream that a file's policy may draw from.
 /// @error `not_found` with the way out; those of `load_policy`.
-[[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name, std::uint64_t seed);
+[[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name,
+                                                 const Plugins& plugins,
+                                                 std::uint64_t seed);
 
 /// The library whose code would run if the policy was chosen, also where a preset or a combination
 /// names it; empty: none. Loads nothing.
 [[nodiscard]] std::string library_of_policy(const std::string& name);
 
-/// One that is ready to decide on this board; also a preset that combines two others
-/// (combined_policy.h), whose application is asked once per `application_period`.
-[[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const std::string& name,
-                                                           std::uint64_t seed,
-                                                           Duration application_period,
+/// The scenario's, ready to decide on this board; also a preset that combines two others
+/// (combined_policy.h), whose application is asked once per `governor.period_s`.
+[[nodiscard]] Result<std::unique_ptr<Policy>> start_policy(const Scenario& scenario,
                                                            const KnobSettings& knobs,
                                                            const BoardModel& board);
 

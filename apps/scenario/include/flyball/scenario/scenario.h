@@ -7,6 +7,7 @@
 #include "flyball/flight/flight_settings.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
+#include "flyball/scenario/plugins.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/gps.h"
@@ -61,6 +62,7 @@ struct ComputerEvent {
 struct Scenario {
   std::string name{"unnamed"};
   std::uint64_t seed{1};
+  Plugins plugins{};  ///< What the names below stand for; no setting.
   MissionSettings mission{};
   WorldSettings world{};
   VehicleSettings vehicle{};
@@ -103,10 +105,13 @@ struct LoadedScenario {
 /// Reads a scenario and applies `KEY=VALUE` overrides on top.
 ///
 /// @param name_or_path  `delivery_forest` (shipped) or a path to a .toml file.
+/// @param plugins       What the scenario may name; by default what is compiled in.
 /// @return              Every violation at once: unknown keys, wrong types and units, values out of
 ///                      range (both sides of the inequality), each as one sentence.
 [[nodiscard]] std::variant<LoadedScenario, std::vector<Error>> load_scenario(
-    const std::string& name_or_path, const std::vector<std::string>& overrides);
+    const std::string& name_or_path,
+    const std::vector<std::string>& overrides,
+    const Plugins& plugins = {});
 
 /// The scenario as a .toml file that `load_scenario` reads back to the same values.
 [[nodiscard]] std::string to_toml(const Scenario& scenario);

@@ -30,9 +30,11 @@ struct RecordedFlight {
   std::map<MissionTime, std::string> choices{};
 };
 
-/// @param folder  Of a run: mission.toml, summary.json and trace.jsonl are read.
+/// @param folder   Of a run: mission.toml, summary.json and trace.jsonl are read.
+/// @param plugins  What its scenario may name; by default what is compiled in.
 /// @error `not_found`, `invalid_input` with file and line.
-[[nodiscard]] Result<RecordedFlight> read_flight(const std::string& folder);
+[[nodiscard]] Result<RecordedFlight> read_flight(const std::string& folder,
+                                                 const Plugins& plugins = {});
 
 /// Where the repetition, or another policy, does not do what the record says.
 struct Difference {
