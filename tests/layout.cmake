@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
 # Fails when the tree leaves its plan: a folder at the top that has no place there, a source file
-# without its test, a file that is too long.
+# without its test, a file that is too long, a static that changes.
 set(places runtime governors kernels apps sim policies tests examples)
 set(built build flights)  # what the commands leave, not under version control
 set(bad "")
@@ -70,6 +70,19 @@ foreach(folder IN LISTS places)
     if(lines GREATER 400)
       string(APPEND bad "\n  ${file}: ${lines} lines, at most 400")
     endif()
+  endforeach()
+endforeach()
+
+# State that all callers of a function share and that may change. (clang-tidy looks for that of a file.)
+foreach(folder IN ITEMS runtime governors kernels policies sim apps)
+  file(GLOB_RECURSE files ${root}/${folder}/*.h ${root}/${folder}/*.cpp ${root}/${folder}/*.inc)
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} lines REGEX "^ +(thread_local )?static [^(]*[;={]")
+    foreach(line IN LISTS lines)
+      if(NOT line MATCHES "static (inline )?const(expr)? ")
+        string(APPEND bad "\n  ${file}: a static that changes:${line}")
+      endif()
+    endforeach()
   endforeach()
 endforeach()
 
