@@ -37,3 +37,13 @@ if(FLYBALL_BUILD_SIM)
   target_include_directories(slam_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/kit)
   flyball_compile_options(slam_bench)
 endif()
+add_executable(hop_bench EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/hop_bench.cpp
+                                          ${CMAKE_CURRENT_LIST_DIR}/delivery_soak.cpp)
+target_link_libraries(hop_bench PRIVATE flyball::runtime)
+target_include_directories(hop_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/kit)
+flyball_compile_options(hop_bench)
+find_package(TBB QUIET)  # Only to be compared with.
+if(TBB_FOUND)
+  target_link_libraries(hop_bench PRIVATE TBB::tbb)
+  target_compile_definitions(hop_bench PRIVATE FLYBALL_HAS_TBB)
+endif()

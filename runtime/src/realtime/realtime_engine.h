@@ -9,6 +9,7 @@
 
 #include "message_exchange.h"
 #include "node_job.h"
+#include "realtime/cpu_meter.h"
 #include "realtime/news.h"
 #include "realtime/parking.h"
 #include "realtime/priority_mutex.h"
@@ -73,7 +74,7 @@ struct RealtimeEngine {
   // Threads.
   void start();
   void work(std::size_t lane);
-  void run_body(int node);
+  void run_body(int node, CpuMeter& meter);
   void keep_time();
   /// Does what is due; returns when the next thing is.
   MissionTime do_what_is_due();

@@ -2,10 +2,10 @@
 // tested-in: realtime_executor
 #include "flyball/runtime/realtime/cpus.h"
 
+#include "realtime/cpu_meter.h"
 #include "realtime/realtime_engine.h"
 #include "realtime/thread_setup.h"
 #include <algorithm>
-#include <ctime>
 
 #include <pthread.h>
 
@@ -14,12 +14,6 @@ namespace {
 
 constexpr int nice_per_level = 3;  // Chosen: each level gets about half the time of the one above.
 constexpr int most_nice = 19;
-
-Duration thread_cpu_time() {
-  timespec used{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-  return std::chrono::seconds{used.tv_sec} + Duration{used.tv_nsec};
-}
 
 }  // namespace
 
@@ -138,6 +132,7 @@ void RealtimeEngine::unlock_and_wake(Lock& lock) {
 void RealtimeEngine::work(std::size_t level) {
   Lane& lane = lanes[level];
   set_up("jobs-" + std::to_string(lane.priority), level + 1);
+  CpuMeter meter;
   Lock lock{mutex};
   while (!is_stopping) {
     if (!has_begun || lane.ready.empty()) {
@@ -155,7 +150,7 @@ void RealtimeEngine::work(std::size_t level) {
     }
     begin(node);
     unlock_and_wake(lock);
-    run_body(node);
+    run_body(node, meter);
     lock.lock();
     end(node, lock);
   }
@@ -163,16 +158,15 @@ void RealtimeEngine::work(std::size_t level) {
   leave();
 }
 
-void RealtimeEngine::run_body(int node) {
+void RealtimeEngine::run_body(int node, CpuMeter& meter) {
   NodeJob& job = nodes[index(node)].job;
-  const Duration before = thread_cpu_time();
   const Clock::time_point begun = Clock::now();
   Work work = graph.nodes()[index(node)].body(job);
-  const std::chrono::duration<double> host = Clock::now() - begun;
+  const Duration took = Clock::now() - begun;
   // The timer's thread may write `missed` meanwhile: only `busy`, `host_s` and `work` are ours.
   job.record.work = std::move(work);
-  job.record.host_s = host.count();
-  job.record.busy = thread_cpu_time() - before;
+  job.record.host_s = to_seconds(took);
+  job.record.busy = meter.job(took);
 }
 
 void RealtimeEngine::begin_period(int node, MissionTime at) {
