@@ -38,8 +38,10 @@ int bound(const BoundOptions& options) {
   }
   std::string text = scenario.name + ", seed " + std::to_string(scenario.seed) + ": at least " +
                      rounded(1e-3 * least->energy_j(), 1) + " kJ\n";
-  for (const BoundedLeg& leg : least->legs) {
-    text += "  " + rounded(leg.length_m, 1) + " m, " + rounded(1e-3 * leg.energy_j, 1) + " kJ\n";
+  for (std::size_t i = 0; i < least->legs.size(); ++i) {
+    const BoundedLeg& leg = least->legs[i];
+    text += (i == 0 ? "  out   " : "  back  ") + rounded(leg.length_m, 1) + " m, " +
+            rounded(1e-3 * leg.energy_j, 1) + " kJ\n";
   }
   print(text);
   return exit_success;
@@ -52,9 +54,11 @@ void add_bound(CLI::App& program, int& exit_code) {
       program.add_subcommand("bound", "computes a lower bound of the energy that a delivery takes");
   const auto options = std::make_shared<BoundOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")
+  refuse_empty(*command
+                    ->add_option("--seed", options->seed,
+                                 "seed of world, sensors and planner; default: the scenario's")
                     ->type_name("N"));
-  command->add_flag("--json", options->flight.json, "as JSON");
+  command->add_flag("--json", options->flight.json, "prints the result as JSON");
   command->callback([options, &exit_code] { exit_code = bound(*options); });
 }
 

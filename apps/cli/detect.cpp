@@ -106,7 +106,9 @@ void add_detect(CLI::App& program, int& exit_code) {
   refuse_empty(
       *command->add_option("INPUT", run.input, "a picture, a video or a folder of pictures")
            ->required());
-  refuse_empty(*command->add_option("--detector", run.detector, "one of: flyball list kernels")
+  refuse_empty(*command
+                    ->add_option("--detector", run.detector,
+                                 "one of the detectors that `flyball list kernels` names")
                     ->type_name("NAME"));
   command->add_option("--scale", run.scale, "size of the analysed picture over that of the file")
       ->check(CLI::Range(0.05, 8.0));

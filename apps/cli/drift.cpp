@@ -201,9 +201,10 @@ void add_drift(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<DriftOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
   add_contest(*command, options->policies, options->seeds);
-  refuse_nan(*command->add_option("--at", options->at_s, "mission time of the event, s")
-                  ->check(CLI::Range(0.0, 86400.0))
-                  ->type_name("SECONDS"));
+  refuse_nan(
+      *command->add_option("--at", options->at_s, "mission time at which the computer changes")
+           ->check(CLI::Range(0.0, 86400.0))
+           ->type_name("SECONDS"));
   add_jobs(*command, options->jobs);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = drift(*options); });

@@ -92,7 +92,9 @@ void add_explain(CLI::App& program, int& exit_code) {
   command->add_option("RUN", options->folder, "the folder of a run")->required();
   add_trust(*command, options->trusts);
   add_kernels(*command, options->plugins);
-  refuse_nan(*command->add_option("--at", options->at_s, "mission time")
+  refuse_nan(*command
+                  ->add_option("--at", options->at_s,
+                               "mission time; the last decision until then is shown")
                   ->type_name("SECONDS")
                   ->required()
                   ->check(CLI::Range(0.0, 86400.0)));

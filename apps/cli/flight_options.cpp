@@ -67,11 +67,17 @@ void add_output(CLI::App& command, FlightOptions& options) {
 
 void add_contest(CLI::App& command, std::vector<std::string>& policies, std::string& seeds) {
   refuse_empty(
-      *command.add_option("--policies", policies, "the others are compared with the first one")
+      *command
+           .add_option("--policies", policies,
+                       "names from `flyball list policies`, or files; the others are compared with "
+                       "the first one")
            ->delimiter(',')
            ->required()
            ->type_name("A,B,C"));
-  command.add_option("--seeds", seeds, "one seed each for world, sensors and planner")
+  command
+      .add_option("--seeds", seeds,
+                  "as 1..10, 3 or 1,4,9; one flight of each policy for each; a seed draws world, "
+                  "sensors and planner")
       ->type_name("1..N");
 }
 

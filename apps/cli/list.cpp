@@ -15,6 +15,7 @@
 #include "console.h"
 #include "flight_options.h"
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -33,21 +34,33 @@ std::string number(double value) {
   return text.data();
 }
 
-/// The first comment of a data file that is not its licence says what it is.
-std::string first_comment(const std::string& path) {
+/// The first sentence of a data file's first comment that is not its licence says what it is.
+std::string first_sentence(const std::string& path) {
   std::ifstream file{path};
+  std::string comment;
   for (std::string line; std::getline(file, line) && line.rfind('#', 0) == 0;) {
+    if (line.size() < 3 && !comment.empty()) {
+      break;
+    }
     if (line.size() > 2 && line.find("SPDX-") == std::string::npos) {
-      return line.substr(2);
+      comment += (comment.empty() ? "" : " ") + line.substr(2);
     }
   }
-  return {};
+  // "DAC 2021. The" ends a sentence, "eq. 1" and ".3 m" do not.
+  for (std::size_t at = comment.find(". "); at != std::string::npos;
+       at = comment.find(". ", at + 1)) {
+    const char next = at + 2 < comment.size() ? comment[at + 2] : ' ';
+    if (next == '"' || std::isupper(static_cast<unsigned char>(next)) != 0) {
+      return comment.substr(0, at + 1);
+    }
+  }
+  return comment;
 }
 
 Result<Lines> list_files(const std::string& kind) {
   Lines lines;
   for (const std::string& name : shipped(kind)) {
-    lines.push_back({name, first_comment(share_folder(kind) + "/" + name + ".toml")});
+    lines.push_back({name, first_sentence(share_folder(kind) + "/" + name + ".toml")});
   }
   return lines;
 }

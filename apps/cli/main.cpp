@@ -4,10 +4,21 @@
 #include "console.h"
 #include <exception>
 #include <sstream>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 namespace {
+
+/// `flyball map from --help` where the mistake stands behind `flyball map from`.
+std::string nearest_help(const CLI::App& program) {
+  std::string command = "flyball";
+  for (const CLI::App* at = &program; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().back();
+    command += " " + at->get_name();
+  }
+  return command + " --help";
+}
 
 int parse_and_run(int argc, char** argv) {
   CLI::App program{
@@ -33,6 +44,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_fit(program, exit_code);
   flyball::add_localize(program, exit_code);
   flyball::add_version(program, exit_code);
+  program.footer("`flyball SUBCOMMAND --help` explains the options of one sub-command.");
   try {
     program.parse(argc, argv);
     if (program.get_subcommands().empty()) {
@@ -45,7 +57,7 @@ int parse_and_run(int argc, char** argv) {
       flyball::print(help.str());
       return flyball::exit_success;
     }
-    flyball::note(std::string{"flyball: "} + error.what() + "; try: flyball --help");
+    flyball::note(std::string{"flyball: "} + error.what() + "; try: " + nearest_help(program));
     return flyball::exit_bad_input;
   }
   return exit_code;

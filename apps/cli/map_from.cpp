@@ -184,16 +184,25 @@ void add_map_from(CLI::App& map, int& exit_code) {
       map.add_subcommand("from", "makes a map of a recording's depth images and poses");
   const auto options = std::make_shared<MapFromOptions>();  // Owners: the parser's callbacks.
   add_recording_options(*command, options->recording);
-  command->add_option("--out", options->out, "the map: a file that ends in .bt or .ot")->required();
-  command->add_option("--mapper", options->mapper, "flyball or octomap");
-  command->add_option("--resolution", options->settings.map.resolution_m, "side of a cell")
+  command->add_option("--out", options->out, "writes the map there: a file that ends in .bt or .ot")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--mapper", options->mapper, "flyball or octomap")->type_name("NAME");
+  command->add_option("--resolution", options->settings.map.resolution_m, "size of a cell")
       ->type_name("M");
-  command->add_option("--range", options->settings.map.range_m, "depth beyond it only frees")
+  command
+      ->add_option("--range", options->settings.map.range_m,
+                   "depth beyond it frees space and marks nothing occupied")
       ->type_name("M");
-  command->add_option("--poses", options->poses,
-                      "lines `time tx ty tz qx qy qz qw`, in place of the true path");
-  command->add_option("--localizer", options->localizer, "finds the poses: visual_slam");
-  command->add_option("--every", options->settings.every, "uses one frame in so many");
+  command
+      ->add_option("--poses", options->poses,
+                   "a file of lines `time tx ty tz qx qy qz qw`, in place of the true path")
+      ->type_name("FILE");
+  command
+      ->add_option("--localizer", options->localizer,
+                   "finds the poses: visual_slam or visual_inertial")
+      ->type_name("NAME");
+  command->add_option("--every", options->settings.every, "uses every Nth frame")->type_name("N");
   command->add_flag("--json", options->as_json, "prints JSON");
   command->callback([options, &exit_code] { exit_code = map_from(*options); });
 }

@@ -39,11 +39,15 @@ Status check(const RecordingSettings& settings) {
 }  // namespace
 
 void add_recording_options(CLI::App& command, RecordingOptions& options) {
-  command.add_option("DIR", options.folder, "the folder of the recording")->required();
+  command
+      .add_option("RECORDING", options.folder,
+                  "the folder of a recording in the layout of TUM RGB-D or EuRoC")
+      ->required();
   command
       .add_option("--intrinsics", options.settings.intrinsics,
-                  "fx,fy,cx,cy in pixels, in place of the layout's own")
+                  "in pixels, in place of those of the recording")
       ->delimiter(',')
+      ->type_name("fx,fy,cx,cy")
       ->expected(4);
   command.add_option("--depth-factor", options.settings.depth_factor,
                      "units of the depth image in a metre; 5000 by default");

@@ -161,9 +161,16 @@ void add_run(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("run", "flies one mission");
   const auto options = std::make_shared<RunOptions>();  // Owners: the parser's callbacks.
   add_scenario(*command, options->flight);
-  refuse_empty(*command->add_option("--policy", options->policy, "turns the knobs in flight")
-                    ->type_name("NAME"));
-  refuse_empty(*command->add_option("--seed", options->seed, "of world, sensors and planner")
+  refuse_empty(
+      *command
+           ->add_option(
+               "--policy", options->policy,
+               "changes knobs in flight: a name from `flyball list policies`, or a file (.toml, "
+               ".lua, .so); default: the scenario's")
+           ->type_name("NAME"));
+  refuse_empty(*command
+                    ->add_option("--seed", options->seed,
+                                 "seed of world, sensors and planner; default: the scenario's")
                     ->type_name("N"));
   refuse_empty(*command
                     ->add_option("--start-map", options->start_map,

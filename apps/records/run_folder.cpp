@@ -70,6 +70,12 @@ constexpr std::array<Foremost, 5> foremost_figures{
      {"map_precision", "map precision %", 100.0},
      {"area_covered_percent", "area covered %", 1.0}}};
 
+constexpr const char* figures_note =
+    "<p class=\"note\">Known, believed, views, looks, detections and frames are what the vehicle "
+    "itself counts; coverage, errors, recall and precision are measured in the true world, "
+    "unknown to it. Latency is the median time from sensor to command; it is 0 where no map is "
+    "made. The page apps/records/README.md lists all figures.</p>";
+
 using TitledCells = std::vector<std::pair<std::string, std::string>>;
 
 void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
@@ -90,6 +96,20 @@ std::string libraries_line(const Plugins& plugins) {
   return names.empty() ? "" : "# Flown with --kernels: " + names + "\n";
 }
 
+/// `known_percent` as "known %", `localization_error_m_max` as "localization error max m".
+std::string title_of(std::string name) {
+  for (const auto& [end, title] :
+       {std::pair{"_percent", " %"}, {"_m_max", " max m"}, {"_m_mean", " mean m"}}) {
+    const std::string ending{end};
+    if (name.size() > ending.size() &&
+        name.compare(name.size() - ending.size(), std::string::npos, ending) == 0) {
+      name.replace(name.size() - ending.size(), std::string::npos, title);
+    }
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string summary_table(const Summary& summary) {
   const bool failed = summary.status == MissionStatus::failed;
   std::map<std::string, double> quality = summary.quality;
@@ -102,12 +122,10 @@ std::string summary_table(const Summary& summary) {
                            {"battery %", rounded(summary.battery_used_percent(), 1)},
                            {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
                            {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
-                           {"clearance m", rounded(summary.min_clearance_m, 2)}};
+                           {"nearest obstacle m", rounded(summary.min_clearance_m, 2)}};
   cells.insert(cells.end(), flight.begin(), flight.end());
   for (const auto& [name, value] : quality) {
-    std::string title = name;
-    std::replace(title.begin(), title.end(), '_', ' ');
-    cells.emplace_back(html_text(title), rounded(value, 1));
+    cells.emplace_back(html_text(title_of(name)), rounded(value, 1));
   }
   std::string titles;
   std::string values;
@@ -121,8 +139,9 @@ std::string summary_table(const Summary& summary) {
 std::string run_page(const Scenario& scenario,
                      const RunPicture& picture,
                      const std::string& frames_html) {
-  return report_page(scenario.name, {picture},
-                     summary_table(picture.summary) + frames_html + scenario_html(scenario));
+  return report_page(
+      scenario.name, {picture},
+      summary_table(picture.summary) + figures_note + frames_html + scenario_html(scenario));
 }
 
 /// One attempt at `prepare_folder`.

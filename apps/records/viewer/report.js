@@ -8,15 +8,17 @@ const colour = policy => palette[policies.indexOf(policy) % palette.length];
 const state = { seed: seeds[0], hidden: new Set(), time: null };
 const shown = () => data.runs.filter(run => run.seed === state.seed && !state.hidden.has(run.policy));
 
+// A mission without a map has no latency bound above zero: the cell size of its map would mean nothing.
+const hasMap = data.runs.some(run => (run.series.latency || []).some(v => v > 0));
 const charts = [
-  { title: 'Map resolution', unit: 'm', lines: [{ key: 'resolution', step: true }], digits: 2 },
-  { title: 'Latency bound', unit: 's', lines: [{ key: 'latency' }], digits: 2 },
+  { title: 'Map resolution', unit: 'm', hint: 'size of the cells of the map', shown: hasMap, lines: [{ key: 'resolution', step: true }], digits: 2 },
+  { title: 'Latency bound', unit: 's', hint: 'the longest time from sensor to map that the speed limit allows for', shown: hasMap, lines: [{ key: 'latency' }], digits: 2 },
   { title: 'Speed', unit: 'm/s', lines: [{ key: 'limit', dash: [4, 3], name: 'limit' }, { key: 'speed' }], digits: 2 },
   { title: 'Rotor power', unit: 'W', lines: [{ key: 'rotor' }], digits: 0 },
   { title: 'Computer power', unit: 'W', lines: [{ key: 'computer' }], digits: 1 },
   { title: 'Battery', unit: '%', lines: [{ key: 'battery' }], digits: 1, top: 100 },
-  { title: 'Coverage', unit: '%', lines: [{ key: 'coverage' }], digits: 1, top: 100 },
-].filter(chart => data.runs.some(run => chart.lines.some(line => (run.series[line.key] || []).some(v => v !== null))));
+  { title: 'Coverage', unit: '%', hint: 'measured in the true world; the vehicle does not know it', lines: [{ key: 'coverage' }], digits: 1, top: 100 },
+].filter(chart => chart.shown !== false && data.runs.some(run => chart.lines.some(line => (run.series[line.key] || []).some(v => v !== null))));
 for (const chart of charts) for (const run of data.runs) for (const line of chart.lines)
   run.series[line.key] = run.series[line.key] || [];
 
@@ -125,7 +127,7 @@ function makeCharts() {
     const box = document.createElement('div');
     box.className = 'chart';
     const names = chart.lines.filter(l => l.name).map(l => (l.dash ? 'dashed: ' : 'solid: ') + l.name);
-    box.innerHTML = `<h2>${chart.title} <span class="hint">${chart.unit}${names.length ? '; ' + names.join(', ') : ''}</span></h2><canvas></canvas>`;
+    box.innerHTML = `<h2>${chart.title} <span class="hint">${chart.unit}${chart.hint ? '; ' + chart.hint : ''}${names.length ? '; ' + names.join(', ') : ''}</span></h2><canvas></canvas>`;
     chart.canvas = box.querySelector('canvas');
     chart.canvas.addEventListener('pointermove', event => {
       const time = chart.timeAt(event.offsetX);
@@ -140,7 +142,10 @@ function makeCharts() {
 function makeLegend() {
   const words = ['grey: solid at flight height', 'pale: lower than that'];
   if (data.runs.some(run => run.map)) words.push('coloured squares: occupied in the map that was made');
+  if (data.runs.some(run => run.footprint)) words.push('tinted: photographed', 'dashed: to be photographed');
   if (data.runs.some(run => run.people)) words.push('dotted: the path of the person');
+  if (data.runs.some(run => run.sighting)) words.push('ring: the person was detected', 'red cross: a false detection');
+  if (data.runs.some(failed)) words.push('coloured cross: where a flight ended without success');
   document.getElementById('legend').textContent =
     words.join(', ') + '; wheel zooms, dragging moves, a double click fits';
 }

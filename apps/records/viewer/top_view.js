@@ -103,7 +103,7 @@ function drawSightings(pen, run, X, Y) {
     pen.beginPath(); pen.arc(X(x), Y(y), 9, 0, 2 * Math.PI); pen.stroke();
   }
   const found = seen.find(s => s[2]);
-  if (found) label(pen, X(found[0]), Y(found[1]) - 18, `found at ${found[6].toFixed(0)} s`, '#00694d');
+  if (found) label(pen, X(found[0]), Y(found[1]) - 26, `first detected at ${found[6].toFixed(0)} s`, '#00694d');
 }
 function drawScale(pen, width, height) {
   const most = width / view.scale / 4, power = 10 ** Math.floor(Math.log10(most));

@@ -104,7 +104,8 @@ TEST_F(Cli, refuses_a_world_that_cannot_be_made) {
 
 TEST_F(Cli, refuses_what_is_no_command) {
   expect_refused("fly delivery_forest", "try: flyball --help");
-  expect_refused("run", "SCENARIO");
+  expect_refused("run", "SCENARIO is required; try: flyball run --help");
+  expect_refused("map from", "RECORDING is required; try: flyball map from --help");
   expect_refused("run delivery_forest --fast", "--fast");
   expect_refused("compare delivery_forest", "--policies");
   expect_refused("compare delivery_forest --policies fixed_fine --jobs 0",
@@ -125,14 +126,16 @@ TEST_F(Cli, refuses_a_library_of_kernels_that_is_none) {
 }
 
 TEST_F(Cli, lists_everything_that_can_be_named) {
-  const std::pair<const char*, const char*> lists[] = {{"scenarios", "delivery_forest "},
-                                                       {"workloads", "package_delivery\n"},
-                                                       {"kernels", "mapper           octomap\n"},
-                                                       {"policies", "two_level "},
-                                                       {"platforms", "jetson_tx2 "},
-                                                       {"worlds", "  goal_distance_m "},
-                                                       {"airframes", "matrice_100 "},
-                                                       {"knobs", "map.resolution_m "}};
+  const std::pair<const char*, const char*> lists[] = {
+      {"scenarios", "delivery_forest "},
+      {"workloads", "package_delivery\n"},
+      {"kernels", "mapper           octomap\n"},
+      {"policies", "two_level "},
+      {"platforms", "jetson_tx2 "},
+      {"worlds", "  goal_distance_m "},
+      {"boards", "; choose it with --board generic_x86.\n"},
+      {"airframes", "MAVBench (MICRO 2018).\n"},
+      {"knobs", "map.resolution_m "}};
   for (const auto& [kind, line] : lists) {
     const FlyballProgram::Outcome outcome = flyball.run(std::string{"list "} + kind);
     EXPECT_EQ(outcome.exit_code, 0) << kind;

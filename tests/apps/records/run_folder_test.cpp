@@ -32,6 +32,16 @@ TEST(RunFolder, holds_the_mission_its_summary_its_trace_and_a_page) {
   }
 }
 
+TEST(RunFolder, the_page_has_units_as_its_other_columns_have_them) {
+  const ScratchFolder scratch;
+  MissionRecord record = made_record("a", 5);
+  record.summary.quality = {{"known_percent", 90.0}, {"localization_error_m_max", 0.25}};
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, record).ok());
+  EXPECT_NE(
+      scratch.content("report.html").find("<th>known %</th><th>localization error max m</th></tr>"),
+      std::string::npos);
+}
+
 TEST(RunFolder, the_page_begins_with_the_figures_by_which_a_workload_is_judged) {
   const ScratchFolder scratch;
   MissionRecord record = made_record("a", 5);

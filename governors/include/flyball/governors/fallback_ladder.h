@@ -30,7 +30,7 @@ struct FallbackSettings {
   bool enabled{true};
   int late_maps{2};          ///< Of the last `map_window`: alarm.
   int map_window{20};        ///< At most 64.
-  double bound_factor{1.5};  ///< While the alarm lasts: until none of the window was late.
+  double bound_factor{1.5};  ///< While the alarm lasts: until fewer than `late_maps` were late.
   /// Granted clock or cores differ from what was requested for so long: a switch takes its time.
   Duration mismatch_patience{std::chrono::seconds{1}};
   /// The table asks for the most. What is still granted after so long is what there is (a computer
