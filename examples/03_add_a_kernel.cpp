@@ -4,9 +4,7 @@
 // flyball::apps can hand its own kernels, worlds and workloads to `fly`. This one checks the
 // detector on a painted picture and then follows a person with it.
 //
-// Without a program the same file flies as a library:
-//     flyball run photography_park --kernels ./libblue_trousers.so --set
-//     kernels.detector=blue_trousers --set detector.cost_of=hog
+// Without a program the same file flies as a library; README.md beside it has the command.
 
 #include "flyball/kernels/detector.h"
 #include "flyball/scenario/plugins.h"

@@ -98,8 +98,10 @@ std::string libraries_line(const Plugins& plugins) {
 
 /// `known_percent` as "known %", `localization_error_m_max` as "localization error max m".
 std::string title_of(std::string name) {
-  for (const auto& [end, title] :
-       {std::pair{"_percent", " %"}, {"_m_max", " max m"}, {"_m_mean", " mean m"}}) {
+  for (const auto& [end, title] : {std::pair{"_percent", " %"},
+                                   {"_m_max", " max m"},
+                                   {"_m_mean", " mean m"},
+                                   {"_s_max", " max s"}}) {
     const std::string ending{end};
     if (name.size() > ending.size() &&
         name.compare(name.size() - ending.size(), std::string::npos, ending) == 0) {
