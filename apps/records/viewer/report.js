@@ -12,7 +12,7 @@ const shown = () => data.runs.filter(run => run.seed === state.seed && !state.hi
 const hasMap = data.runs.some(run => (run.series.latency || []).some(v => v > 0));
 const charts = [
   { title: 'Map resolution', unit: 'm', hint: 'size of the cells of the map', shown: hasMap, lines: [{ key: 'resolution', step: true }], digits: 2 },
-  { title: 'Latency bound', unit: 's', hint: 'the longest time from sensor to map that the speed limit allows for', shown: hasMap, lines: [{ key: 'latency' }], digits: 2 },
+  { title: 'Latency bound', unit: 's', hint: 'the age that a map may reach before the next one comes, for which the speed limit allows', shown: hasMap, lines: [{ key: 'latency' }], digits: 2 },
   { title: 'Speed', unit: 'm/s', lines: [{ key: 'limit', dash: [4, 3], name: 'limit' }, { key: 'speed' }], digits: 2 },
   { title: 'Rotor power', unit: 'W', lines: [{ key: 'rotor' }], digits: 0 },
   { title: 'Computer power', unit: 'W', lines: [{ key: 'computer' }], digits: 1 },
@@ -126,7 +126,7 @@ function makeCharts() {
   for (const chart of charts) {
     const box = document.createElement('div');
     box.className = 'chart';
-    const names = chart.lines.filter(l => l.name).map(l => (l.dash ? 'dashed: ' : 'solid: ') + l.name);
+    const names = chart.lines.filter(l => l.name && data.runs.some(run => run.series[l.key].some(v => v !== null))).map(l => (l.dash ? 'dashed: ' : 'solid: ') + l.name);
     box.innerHTML = `<h2>${chart.title} <span class="hint">${chart.unit}${chart.hint ? '; ' + chart.hint : ''}${names.length ? '; ' + names.join(', ') : ''}</span></h2><canvas></canvas>`;
     chart.canvas = box.querySelector('canvas');
     chart.canvas.addEventListener('pointermove', event => {
