@@ -8,15 +8,19 @@
 
 namespace flyball {
 
-ClockControl::ClockControl(LinuxSystem& system, SettingsKeeper& keeper, ClockPolicy policy)
+ClockControl::ClockControl(LinuxSystem& system,
+                           SettingsKeeper& keeper,
+                           ClockPolicy policy,
+                           std::vector<Hertz> clocks)
     : system_{system},
       keeper_{keeper},
       policy_{std::move(policy)},
+      clocks_{std::move(clocks)},
       is_by_hand_{policy_.has_set_speed()} {}
 
-Status ClockControl::set(Hertz wanted, const std::vector<Hertz>& clocks) {
-  Hertz clock = clocks.empty() ? wanted : clocks.front();
-  for (const Hertz step : clocks) {
+Status ClockControl::set(Hertz wanted) {
+  Hertz clock = clocks_.empty() ? wanted : clocks_.front();
+  for (const Hertz step : clocks_) {
     clock = wanted < step ? clock : step;
   }
   if (Status kept = keep_files(); !kept) {

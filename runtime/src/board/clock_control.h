@@ -18,12 +18,17 @@ namespace flyball {
 /// limits moved out of the way. Elsewhere (intel_pstate) both limits are moved to the clock.
 class ClockControl {
  public:
-  /// `system` and `keeper` outlive it.
-  ClockControl(LinuxSystem& system, SettingsKeeper& keeper, ClockPolicy policy);
+  /// @param system  Outlives this, as does `keeper`.
+  /// @param clocks  That may be set, ascending: `clocks_of`.
+  ClockControl(LinuxSystem& system,
+               SettingsKeeper& keeper,
+               ClockPolicy policy,
+               std::vector<Hertz> clocks);
 
-  /// Sets the highest of `clocks` that is not above `wanted`, or the lowest, and reads it back.
+  /// Sets the highest of its clocks that is not above `wanted`, or the lowest, and reads it back.
   /// @error Those of `SettingsKeeper::write`; `failed`: the files hold something else afterwards.
-  Status set(Hertz wanted, const std::vector<Hertz>& clocks);
+  Status set(Hertz wanted);
+  [[nodiscard]] const std::vector<Hertz>& clocks() const { return clocks_; }
   /// Zero before the first `set`.
   [[nodiscard]] Hertz requested() const { return requested_; }
   /// What the driver says (`scaling_cur_freq`); empty: nothing, or all cores are off-line.
@@ -52,6 +57,7 @@ class ClockControl {
   LinuxSystem& system_;
   SettingsKeeper& keeper_;
   ClockPolicy policy_;
+  std::vector<Hertz> clocks_;
   bool is_by_hand_;  ///< By `scaling_setspeed`.
   bool is_kept_{};
   Hertz requested_{};

@@ -124,11 +124,11 @@ void LinuxBoard::State::add_controls() {
       return std::find(order.begin(), order.end(), id) != order.end();
     });
     if (is_used || policy.cpus.empty()) {
-      controls.emplace_back(system, *keeper, policy);
+      controls.emplace_back(system, *keeper, policy, clocks_of(policy, options.file));
     }
   }
   if (!controls.empty()) {
-    clocks = clocks_of(controls.front().policy(), options.file);
+    clocks = controls.front().clocks();
     return;
   }
   may_set_clock = false;
@@ -169,8 +169,7 @@ void LinuxBoard::State::set_clock(Hertz wanted) {
   clock.requested = wanted;
   clock.measured.reset();
   for (ClockControl& control : controls) {
-    const auto own = clocks_of(control.policy(), options.file);
-    const Status set = control.set(wanted, own);
+    const Status set = control.set(wanted);
     if (set) {
       continue;
     }

@@ -19,8 +19,8 @@ class ClockControlTest : public testing::Test {
     auto opened = SettingsKeeper::open(kernel_, {tree_.root() + "/run", false});
     EXPECT_TRUE(opened.ok());
     keeper_ = std::move(*opened);
-    control_.emplace(kernel_, *keeper_, discover_board(kernel_).policies.front());
-    clocks_ = clocks_of(control_->policy(), {});
+    const ClockPolicy policy = discover_board(kernel_).policies.front();
+    control_.emplace(kernel_, *keeper_, policy, clocks_of(policy, {}));
     return *control_;
   }
 
@@ -28,7 +28,6 @@ class ClockControlTest : public testing::Test {
   fake::Kernel kernel_{tree_.root()};
   std::unique_ptr<SettingsKeeper> keeper_{};
   std::optional<ClockControl> control_{};
-  std::vector<Hertz> clocks_{};
 };
 
 TEST(FakeKernel, refuses_limits_in_the_wrong_order_as_the_kernel_does) {
@@ -46,26 +45,26 @@ TEST(FakeKernel, refuses_limits_in_the_wrong_order_as_the_kernel_does) {
 
 TEST_F(ClockControlTest, writes_the_governor_then_the_clock) {
   ClockControl& control = plant(fake::plant_tx2_r32);
-  ASSERT_TRUE(control.set(Hertz{1420.8e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1420.8e6}).ok());
   EXPECT_EQ(kernel_.writes,
             (Lines{"policy0/scaling_governor=userspace", "policy0/scaling_setspeed=1420800"}));
   EXPECT_EQ(control.reported(), Hertz{1420.8e6});
-  ASSERT_TRUE(control.set(Hertz{2035.2e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{2035.2e6}).ok());
   EXPECT_EQ(kernel_.writes.size(), 3U);  // one write for each further clock
 }
 
 TEST_F(ClockControlTest, writes_to_the_first_of_the_folders_of_r28) {
   ClockControl& control = plant(fake::plant_tx2_r28);
-  ASSERT_TRUE(control.set(Hertz{499.2e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{499.2e6}).ok());
   EXPECT_EQ(kernel_.writes, (Lines{"cpu0/cpufreq/scaling_governor=userspace",
                                    "cpu0/cpufreq/scaling_setspeed=499200"}));
 }
 
 TEST_F(ClockControlTest, lowers_the_lower_limit_before_the_upper_one) {
   ClockControl& control = plant(fake::plant_x86);
-  ASSERT_TRUE(control.set(Hertz{2000e6}, clocks_).ok());
-  ASSERT_TRUE(control.set(Hertz{1000e6}, clocks_).ok());
-  ASSERT_TRUE(control.set(Hertz{3000e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{2000e6}).ok());
+  ASSERT_TRUE(control.set(Hertz{1000e6}).ok());
+  ASSERT_TRUE(control.set(Hertz{3000e6}).ok());
   EXPECT_EQ(kernel_.writes,
             (Lines{"policy0/scaling_min_freq=2000000", "policy0/scaling_max_freq=2000000",
                    "policy0/scaling_min_freq=1000000", "policy0/scaling_max_freq=1000000",
@@ -74,10 +73,11 @@ TEST_F(ClockControlTest, lowers_the_lower_limit_before_the_upper_one) {
 
 TEST_F(ClockControlTest, is_never_refused_on_the_way_from_any_clock_to_any_other) {
   ClockControl& control = plant(fake::plant_x86);
-  for (const Hertz from : clocks_) {
-    for (const Hertz to : {clocks_.front(), clocks_[clocks_.size() / 2], clocks_.back()}) {
-      ASSERT_TRUE(control.set(from, clocks_).ok());
-      ASSERT_TRUE(control.set(to, clocks_).ok());
+  const std::vector<Hertz>& clocks = control.clocks();
+  for (const Hertz from : clocks) {
+    for (const Hertz to : {clocks.front(), clocks[clocks.size() / 2], clocks.back()}) {
+      ASSERT_TRUE(control.set(from).ok());
+      ASSERT_TRUE(control.set(to).ok());
       ASSERT_EQ(control.reported(), to);
     }
   }
@@ -85,20 +85,20 @@ TEST_F(ClockControlTest, is_never_refused_on_the_way_from_any_clock_to_any_other
 
 TEST_F(ClockControlTest, takes_the_next_lower_clock_that_there_is) {
   ClockControl& control = plant(fake::plant_tx2_r32);
-  ASSERT_TRUE(control.set(Hertz{1500e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1500e6}).ok());
   EXPECT_EQ(control.requested(), Hertz{1420.8e6});
-  ASSERT_TRUE(control.set(Hertz{1.0}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1.0}).ok());
   EXPECT_EQ(control.requested(), Hertz{345.6e6});
 }
 
 TEST_F(ClockControlTest, moves_limits_of_others_out_of_the_way) {
   ClockControl& control = plant(fake::plant_tx2_r32);
   const std::string folder = "/sys/devices/system/cpu/cpufreq/policy0/";
-  ASSERT_TRUE(control.set(Hertz{1420.8e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1420.8e6}).ok());
   EXPECT_TRUE(control.is_as_set());
   tree_.put(folder + "scaling_max_freq", "1113600\n");
   EXPECT_FALSE(control.is_as_set());
-  ASSERT_TRUE(control.set(Hertz{1420.8e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1420.8e6}).ok());
   EXPECT_TRUE(control.is_as_set());
   EXPECT_EQ(tree_.get(folder + "scaling_max_freq"), "1420800\n");
   tree_.put(folder + "scaling_governor", "schedutil\n");
@@ -108,7 +108,7 @@ TEST_F(ClockControlTest, moves_limits_of_others_out_of_the_way) {
 TEST_F(ClockControlTest, uses_the_limits_where_userspace_is_listed_but_refused) {
   ClockControl& control = plant(fake::plant_pi5);
   kernel_.refused["scaling_governor"] = EINVAL;
-  ASSERT_TRUE(control.set(Hertz{1800e6}, clocks_).ok());
+  ASSERT_TRUE(control.set(Hertz{1800e6}).ok());
   EXPECT_EQ(tree_.get("/sys/devices/system/cpu/cpufreq/policy0/scaling_max_freq"), "1800000\n");
   EXPECT_EQ(tree_.get("/sys/devices/system/cpu/cpufreq/policy0/scaling_min_freq"), "1800000\n");
 }
@@ -116,7 +116,7 @@ TEST_F(ClockControlTest, uses_the_limits_where_userspace_is_listed_but_refused) 
 TEST_F(ClockControlTest, says_what_the_files_hold_instead) {
   ClockControl& control = plant(fake::plant_pi5);
   kernel_.lies["scaling_setspeed"] = "1500000\n";
-  const Status set = control.set(Hertz{1800e6}, clocks_);
+  const Status set = control.set(Hertz{1800e6});
   ASSERT_FALSE(set.ok());
   EXPECT_EQ(set.error().message,
             "/sys/devices/system/cpu/cpufreq/policy0/scaling_setspeed was given 1800 MHz and holds "
@@ -126,7 +126,7 @@ TEST_F(ClockControlTest, says_what_the_files_hold_instead) {
 TEST_F(ClockControlTest, names_the_file_that_is_read_only) {
   ClockControl& control = plant(fake::plant_pi5);
   kernel_.refused["scaling_governor"] = EROFS;
-  const Status set = control.set(Hertz{1800e6}, clocks_);
+  const Status set = control.set(Hertz{1800e6});
   ASSERT_FALSE(set.ok());
   EXPECT_EQ(set.error().code, ErrorCode::unavailable);
   EXPECT_EQ(set.error().message,
