@@ -2,7 +2,7 @@
 
 #include "console.h"
 
-#include "flyball/runtime/printable.h"
+#include "flyball/runtime/text/printable.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -2,6 +2,7 @@
 
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/studies/replay.h"
 
 #include "commands.h"
@@ -34,12 +35,9 @@ std::string seen_text(const Observation& seen) {
 }
 
 std::string setting_text(const Decision& setting) {
-  std::string text;
-  for (const auto& [knob, value] : setting) {
-    text += (text.empty() ? "" : ", ") + std::string{knob} + " " +
-            rounded(value, value > 1000.0 ? 0 : 2);
-  }
-  return text;
+  return listed(setting, [](const auto& one) {
+    return std::string{one.knob} + " " + rounded(one.value, one.value > 1000.0 ? 0 : 2);
+  });
 }
 
 std::string options_text(const std::vector<PolicyOption>& options) {

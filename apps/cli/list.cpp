@@ -5,6 +5,7 @@
 #include "flyball/kernels/detector.h"
 #include "flyball/kernels/path_planner.h"
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
@@ -202,11 +203,7 @@ constexpr std::array<Listing, 9> listings{{
 }};
 
 std::string kinds() {
-  std::string text;
-  for (const Listing& listing : listings) {
-    text += (text.empty() ? "" : ", ") + std::string{listing.kind};
-  }
-  return text;
+  return listed(listings, [](const Listing& listing) { return std::string{listing.kind}; });
 }
 
 int list(const std::string& kind, const Plugins& plugins) {

@@ -2,6 +2,7 @@
 #include "flyball/recordings/localization_run.h"
 
 #include "flyball/kernels/localizer.h"
+#include "flyball/runtime/text/listed.h"
 
 #include <algorithm>
 
@@ -34,16 +35,13 @@ Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name
   if (localizer && localizer->inputs().images) {
     return localizer;
   }
-  std::string names;
-  for (const std::string& other : plugins.names<Localizer>()) {
-    if (plugins.make<Localizer>(other)->inputs().images) {
-      names += (names.empty() ? "" : ", ") + other;
-    }
-  }
+  const auto seeing = [&plugins](const std::string& other) {
+    return plugins.make<Localizer>(other)->inputs().images ? other : "";
+  };
   return Error{localizer ? ErrorCode::invalid_input : ErrorCode::not_found,
                (localizer ? "localizer \"" + name + "\" looks at no images"
                           : "no localizer \"" + name + "\"") +
-                   "; there are: " + names};
+                   "; there are: " + listed(plugins.names<Localizer>(), seeing)};
 }
 
 Result<LocalizationRun> localize(const Recording& recording,

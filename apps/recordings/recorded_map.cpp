@@ -2,6 +2,7 @@
 #include "flyball/recordings/recorded_map.h"
 
 #include "flyball/kernels/pixel_point.h"
+#include "flyball/runtime/text/listed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,11 +83,8 @@ Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name, const Plugi
   if (auto mapper = plugins.make<Mapper>(name)) {
     return mapper;
   }
-  std::string names;
-  for (const std::string& other : plugins.names<Mapper>()) {
-    names += (names.empty() ? "" : ", ") + other;
-  }
-  return Error{ErrorCode::not_found, "no mapper \"" + name + "\"; there are: " + names};
+  return Error{ErrorCode::not_found,
+               "no mapper \"" + name + "\"; there are: " + listed(plugins.names<Mapper>())};
 }
 
 Result<MappingRun> map_recording(const Recording& recording,

@@ -4,6 +4,7 @@
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
 
@@ -89,10 +90,9 @@ void add_foremost(TitledCells& cells, std::map<std::string, double>& quality) {
 
 /// The libraries whose kernels the mission may name. They are needed to fly it again.
 std::string libraries_line(const Plugins& plugins) {
-  std::string names;
-  for (const std::string& file : plugins.libraries()) {
-    names += (names.empty() ? "" : ", ") + fs::path{file}.filename().string();
-  }
+  const std::string names = listed(plugins.libraries(), [](const std::string& file) {
+    return fs::path{file}.filename().string();
+  });
   return names.empty() ? "" : "# Flown with --kernels: " + names + "\n";
 }
 

@@ -15,6 +15,7 @@
 #include "flyball/kernels/smoother.h"
 #include "flyball/kernels/tracker.h"
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/models.h"
 
 #include "scenario/scenario_parameters.h"
@@ -83,14 +84,6 @@ std::vector<FamilyChoice> all_families() {
 /// `knobs.planner_kinds = "prm"`
 std::string setting_of_kinds(const FamilyChoice& family, const Scenario& scenario) {
   return "knobs." + family.name + "_kinds = \"" + scenario.knobs.*family.kinds + "\"";
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
 }
 
 /// A kernel that is to be made.
@@ -200,7 +193,7 @@ Status check_kinds(const FamilyChoice& family, const Scenario& scenario, const s
     if (std::find(known.begin(), known.end(), kinds[i]) == known.end()) {
       return Error{ErrorCode::not_found,
                    setting_of_kinds(family, scenario) + place + " asks knob " + family.name +
-                       ".kind for \"" + kinds[i] + "\", and it may choose among " + list_of(known)};
+                       ".kind for \"" + kinds[i] + "\", and it may choose among " + listed(known)};
     }
   }
   return Done{};

@@ -4,6 +4,7 @@
 #include "scenario/scenario_check.h"
 
 #include "flyball/kernels/mapper.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
@@ -73,20 +74,8 @@ Result<std::string> file_of(const NamedThing& wanted) {
   return find_shipped(wanted.list == "policies" ? "presets" : wanted.list, wanted.name);
 }
 
-std::string list_of(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double number : numbers) {
-    text += (text.empty() ? "" : ", ") + toml_number(number);
-  }
-  return text;
-}
-
 std::string clocks_of(const PlatformModel& platform) {
-  std::vector<double> clocks_hz;
-  for (const Hertz clock : platform.frequencies) {
-    clocks_hz.push_back(clock.value());
-  }
-  return list_of(clocks_hz);
+  return listed(platform.frequencies, [](Hertz clock) { return toml_number(clock.value()); });
 }
 
 std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
@@ -155,7 +144,7 @@ std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given)
   if (!cells_m.empty() && std::find(cells_m.begin(), cells_m.end(), wanted_m) == cells_m.end()) {
     return {{ErrorCode::invalid_input,
              "map.resolution_m = " + toml_number(wanted_m) + place_of("map.resolution_m", given) +
-                 " must be one of " + list_of(cells_m) + ", the cells of mapper \"" +
+                 " must be one of " + listed(cells_m, toml_number) + ", the cells of mapper \"" +
                  scenario.kernels.mapper + "\""}};
   }
   // The mapper itself knows best how far it reaches: an empty scan is refused for its settings.

@@ -2,6 +2,7 @@
 
 #include "scenario/scenario_events.h"
 
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
 
@@ -128,11 +129,9 @@ void set(ComputerEvent& event,
 }
 
 std::string keys_of(const std::string& kind) {
-  std::string keys;
-  for (const EventField& field : event_fields()) {
-    keys += belongs(field, kind) ? (keys.empty() ? "" : ", ") + field.name : "";
-  }
-  return keys;
+  return listed(event_fields(), [&kind](const EventField& field) {
+    return belongs(field, kind) ? std::string{field.name} : "";
+  });
 }
 
 /// Keys of this event that its kind does not have.

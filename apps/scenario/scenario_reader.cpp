@@ -3,7 +3,7 @@
 
 #include "scenario/scenario_reader.h"
 
-#include "flyball/runtime/toml_text.h"
+#include "flyball/runtime/text/toml_text.h"
 
 #include <filesystem>
 #include <fstream>

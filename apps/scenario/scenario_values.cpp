@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: scenario
 
+#include "flyball/runtime/text/listed.h"
+
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_keys.h"
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -104,14 +107,9 @@ std::optional<Error> set_text(std::string& place,
   if (!text) {
     return wrong_kind(field, given, "a text");
   }
-  bool legal = field.choices.empty();
-  std::string choices;
-  for (const std::string& choice : field.choices) {
-    legal = legal || choice == *text;
-    choices += (choices.empty() ? "" : ", ") + choice;
-  }
-  if (!legal) {
-    return wrong(field, given, "must be one of: " + choices);
+  const auto& choices = field.choices;
+  if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end()) {
+    return wrong(field, given, "must be one of: " + listed(choices));
   }
   place = *text;
   return std::nullopt;

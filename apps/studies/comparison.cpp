@@ -2,6 +2,8 @@
 
 #include "flyball/studies/comparison.h"
 
+#include "flyball/runtime/text/listed.h"
+
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -138,11 +140,7 @@ std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
   if (is_range) {
     return std::to_string(seeds.front()) + ".." + std::to_string(seeds.back());
   }
-  std::string text;
-  for (const std::uint64_t seed : seeds) {
-    text += (text.empty() ? "" : ", ") + std::to_string(seed);
-  }
-  return text;
+  return listed(seeds);
 }
 
 }  // namespace flyball

@@ -2,6 +2,7 @@
 // tested-in: comparison
 
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/studies/comparison.h"
 
 #include <algorithm>
@@ -71,11 +72,9 @@ Cells cells_of(const ComparisonRow& row) {
 }
 
 std::string failures_text(const ComparisonRow& row) {
-  std::string text;
-  for (const auto& [name, count] : row.failures) {
-    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(count);
-  }
-  return text;
+  return listed(row.failures, [](const auto& failure) {
+    return failure.first + " " + std::to_string(failure.second);
+  });
 }
 
 std::string trouble_of(const ComparisonRow& row) {

@@ -2,6 +2,7 @@
 #include "flyball/studies/platform_fit.h"
 
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
 
@@ -104,11 +105,9 @@ void predict_resolution(const PlatformModel& model, const DeliveryLoads& loads, 
 }
 
 std::string counts_text(const Work& work) {
-  std::string text;
-  for (const WorkItem& item : work.items()) {
-    text += (text.empty() ? "" : ", ") + rounded(item.count, 0) + " " + std::string{item.name};
-  }
-  return text;
+  return listed(work.items(), [](const WorkItem& item) {
+    return rounded(item.count, 0) + " " + std::string{item.name};
+  });
 }
 
 /// Three significant digits are within the tolerance.

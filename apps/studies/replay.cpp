@@ -5,6 +5,7 @@
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/simulation/mission.h"
 
@@ -96,14 +97,12 @@ std::string short_number(double value) {
 
 /// The knobs that stand otherwise, each with its value in `of`.
 std::string where_they_differ(const InForce& of, const InForce& other) {
-  std::string text;
-  for (const auto& [knob, value] : of) {
+  return listed(of, [&other](const auto& setting) {
+    const auto& [knob, value] = setting;
     const auto found = other.find(knob);
-    if (found != other.end() && !have_same_bits(found->second, value)) {
-      text += (text.empty() ? "" : ", ") + knob + " " + short_number(value);
-    }
-  }
-  return text;
+    const bool differs = found != other.end() && !have_same_bits(found->second, value);
+    return differs ? knob + " " + short_number(value) : "";
+  });
 }
 
 InForce standing_at_start(const KnobSettings& knobs) {

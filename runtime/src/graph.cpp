@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/graph.h"
 
+#include "flyball/runtime/text/listed.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <string_view>
@@ -52,11 +54,8 @@ std::string terms_of(const NodeSpec& spec, const Graph& graph, const std::string
 }
 
 std::string topic_list(const Graph& graph, const std::vector<int>& topics) {
-  std::string list;
-  for (const int topic : topics) {
-    list += (list.empty() ? "" : ", ") + graph.topics()[static_cast<std::size_t>(topic)].name;
-  }
-  return list;
+  return listed(
+      topics, [&graph](int topic) { return graph.topics()[static_cast<std::size_t>(topic)].name; });
 }
 
 bool contains(const std::vector<int>& topics, int topic) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/knob.h"
 
+#include "flyball/runtime/text/listed.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,12 +23,9 @@ std::string legal_values(const KnobSpec& spec) {
   if (spec.legal.empty()) {
     return text_of(spec.min) + " to " + text_of(spec.max);
   }
-  std::string list;
-  for (std::size_t i = 0; i < spec.legal.size(); ++i) {
-    list += (list.empty() ? "" : ", ") + text_of(spec.legal[i]);
-    list += i < spec.labels.size() ? " (" + spec.labels[i] + ")" : "";
-  }
-  return list;
+  return listed(spec.legal, [&spec, label = spec.labels.begin()](double value) mutable {
+    return text_of(value) + (label != spec.labels.end() ? " (" + *label++ + ")" : "");
+  });
 }
 
 bool has_sound_values(const KnobSpec& spec) {

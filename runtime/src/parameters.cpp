@@ -2,6 +2,7 @@
 #include "flyball/runtime/parameters.h"
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/text/listed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,21 +20,9 @@ std::string text_of(double value) {
   return text;
 }
 
-std::string list_of(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) {
-    list += (list.empty() ? "" : ", ") + word;
-  }
-  return list;
-}
-
 std::string names_of(const std::vector<ParameterSpec>& specs) {
-  std::vector<std::string> names;
-  names.reserve(specs.size());
-  for (const ParameterSpec& spec : specs) {
-    names.push_back(spec.name);
-  }
-  return names.empty() ? "it has none" : "it has: " + list_of(names);
+  const std::string names = listed(specs, [](const ParameterSpec& spec) { return spec.name; });
+  return names.empty() ? "it has none" : "it has: " + names;
 }
 
 /// What is wrong with a value, as the end of a sentence; nothing when it is fine.
@@ -52,7 +41,7 @@ std::optional<std::string> fault_of(const ParameterSpec& spec, const ParameterVa
   if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) {
     return std::nullopt;
   }
-  return "\"" + text + "\" is none of: " + list_of(choices);
+  return "\"" + text + "\" is none of: " + listed(choices);
 }
 
 /// What is wrong with how parameters were declared, by a plug-in that may be anyone's.

@@ -2,7 +2,7 @@
 #include "isolated_policy.h"
 
 #include "flyball/governors/policy_period.h"
-#include "flyball/runtime/printable.h"
+#include "flyball/runtime/text/printable.h"
 
 #include "child_process.h"
 #include "policy_packets.h"

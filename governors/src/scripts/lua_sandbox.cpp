@@ -2,7 +2,7 @@
 #ifdef FLYBALL_HAS_LUA
 #include "lua_sandbox.h"
 
-#include "flyball/runtime/printable.h"
+#include "flyball/runtime/text/printable.h"
 
 #include "lua_library.h"
 #include "lua_source.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/board/board_file.h"
 
-#include "flyball/runtime/toml_text.h"
+#include "flyball/runtime/text/toml_text.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,6 +2,7 @@
 #include "flyball/runtime/board/board_report.h"
 
 #include "flyball/runtime/board/clock_meter.h"
+#include "flyball/runtime/text/listed.h"
 
 #include "board/board_meters.h"
 #include "board/clock_control.h"
@@ -98,13 +99,10 @@ std::string power_line(const LinuxSystem& system,
 }
 
 std::string rails_line(const LinuxSystem& system, const BoardInventory& found) {
-  std::string text;
-  for (const PowerRail& rail : found.rails) {
+  return listed(found.rails, [&system](const PowerRail& rail) {
     const auto power = rail_power(system, rail);
-    text += (text.empty() ? "" : ", ") + rail.label + " " +
-            (power ? short_number(power->value()) + " W" : "cannot be read");
-  }
-  return text;
+    return rail.label + " " + (power ? short_number(power->value()) + " W" : "cannot be read");
+  });
 }
 
 }  // namespace

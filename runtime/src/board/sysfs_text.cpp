@@ -107,12 +107,4 @@ std::string mhz_of(Hertz clock) {
   return static_cast<const char*>(text);
 }
 
-std::string listed(const std::vector<int>& numbers) {
-  std::string text;
-  for (const int number : numbers) {
-    text += (text.empty() ? "" : ", ") + std::to_string(number);
-  }
-  return text;
-}
-
 }  // namespace flyball

@@ -38,7 +38,5 @@ namespace flyball {
 [[nodiscard]] std::string khz_of(Hertz clock);
 /// For people: "1420.8 MHz".
 [[nodiscard]] std::string mhz_of(Hertz clock);
-/// For people: "0, 3, 4".
-[[nodiscard]] std::string listed(const std::vector<int>& numbers);
 
 }  // namespace flyball

@@ -3,6 +3,7 @@
 #include "realtime/thread_setup.h"
 
 #include "flyball/runtime/realtime/cpus.h"
+#include "flyball/runtime/text/listed.h"
 
 #include <array>
 #include <cerrno>
@@ -90,10 +91,8 @@ std::vector<std::string> set_up_thread(const ThreadWish& wish) {
 std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus) {
   cpu_set_t wanted;
   CPU_ZERO(&wanted);
-  std::string names;
   for (const int cpu : cpus) {
     CPU_SET(static_cast<std::size_t>(cpu), &wanted);
-    names += (names.empty() ? "" : ", ") + std::to_string(cpu);
   }
   const bool is_set = sched_setaffinity(thread, sizeof wanted, &wanted) == 0;
   const int failed = errno;
@@ -103,7 +102,7 @@ std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpu
   if (is_set && CPU_EQUAL(&wanted, &granted)) {
     return std::nullopt;
   }
-  return "a thread could not be bound to the cores " + names + " (" +
+  return "a thread could not be bound to the cores " + listed(cpus) + " (" +
          (is_set ? "the system granted fewer" : reason(failed)) + "); is one of them off-line?";
 }
 

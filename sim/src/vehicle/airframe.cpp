@@ -2,7 +2,7 @@
 
 #include "flyball/sim/airframe.h"
 
-#include "flyball/runtime/toml_text.h"
+#include "flyball/runtime/text/toml_text.h"
 
 #include <algorithm>
 #include <cmath>

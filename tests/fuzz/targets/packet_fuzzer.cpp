@@ -3,7 +3,7 @@
 // What a policy's process sends: packets that have no fault must be usable.
 
 #include "flyball/runtime/parameters.h"
-#include "flyball/runtime/printable.h"
+#include "flyball/runtime/text/printable.h"
 
 #include "input_folder.h"
 #include "libraries/policy_packets.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/runtime/toml_text.h"
+#include "flyball/runtime/text/toml_text.h"
 
 #include <gtest/gtest.h>
 

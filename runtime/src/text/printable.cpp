@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/runtime/printable.h"
+#include "flyball/runtime/text/printable.h"
 
 #include <cstddef>
 #include <cstdint>
