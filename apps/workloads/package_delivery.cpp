@@ -85,6 +85,12 @@ class PackageDelivery final : public Workload {
     return ground_W + Vec3::UnitZ() * brief_->site.cruise_height_m;
   }
 
+  /// Start and goal may be one place. There is no path between them, so none is asked for.
+  [[nodiscard]] bool is_at_goal() const {
+    const double apart_m = (brief_->site.goal_W - brief_->site.start_W).norm();
+    return apart_m < brief_->settings.mission.goal_tolerance_m;
+  }
+
   /// Where the leg begins.
   [[nodiscard]] const Vec3& site(Leg leg) const {
     return leg == Leg::out ? brief_->site.start_W : brief_->site.goal_W;
@@ -100,6 +106,10 @@ class PackageDelivery final : public Workload {
   }
 
   void depart(JobContext& job) {
+    if (is_at_goal()) {
+      land(job);
+      return;
+    }
     guidance_->go_to(job, above(site(leg_ == Leg::out ? Leg::back : Leg::out)));
     legs_->enter(job, MissionPhase::cruise);
     stage_ = Stage::flying;

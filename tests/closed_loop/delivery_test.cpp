@@ -2,13 +2,30 @@
 //
 // Whole missions, held against bands and against each other.
 
+#include "flyball/sim/world.h"
+
 #include "short_delivery.h"
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace flyball {
 namespace {
+
+/// Whether the trace has this text.
+bool says(const MissionRecord& record, const std::string& what) {
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& field : row.fields) {
+      const auto* text = std::get_if<std::string>(&field.value);
+      if (text != nullptr && *text == what) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 
 TEST(Delivery, flies_there_and_back_and_leaves_the_payload) {
   const MissionRecord record = kit::flown(kit::short_delivery(30.0));
@@ -16,14 +33,36 @@ TEST(Delivery, flies_there_and_back_and_leaves_the_payload) {
   EXPECT_GT(record.summary.distance_m, 60.0);
   EXPECT_LT(record.summary.distance_m, 75.0);
   EXPECT_GT(record.summary.battery_start_percent, record.summary.battery_end_percent);
-  bool delivered = false;
-  for (const auto& row : record.trace->rows()) {
-    for (const auto& field : row.fields) {
-      const auto* text = std::get_if<std::string>(&field.value);
-      delivered = delivered || (text != nullptr && *text == "delivered");
-    }
+  EXPECT_TRUE(says(record, "delivered"));
+}
+
+/// The empty world, with the goal where the vehicle starts.
+class OnePlace final : public WorldGenerator {
+ public:
+  [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
+    return empty_->parameters();
   }
-  EXPECT_TRUE(delivered);
+  [[nodiscard]] Result<World> make(const Parameters& given, std::uint64_t seed) const override {
+    auto world = empty_->make(given, seed);
+    world->goal_W = world->start_W;
+    return world;
+  }
+
+ private:
+  std::unique_ptr<WorldGenerator> empty_{Plugins{}.make<WorldGenerator>("empty")};
+};
+
+TEST(Delivery, to_where_it_starts_arrives_at_once) {
+  Scenario scenario = kit::short_delivery();
+  scenario.plugins = Plugins{}.with([](Registry& registry) {
+    registry.add<WorldGenerator>("one_place", [] { return std::make_unique<OnePlace>(); });
+  });
+  scenario.world.generator = "one_place";
+  const MissionRecord record = kit::flown(scenario);
+  EXPECT_EQ(record.summary.status, MissionStatus::succeeded);
+  EXPECT_TRUE(says(record, "delivered"));
+  EXPECT_LT(record.summary.mission_time_s, 30.0) << "two take-offs and two landings";
+  EXPECT_EQ(record.summary.replans, 0);
 }
 
 TEST(Delivery, the_same_scenario_gives_the_same_trace_twice) {
