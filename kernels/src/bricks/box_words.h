@@ -74,11 +74,11 @@ class BoxWords {
  public:
   /// A block of 4 x 4 x 4 bricks of which the box holds some.
   struct Block {
-    const Chunk* chunk;
-    CellKey key;             ///< At level 4.
-    std::size_t word;        ///< In the chunk's BrickBits.
-    std::uint64_t occupied;  ///< Bricks of the box that have such cells, covered or not.
-    std::uint64_t unknown;
+    const Chunk* chunk{};
+    CellKey key{};             ///< At level 4.
+    std::size_t word{};        ///< In the chunk's BrickBits.
+    std::uint64_t occupied{};  ///< Bricks of the box that have such cells, covered or not.
+    std::uint64_t unknown{};
   };
 
   /// @pre `bricks.fits()`; both outlive this.

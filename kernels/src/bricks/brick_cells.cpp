@@ -8,7 +8,7 @@ namespace flyball {
 namespace {
 
 constexpr std::size_t first_slots = 256;
-constexpr std::size_t near_slots = 32 * 32 * 8;
+constexpr std::size_t near_slots = std::size_t{32} * 32 * 8;
 
 /// The cells of level 0 or 1 that a cell of the finest level is in.
 std::uint64_t cells_around(unsigned bit, int level) {

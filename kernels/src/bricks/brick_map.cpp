@@ -42,8 +42,8 @@ void BrickMap::fill(const CellKey& brick, const Brick& cells) {
   CellMasks masks{0, 0};
   for (unsigned cell = 0; cell < 64; ++cell) {
     const std::int8_t value = cells.cells[cell];
-    masks.occupied |= std::uint64_t{log_odds::is_occupied(value)} << cell;
-    masks.unknown |= std::uint64_t{value == log_odds::unknown} << cell;
+    masks.occupied |= static_cast<std::uint64_t>(log_odds::is_occupied(value)) << cell;
+    masks.unknown |= static_cast<std::uint64_t>(value == log_odds::unknown) << cell;
   }
   chunk.set_masks(number, masks);
 }
@@ -85,10 +85,10 @@ std::size_t BrickMap::bytes() const {
 }
 
 BrickMap::Spare BrickMap::make_spare() {
-  Spare spare{std::make_unique<Chunk::Bricks>(), nullptr};
-  clear(*spare.bricks);
-  spare.chunk = std::make_unique<Chunk>(CellKey{}, *spare.bricks);
-  return spare;
+  auto bricks = std::make_unique<Chunk::Bricks>();
+  clear(*bricks);
+  auto chunk = std::make_unique<Chunk>(CellKey{}, *bricks);
+  return {std::move(bricks), std::move(chunk)};
 }
 
 void BrickMap::begin_change() {

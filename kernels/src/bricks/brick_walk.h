@@ -56,9 +56,9 @@ class BrickWalk {
   /// Where the walk is: a block of a chunk, its key at its level, its first brick.
   struct Block {
     const Chunk& chunk;
-    CellKey key;
-    std::size_t brick;
-    int level;
+    CellKey key{};
+    std::size_t brick{};
+    int level{};
 
     [[nodiscard]] BlockSummary summary() const { return chunk.block(level, brick); }
     [[nodiscard]] Block part(unsigned octant) const {
@@ -75,10 +75,10 @@ class BrickWalk {
   template <class Shape>
   struct Scope {
     const Shape& shape;
-    Aabb region;
-    Keys first;  ///< Finest cells that the region overlaps.
-    Keys last;
-    Keys focus;
+    Aabb region{};
+    Keys first{};  ///< Finest cells that the region overlaps.
+    Keys last{};
+    Keys focus{};
   };
 
   template <class Shape>
@@ -224,14 +224,20 @@ class BrickWalk {
       low[i] = std::max(scope.first[i] - base[i], 0) & ~(edge - 1);
       high[i] = std::min(scope.last[i] - base[i], 3);
     }
+    const auto any_in_row = [&](int y, int z) {
+      for (int x = low[0]; x <= high[0]; x += edge) {
+        const CellKey cell{base[0] + x, base[1] + y, base[2] + z};
+        if ((cells >> bit_in_brick(cell) & one_cube) != 0 &&
+            show_part(lattice_.cube(cell.above(level), level), scope, show)) {
+          return true;
+        }
+      }
+      return false;
+    };
     for (int z = low[2]; z <= high[2]; z += edge) {
       for (int y = low[1]; y <= high[1]; y += edge) {
-        for (int x = low[0]; x <= high[0]; x += edge) {
-          const CellKey cell{base[0] + x, base[1] + y, base[2] + z};
-          if ((cells >> bit_in_brick(cell) & one_cube) != 0 &&
-              show_part(lattice_.cube(cell.above(level), level), scope, show)) {
-            return true;
-          }
+        if (any_in_row(y, z)) {
+          return true;
         }
       }
     }

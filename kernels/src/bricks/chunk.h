@@ -49,9 +49,9 @@ struct alignas(64) Chunk {
   /// belongs to an older revision: only the thread that changes the map may look at them.
   Brick* bricks{};
   std::uint64_t first_revision{};  ///< The first revision (see BrickRevisions) that may show it.
-  std::array<std::uint8_t, brick_count> codes;  ///< By places of bricks, see packed::brick_place.
+  std::array<std::uint8_t, brick_count> codes{};  ///< By places of bricks, see packed::brick_place.
   BrickBits has_occupied{};
-  BrickBits has_unknown;
+  BrickBits has_unknown{};
   BrickBits has_known{};
   std::array<CellMasks, brick_count> masks{};
 

@@ -95,9 +95,9 @@ void Inflation::grow(const Aabb& box_W, const Cylinder& body, InflatedWindow& wi
 
 /// @param size  Words along x, bricks along y and z.
 void Inflation::read(const CellKey& first, const CellKey& size) {
-  seen_.rows = plane_.rows = before_.rows = static_cast<std::size_t>(4 * size.y);
+  seen_.rows = plane_.rows = before_.rows = 4 * static_cast<std::size_t>(size.y);
   seen_.words = plane_.words = before_.words = static_cast<std::size_t>(size.x);
-  seen_.resize(static_cast<std::size_t>(4 * size.z));
+  seen_.resize(4 * static_cast<std::size_t>(size.z));
   plane_.resize(1);
   before_.resize(1);
   for (int z = 0; z < size.z; ++z) {
@@ -111,7 +111,7 @@ void Inflation::read(const CellKey& first, const CellKey& size) {
 
 /// @param at  Word, and brick along y and z, counted from the first.
 void Inflation::read_sixteen(const CellKey& first, const CellKey& at) {
-  std::array<std::uint64_t, bricks_in_word> words;
+  std::array<std::uint64_t, bricks_in_word> words{};
   for (int i = 0; i < bricks_in_word; ++i) {
     const int brick = bricks_in_word * at.x + i;
     const bool is_near = brick >= first_near_ && brick <= last_near_;

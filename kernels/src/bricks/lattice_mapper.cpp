@@ -85,18 +85,19 @@ class LatticeMapper final : public Mapper {
   }
 
   void commit() override {
-    if (pending_ != nullptr) {
-      map_.apply(pending_->bricks);
-      if (keep_radius_m_ > 0.0) {
-        map_.drop_beyond(camera_W_, std::max(keep_radius_m_, range_m_), [this](const Chunk& chunk) {
-          if (forgotten_) {
-            forgotten_->append(chunk);
-          }
-        });
-      }
-      view_.activate(pending_level_);
-      pending_ = nullptr;
+    if (pending_ == nullptr) {
+      return;
     }
+    map_.apply(pending_->bricks);
+    if (keep_radius_m_ > 0.0) {
+      map_.drop_beyond(camera_W_, std::max(keep_radius_m_, range_m_), [this](const Chunk& chunk) {
+        if (forgotten_) {
+          forgotten_->append(chunk);
+        }
+      });
+    }
+    view_.activate(pending_level_);
+    pending_ = nullptr;
   }
 
   void declare_clear(const Vec3& centre_W, const Cylinder& space) override {

@@ -92,19 +92,23 @@ float value_of(const CellOf& of, const octomap::OcTree& tree) {
   return log_odds < 0.0F ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog();
 }
 
+void add_cell(const BrickMap& map, const CellOf& of, octomap::OcTree& tree) {
+  const int level = of.wanted.level;
+  if (map.cells().state(of.cell, level) != CellState::unknown) {
+    tree.setNodeValue(coarse_key(of.cell, level), value_of(of, tree), true);
+  }
+}
+
 void add_chunk(const BrickMap& map,
                const Chunk& chunk,
                const CellsToAdd& wanted,
                octomap::OcTree& tree) {
-  const int level = wanted.level;
-  const int edge = 1 << (chunk_level - level);
+  const int edge = 1 << (chunk_level - wanted.level);
   for (int z = 0; z < edge; ++z) {
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
         const CellKey cell{chunk.key.x * edge + x, chunk.key.y * edge + y, chunk.key.z * edge + z};
-        if (map.cells().state(cell, level) != CellState::unknown) {
-          tree.setNodeValue(coarse_key(cell, level), value_of({chunk, cell, wanted}, tree), true);
-        }
+        add_cell(map, {chunk, cell, wanted}, tree);
       }
     }
   }
@@ -184,7 +188,7 @@ Result<BrickMap> to_bricks(const octomap::OcTree& tree) {
     return fits.error();
   }
   BrickMap map{tree.getResolution()};
-  Brick brick;
+  Brick brick{};
   brick.cells.fill(log_odds::unknown);
   CellKey at{-1, -1, -1};
   const auto put = [&] {

@@ -24,6 +24,7 @@ struct Header {
   std::uint64_t nodes{};
   double resolution_m{};
   std::size_t bytes{};  ///< Where the tree begins.
+  std::string id{};     ///< The kind of tree.
 };
 
 std::string_view next_line(std::string_view text, std::size_t& at) {
@@ -37,7 +38,27 @@ bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
 }
 
-/// Lines of a name and a value, up to `data`.
+/// A line of a name and a value.
+Status read_setting(const std::string& path, std::string_view line, Header& header) {
+  std::istringstream words{std::string{line}};
+  std::string name;
+  words >> name;
+  if (name == "id") {
+    words >> header.id;
+  } else if (name == "size") {
+    words >> header.nodes;
+  } else if (name == "res") {
+    words >> header.resolution_m;
+  } else if (!name.empty() && name[0] != '#') {
+    return invalid(path, "has a line in its header that is no setting of an OctoMap file");
+  }
+  if (words.fail()) {
+    return invalid(path, "has a header whose \"" + name + "\" cannot be read");
+  }
+  return Done{};
+}
+
+/// Lines of settings, up to `data`.
 Result<Header> read_header(const std::string& path, std::string_view content) {
   Header header;
   std::size_t at = 0;
@@ -46,33 +67,20 @@ Result<Header> read_header(const std::string& path, std::string_view content) {
   if (!header.is_binary && !starts_with(first, "# Octomap OcTree file")) {
     return invalid(path, "does not begin as an OctoMap file does");
   }
-  std::string id;
   while (at < content.size()) {
     const std::string_view line = next_line(content, at);
     if (line == "data") {
       header.bytes = at;
       break;
     }
-    std::istringstream words{std::string{line}};
-    std::string name;
-    words >> name;
-    if (name == "id") {
-      words >> id;
-    } else if (name == "size") {
-      words >> header.nodes;
-    } else if (name == "res") {
-      words >> header.resolution_m;
-    } else if (!name.empty() && name[0] != '#') {
-      return invalid(path, "has a line in its header that is no setting of an OctoMap file");
-    }
-    if (words.fail()) {
-      return invalid(path, "has a header whose \"" + name + "\" cannot be read");
+    if (const Status read = read_setting(path, line, header); !read) {
+      return read.error();
     }
   }
   if (header.bytes == 0) {
     return invalid(path, "ends before its data");
   }
-  if (id != "OcTree") {
+  if (header.id != "OcTree") {
     return invalid(path, "holds a tree of another kind than OcTree");
   }
   if (!std::isfinite(header.resolution_m) || header.resolution_m < 0.01 ||

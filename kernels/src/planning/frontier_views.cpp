@@ -121,11 +121,11 @@ bool is_spent(const ExploreRequest& request, const Viewpoint& view) {
 }
 
 std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
-                                               const StateGrid& grid,
                                                const StandingPlaces& places,
                                                ViewGain& gain,
                                                double least_gain_m3,
                                                double& ray_cells) {
+  const StateGrid& grid = places.grid();
   Search search{request, grid, places};
   std::vector<std::pair<double, FrontierView>> candidates;
   for (const Frontier& frontier : find_frontiers(grid, request.volume_W)) {

@@ -30,7 +30,6 @@ struct FrontierView {
 /// @param least_gain_m3  Less is not worth going for.
 /// @return               Empty when no place shows a frontier; adds to `gain`'s counts.
 [[nodiscard]] std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
-                                                             const StateGrid& grid,
                                                              const StandingPlaces& places,
                                                              ViewGain& gain,
                                                              double least_gain_m3,

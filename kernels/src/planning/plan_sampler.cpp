@@ -76,7 +76,7 @@ Vec3 PlanSampler::draw_at_passage() {
     const Vec3& second_W = forth ? passage.back_W : passage.front_W;
     next_ = {second_W, second_W, first_W, first_W};
   }
-  const Vec3 p_W = next_.back();
+  Vec3 p_W = next_.back();
   next_.pop_back();
   return p_W;
 }

@@ -23,13 +23,17 @@ std::vector<GridCell> reach_of(const Cylinder& body, double cell_m) {
   const int across = static_cast<int>(std::ceil(body.radius_m / cell_m)) + 1;
   const int up = static_cast<int>(std::ceil(body.half_height_m / cell_m)) + 1;
   std::vector<GridCell> reach;
+  const auto add_column = [&](int x, int y) {
+    for (int z = -up; z <= up; ++z) {
+      if (gap_m(z) < body.half_height_m) {
+        reach.push_back({x, y, z});
+      }
+    }
+  };
   for (int x = -across; x <= across; ++x) {
     for (int y = -across; y <= across; ++y) {
-      const bool is_in_disc = std::hypot(gap_m(x), gap_m(y)) < body.radius_m;
-      for (int z = -up; is_in_disc && z <= up; ++z) {
-        if (gap_m(z) < body.half_height_m) {
-          reach.push_back({x, y, z});
-        }
+      if (std::hypot(gap_m(x), gap_m(y)) < body.radius_m) {
+        add_column(x, y);
       }
     }
   }

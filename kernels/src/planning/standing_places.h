@@ -25,6 +25,7 @@ class StandingPlaces {
                  const Aabb& bounds_W,
                  const Vec3& from_W);
 
+  [[nodiscard]] const StateGrid& grid() const { return grid_; }
   /// Every second one along each horizontal axis, nearest first: enough to look from.
   [[nodiscard]] const std::vector<Place>& thinned() const { return thinned_; }
   /// Cells that the flood looked at.

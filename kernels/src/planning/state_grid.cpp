@@ -19,8 +19,8 @@ StateGrid::StateGrid(const OccupancyView& map, const Aabb& box_W) : cell_m_{map.
 }
 
 GridCell StateGrid::cell_at(std::size_t index) const {
-  const auto wide = static_cast<std::size_t>(last_[0] - first_[0] + 1);
-  const auto deep = static_cast<std::size_t>(last_[1] - first_[1] + 1);
+  const auto wide = static_cast<std::size_t>(last_[0] - first_[0]) + 1;
+  const auto deep = static_cast<std::size_t>(last_[1] - first_[1]) + 1;
   return {first_[0] + static_cast<int>(index % wide),
           first_[1] + static_cast<int>(index / wide % deep),
           first_[2] + static_cast<int>(index / (wide * deep))};

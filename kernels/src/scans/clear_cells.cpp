@@ -14,11 +14,31 @@ std::uint64_t number_of(const CellKey& brick) {
 
 /// A brick with free and unknown cells.
 Brick free_cells(std::uint64_t cells) {
-  Brick brick;
+  Brick brick{};
   for (std::size_t cell = 0; cell < brick.cells.size(); ++cell) {
     brick.cells[cell] = (cells >> cell & 1U) != 0 ? log_odds::least : log_odds::unknown;
   }
   return brick;
+}
+
+/// Adds a cell to the last brick, or to a new one where the last is another.
+void add_cell(const CellKey& cell, bool hit, std::vector<BrickMasks>& cells) {
+  const CellKey brick = cell.above(brick_level);
+  if (cells.empty() || !(cells.back().brick == brick)) {
+    cells.push_back({brick});
+  }
+  (hit ? cells.back().hit : cells.back().free) |= std::uint64_t{1} << bit_in_brick(cell);
+}
+
+/// Adds the cube of `edge` cells at `first`.
+void add_cube(const CellKey& first, int edge, bool hit, std::vector<BrickMasks>& cells) {
+  for (int z = first.z; z < first.z + edge; ++z) {
+    for (int y = first.y; y < first.y + edge; ++y) {
+      for (int x = first.x; x < first.x + edge; ++x) {
+        add_cell({x, y, z}, hit, cells);
+      }
+    }
+  }
 }
 
 /// One of the 27 around and at a brick.
@@ -43,15 +63,21 @@ void ClearCells::declare(const Vec3& centre_W, const Cylinder& space) {
   }
   const CellKey first = lattice.cell(centre_W - half);
   const CellKey last = lattice.cell(centre_W + half);
+  const auto is_inside = [&](const CellKey& cell) {
+    const Aabb box = lattice.cube(cell, 0);
+    const Vec3 nearest_W = centre_W.cwiseMax(box.min).cwiseMin(box.max);
+    return (nearest_W - centre_W).head<2>().norm() < space.radius_m;
+  };
+  const auto declare_row = [&](int y, int z) {
+    for (int x = first.x; x <= last.x; ++x) {
+      if (is_inside({x, y, z})) {
+        declare({x, y, z});
+      }
+    }
+  };
   for (int z = first.z; z <= last.z; ++z) {
     for (int y = first.y; y <= last.y; ++y) {
-      for (int x = first.x; x <= last.x; ++x) {
-        const Aabb box = lattice.cube({x, y, z}, 0);
-        const Vec3 nearest_W = centre_W.cwiseMax(box.min).cwiseMin(box.max);
-        if ((nearest_W - centre_W).head<2>().norm() < space.radius_m) {
-          declare({x, y, z});
-        }
-      }
+      declare_row(y, z);
     }
   }
   update_changed();
@@ -149,19 +175,7 @@ void ClearCells::add(const octomap::OcTree& tree) {
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     const int edge = 1 << (tree.getTreeDepth() - leaf.getDepth());
     const octomap::OcTreeKey first = leaf.getIndexKey();
-    const bool hit = tree.isNodeOccupied(*leaf);
-    for (int z = first[2]; z < first[2] + edge; ++z) {
-      for (int y = first[1]; y < first[1] + edge; ++y) {
-        for (int x = first[0]; x < first[0] + edge; ++x) {
-          const std::uint64_t cell = std::uint64_t{1} << bit_in_brick({x, y, z});
-          const CellKey brick = CellKey{x, y, z}.above(brick_level);
-          if (cells.empty() || !(cells.back().brick == brick)) {
-            cells.push_back({brick});
-          }
-          (hit ? cells.back().hit : cells.back().free) |= cell;
-        }
-      }
-    }
+    add_cube({first[0], first[1], first[2]}, edge, tree.isNodeOccupied(*leaf), cells);
   }
   add(cells);
 }

@@ -64,6 +64,7 @@ void DepthPyramid::put(const std::vector<Eigen::Vector3f>& points_C,
                        const InnerLoops& loops) {
   for (std::size_t first = 0; first < points_C.size(); first += lanes) {
     const std::size_t count = std::min(lanes, points_C.size() - first);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled next
     PointBlock points;
     take_points(loops, &points_C[first], count, points);
     loops.put_depths(points, grid_, range_m * range_m, depth_m_.data());

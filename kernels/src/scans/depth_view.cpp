@@ -85,7 +85,9 @@ void DepthView::aim_octants(const Eigen::Matrix3d& R_CW) {
 
 void DepthView::aim_probe(const Eigen::Matrix3d& R_CW, double range_m) {
   for (int cell = 0; cell < 64; ++cell) {
-    const Vec3 from_centre{cell % 4 - 1.5, cell / 4 % 4 - 1.5, cell / 16 - 1.5};
+    const int row = cell / 4 % 4;
+    const int layer = cell / 16;
+    const Vec3 from_centre{cell % 4 - 1.5, row - 1.5, layer - 1.5};
     const Eigen::Vector3f offset_C = (R_CW * (finest_m_ * from_centre)).cast<float>();
     for (int axis = 0; axis < 3; ++axis) {
       probe_.offset_C[static_cast<std::size_t>(axis)][static_cast<std::size_t>(cell)] =

@@ -185,9 +185,11 @@ void ExactScan::settle() {
 }
 
 void ExactScan::settle_block(int u, int v) {
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init): filled next
   PointBlock points;
   PixelKinds kinds;
   RayEnds settled;
+  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
   image_rays_.points_from(u, v, points, kinds, loops_);
   loops_.settle_rays(points, kinds, ends_, settled);
   measured_ += count_bits(settled.rays);
@@ -224,11 +226,11 @@ std::optional<ExactScan::StockRay> ExactScan::stock_ray(int pixel) {
     return std::nullopt;
   }
   ++walked_;
-  PointBlock point;
-  std::array<float, 3 * lanes> end_W;
+  PointBlock point{};
+  std::array<float, 3 * lanes> end_W{};
   point.take(&end_C->p_C, 1);
   loops_.move_to_world(point, rows_, end_W.data());
-  PointBlock end;
+  PointBlock end{};
   const octomap::point3d uncut_W{end_W[0], end_W[1], end_W[2]};
   end.take(&uncut_W, 1);
   loops_.cut_rays(end, frame_);

@@ -55,7 +55,7 @@ class ExactScan {
   struct StockRay {
     RayWalk walk;
     CellKey end;
-    bool hits;  ///< Its end is a hit.
+    bool hits{};  ///< Its end is a hit.
   };
 
   void look(const RangeImage& pixels, const Pose& X_WC, double range_m);

@@ -64,6 +64,7 @@ void PyramidScan::mark_hits(const PointCloud& cloud_C, const Pose& X_WC, double 
   std::size_t brick = 0;  // Neighbours in the image are most often in one brick.
   std::uint64_t hit = 0;
   for (std::size_t first = 0; first < cloud_C.hits_C.size(); first += lanes) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled next
     PointBlock points;
     take_points(loops_, &cloud_C.hits_C[first], std::min(lanes, cloud_C.hits_C.size() - first),
                 points);

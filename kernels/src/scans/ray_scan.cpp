@@ -86,6 +86,7 @@ void RayScan::span_window() {
 
 void RayScan::walk_block(std::size_t block) {
   const PointBlock& ends = ends_[block];
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled next
   RayBlock rays;
   loops_.aim_rays(ends, frame_, axes_, rays);
   int most_steps = 0;

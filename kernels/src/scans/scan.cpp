@@ -33,6 +33,7 @@ void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan) {
     points_W.resize(points_C.size());
     for (std::size_t first = 0; first < points_C.size(); first += lanes) {
       const std::size_t count = std::min(lanes, points_C.size() - first);
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled next
       PointBlock points;
       take_points(loops, &points_C[first], count, points);
       std::array<octomap::point3d, lanes> last;

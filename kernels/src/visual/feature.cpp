@@ -59,8 +59,9 @@ std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> found, int columns, i
   std::vector<int> taken;
   std::vector<std::pair<int, std::size_t>> order;  // Rank within its cell, place in `found`.
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto cell = static_cast<std::size_t>(static_cast<int>(found[i].pt.y) / cell_px * columns +
-                                               static_cast<int>(found[i].pt.x) / cell_px);
+    const int row = static_cast<int>(found[i].pt.y) / cell_px;
+    const int place = row * columns + static_cast<int>(found[i].pt.x) / cell_px;
+    const auto cell = static_cast<std::size_t>(place);
     if (cell >= taken.size()) {
       taken.resize(cell + 1, 0);
     }
@@ -69,6 +70,7 @@ std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> found, int columns, i
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
   std::vector<cv::KeyPoint> kept;
+  kept.reserve(order.size());
   for (const auto& [rank, place] : order) {
     kept.push_back(found[place]);
   }

@@ -27,6 +27,7 @@ struct Corner {
 
 std::vector<cv::Point2f> places(const std::vector<Corner>& corners) {
   std::vector<cv::Point2f> at;
+  at.reserve(corners.size());
   for (const Corner& corner : corners) {
     at.push_back(corner.at);
   }

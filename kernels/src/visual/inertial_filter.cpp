@@ -127,11 +127,11 @@ void InertialFilter::correct(const Innovation& innovation) {
     accept(error, narrowed);
     return;
   }
-  const Eigen::MatrixXd PHt = covariance_ * innovation.slope.transpose();
-  Eigen::MatrixXd S = innovation.slope * PHt;
+  const Eigen::MatrixXd P_ht = covariance_ * innovation.slope.transpose();
+  Eigen::MatrixXd S = innovation.slope * P_ht;
   S.diagonal().array() += innovation.sigma.array().square();
-  const Eigen::MatrixXd K = S.ldlt().solve(PHt.transpose()).transpose();
-  accept(K * innovation.residual, covariance_ - K * PHt.transpose());
+  const Eigen::MatrixXd K = S.ldlt().solve(P_ht.transpose()).transpose();
+  accept(K * innovation.residual, covariance_ - K * P_ht.transpose());
 }
 
 void InertialFilter::accept(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {

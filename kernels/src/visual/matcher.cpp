@@ -116,7 +116,7 @@ FeatureGrid::FeatureGrid(const std::vector<Feature>& features, const CameraModel
     if (is_inside(camera, features[i].pixel)) {
       const int column = static_cast<int>(features[i].pixel.x()) / cell_px;
       const int row = static_cast<int>(features[i].pixel.y()) / cell_px;
-      cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(i);
+      cells_[place_of(column, row)].push_back(i);
     }
   }
 }
@@ -132,11 +132,18 @@ void FeatureGrid::around(const Eigen::Vector2d& pixel,
        ++row) {
     for (int column = cell(pixel.x() - radius_px, columns_);
          column <= cell(pixel.x() + radius_px, columns_); ++column) {
-      for (const std::size_t i : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
-        if ((features_[i].pixel - pixel).cwiseAbs().maxCoeff() <= radius_px) {
-          out.push_back(i);
-        }
-      }
+      add_near(cells_[place_of(column, row)], pixel, radius_px, out);
+    }
+  }
+}
+
+void FeatureGrid::add_near(const std::vector<std::size_t>& cell,
+                           const Eigen::Vector2d& pixel,
+                           double radius_px,
+                           std::vector<std::size_t>& out) const {
+  for (const std::size_t i : cell) {
+    if ((features_[i].pixel - pixel).cwiseAbs().maxCoeff() <= radius_px) {
+      out.push_back(i);
     }
   }
 }

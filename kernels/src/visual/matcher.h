@@ -23,6 +23,15 @@ class FeatureGrid {
   void around(const Eigen::Vector2d& pixel, double radius_px, std::vector<std::size_t>& out) const;
 
  private:
+  [[nodiscard]] std::size_t place_of(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+  void add_near(const std::vector<std::size_t>& cell,
+                const Eigen::Vector2d& pixel,
+                double radius_px,
+                std::vector<std::size_t>& out) const;
+
   const std::vector<Feature>& features_;
   int columns_{};
   int rows_{};

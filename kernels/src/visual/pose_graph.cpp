@@ -62,7 +62,7 @@ Result<std::vector<Pose>> adjust(const std::vector<Pose>& poses,
   }
   try {
     Graph graph = graph_of(poses, edges);
-    mrpt::graphslam::TResultInfoSpaLevMarq outcome;
+    mrpt::graphslam::TResultInfoSpaLevMarq outcome{};
     mrpt::containers::yaml settings;
     settings["max_iterations"] = 50;
     mrpt::graphslam::optimize_graph_spa_levmarq(graph, outcome, nullptr, settings);

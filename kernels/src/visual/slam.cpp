@@ -95,7 +95,7 @@ SlamOutcome Slam::begin(const VisualFrame& frame, std::vector<Feature> features)
                                         [](const Feature& f) { return f.depth_m.has_value(); });
   SlamOutcome outcome;
   outcome.X_WC = X_WC_;
-  outcome.tracked = outcome.new_keyframe = with_depth >= 2 * settings_.least_inliers;
+  outcome.tracked = outcome.new_keyframe = with_depth >= 2L * settings_.least_inliers;
   if (outcome.tracked) {
     Found nothing;
     nothing.pose.X_WC = X_WC_;
@@ -126,6 +126,7 @@ std::optional<Slam::Found> Slam::solve(const std::vector<Match>& matches,
                                        const CameraModel& camera,
                                        Work& work) const {
   std::vector<LandmarkSighting> sightings;
+  sightings.reserve(matches.size());
   for (const Match& match : matches) {
     sightings.push_back(sighting_of(map_, match.landmark, grid.features()[match.feature]));
   }
@@ -198,6 +199,7 @@ SolvedPose Slam::refined(const std::vector<Match>& matches,
                          const CameraModel& camera,
                          const Pose& X_WC_guess) const {
   std::vector<LandmarkSighting> sightings;
+  sightings.reserve(matches.size());
   for (const Match& match : matches) {
     sightings.push_back(sighting_of(map_, match.landmark, features[match.feature]));
   }

@@ -38,6 +38,7 @@ std::vector<std::size_t> Slam::loop_candidates() const {
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), most_candidates));
   std::vector<std::size_t> candidates;
+  candidates.reserve(near.size());
   for (const auto& [away_m, keyframe] : near) {
     candidates.push_back(keyframe);
   }

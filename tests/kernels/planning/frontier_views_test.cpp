@@ -13,7 +13,7 @@ std::optional<FrontierView> best_view(const kit::GridMap& map, const ExploreRequ
   const StandingPlaces places{grid, request.body, request.bounds_W, request.from.p_W};
   ViewGain gain{grid, request.volume_W, request.field};
   double ray_cells = 0.0;
-  return best_frontier_view(request, grid, places, gain, 0.1, ray_cells);
+  return best_frontier_view(request, places, gain, 0.1, ray_cells);
 }
 
 TEST(Frontiers, are_the_door_between_a_known_room_and_an_unknown_one) {

@@ -47,6 +47,17 @@ class InflatedWindow {
   [[nodiscard]] bool blocks(const Vec3& from_W, const Vec3& to_W) const;
 
  private:
+  /// A straight line through the window, and the cell that it is in.
+  struct Walk {
+    std::array<int, 3> cell{};
+    std::array<int, 3> step{};
+    std::array<int, 3> left{};  ///< Steps along each axis.
+    std::array<double, 3>
+        next_t{};  ///< Next border of each axis: 0 at the line's start, 1 at its end.
+    std::array<double, 3> delta_t{};
+  };
+  [[nodiscard]] Walk walk(const Vec3& from_W, const Vec3& to_W) const;
+
   /// In cells from the window's first; may be far off, or not a number.
   [[nodiscard]] double offset(double x_m, std::size_t axis) const {
     return cells_per_m_ * x_m - layout_.first_key[axis];

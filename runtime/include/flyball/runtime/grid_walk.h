@@ -54,6 +54,11 @@ struct BorderCrossings {
   return at;
 }
 
+/// The axis of the least of three numbers; of equal ones the last.
+[[nodiscard]] inline std::size_t least_of(const std::array<double, 3>& of) {
+  return of[0] < of[1] ? (of[0] < of[2] ? 0U : 2U) : (of[1] < of[2] ? 1U : 2U);
+}
+
 /// Visits the cells that the straight line crosses, in order, those of both ends included, until
 /// `visit(cell)` returns false. Amanatides & Woo 1987; the number of steps along each axis is known
 /// beforehand, so rounding never carries the walk past its end.
@@ -70,8 +75,7 @@ bool walk_cells(const Vec3& from_W, const Vec3& to_W, double cell_m, Visit&& vis
     if (!visit(static_cast<const GridCell&>(cell))) {
       return false;
     }
-    const std::size_t i =
-        next[0] < next[1] ? (next[0] < next[2] ? 0U : 2U) : (next[1] < next[2] ? 1U : 2U);
+    const std::size_t i = least_of(next);
     if (left[i] == 0) {
       return true;
     }
