@@ -38,6 +38,8 @@ lint_packages() {
   cat << 'LIST'
 clang-format            14.0.6
 clang-tidy              14.0.6
+libclang-14-dev         14.0.6
+llvm-14-dev             14.0.6
 LIST
 }
 
