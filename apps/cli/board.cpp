@@ -2,14 +2,13 @@
 
 #include "flyball/runtime/board/board_report.h"
 #include "flyball/runtime/board/settings_keeper.h"
-#include "flyball/scenario/files.h"
 
 #include "commands.h"
 #include "console.h"
+#include "real_computer.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <sys/utsname.h>
 
 namespace flyball {
 namespace {
@@ -20,35 +19,6 @@ struct BoardArguments {
   std::string run_folder{KeeperOptions{}.run_folder};
   bool prints{};
 };
-
-Result<BoardFile> board_named(const std::string& name) {
-  const auto path = find_shipped("boards", name);
-  return path ? load_board_file(*path) : Result<BoardFile>{path.error()};
-}
-
-bool is_x86() {
-  utsname system{};
-  uname(&system);
-  const std::string machine{static_cast<const char*>(system.machine)};
-  return machine == "x86_64" || machine == "i686";
-}
-
-Result<BoardFile> choose_board(const std::string& name, const std::string& model) {
-  if (!name.empty()) {
-    return board_named(name);
-  }
-  std::vector<BoardFile> known;
-  for (const std::string& one : shipped("boards")) {
-    auto board = board_named(one);
-    if (!board) {
-      return board;
-    }
-    known.push_back(std::move(*board));
-  }
-  BoardFile found = board_file_for(known, model);
-  // Firmware names thousands of PCs; a device tree names a board that a file could describe.
-  return found.models.empty() && is_x86() ? board_named("generic_x86") : Result<BoardFile>{found};
-}
 
 int report(const BoardArguments& given) {
   const auto system = linux_system(given.root);

@@ -3,11 +3,11 @@
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/simulation/mission.h"
-#include "flyball/simulation/realtime_flight.h"
 
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
+#include "real_computer.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -21,8 +21,7 @@ struct RunOptions {
   std::string seed{};
   std::string start_map{};
   std::string final_map{};
-  std::string executor{"virtual"};
-  int fifo_priority{};
+  ExecutorOptions executor{};
 };
 
 std::string with_unit(double value, int digits, const std::string& unit) {
@@ -92,20 +91,6 @@ MissionHooks hooks_of(const Scenario& scenario) {
   return hooks;
 }
 
-/// The machine that the nodes run on: a modeled computer unless the user asks for this one.
-MakeExecutor executor_of(const RunOptions& options) {
-  if (options.executor == "virtual") {
-    return {};
-  }
-  RealtimeSettings settings;
-  if (options.fifo_priority > 0) {
-    settings.fifo_priority = options.fifo_priority;
-  }
-  settings.lock_memory = true;
-  settings.refused = [](const std::string& sentence) { note(sentence); };
-  return in_real_time(settings);
-}
-
 int exit_code_of(const Summary& summary) {
   switch (summary.status) {
     case MissionStatus::succeeded:
@@ -129,6 +114,10 @@ int run(const RunOptions& options) {
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)
                                  : options.flight.out;
+  auto computer = RealComputer::open(options.executor);
+  if (!computer) {
+    return refuse({computer.error()});
+  }
   catch_interrupt();  // Before the first thing that it writes: a flight can be ended as soon as it
                       // shows.
   const Result<std::vector<std::string>> prepared = prepare_folder(folder);
@@ -138,8 +127,9 @@ int run(const RunOptions& options) {
   MissionHooks hooks = hooks_of(scenario);
   hooks.start_map = options.start_map;
   hooks.final_map = options.final_map;
-  hooks.executor = executor_of(options);
+  (*computer)->equip(hooks);
   const Result<MissionRecord> record = fly(scenario, hooks);
+  (*computer)->close();
   if (!record) {
     remove_empty(*prepared);
     return refuse({record.error()});
@@ -180,16 +170,7 @@ void add_run(CLI::App& program, int& exit_code) {
                     ->add_option("--map", options->final_map,
                                  "writes the map that the flight made, .bt or .ot")
                     ->type_name("FILE"));
-  command
-      ->add_option("--executor", options->executor,
-                   "what runs the nodes: a modeled computer, or this one in real time")
-      ->check(CLI::IsMember({"virtual", "realtime"}))
-      ->capture_default_str();
-  command
-      ->add_option("--fifo", options->fifo_priority,
-                   "with --executor realtime: SCHED_FIFO priority of the least urgent nodes")
-      ->check(CLI::Range(1, 80))
-      ->type_name("N");
+  add_executor(*command, options->executor);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

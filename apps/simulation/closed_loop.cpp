@@ -102,6 +102,13 @@ void ClosedLoop::start_localizer() {
   }
 }
 
+Watts ClosedLoop::computer_power(double busy_cores) const {
+  const Watts measured = computer_meter_ ? computer_meter_() : Watts{};
+  return measured.value() > 0.0
+             ? measured
+             : link_.brief().platform->power(executor_.operating_point(), busy_cores);
+}
+
 void ClosedLoop::physics_step() {
   const double dt_s = scenario_.vehicle.physics_step_s;
   const RotorSpeeds command =
@@ -120,7 +127,7 @@ void ClosedLoop::energy_step() {
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
-  log_.computer_w = link_.brief().platform->power(executor_.operating_point(), busy).value();
+  log_.computer_w = computer_power(busy).value();
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);

@@ -23,6 +23,7 @@
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
+#include <utility>
 
 namespace flyball {
 
@@ -61,6 +62,10 @@ class ClosedLoop {
     on_picture_ = std::move(listener);
   }
 
+  /// Asks `meter` for the computer's power, where it is not modeled; 0 W: it has no meter, and the
+  /// platform's model is asked as ever.
+  void measure_computer(std::function<Watts()> meter) { computer_meter_ = std::move(meter); }
+
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
   [[nodiscard]] const FlightLog& log() const { return log_; }
@@ -73,6 +78,7 @@ class ClosedLoop {
   void emergency_hold() { controller_.hold(vehicle_.state()); }
 
  private:
+  [[nodiscard]] Watts computer_power(double busy_cores) const;
   void physics_step();
   void energy_step();
   void publish_navigation();
@@ -101,6 +107,7 @@ class ClosedLoop {
   std::function<void(const TruePose&)> on_navigation_{};
   std::function<void()> on_energy_{};
   std::function<void(std::uint64_t, const Pose&)> on_picture_{};
+  std::function<Watts()> computer_meter_{};
   FlightLog log_{};
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};

@@ -22,6 +22,8 @@ class Judge {
   Judge& operator=(const Judge&) = delete;
   virtual ~Judge() = default;
 
+  /// Called once, before the mission's time begins: for what takes long to compute.
+  virtual void prepare() {}
   /// Called once a second of mission time.
   virtual void look(MissionTime /*now*/) {}
   /// Why the judge rejects a success that the vehicle claims; `none` when it accepts it.

@@ -4,10 +4,11 @@
 
 namespace flyball {
 
+void MapJudge::prepare() {
+  judge_ = make_exploration_judge(link_.brief(), world_);
+}
+
 void MapJudge::look(MissionTime /*now*/) {
-  if (!judge_) {
-    judge_ = make_exploration_judge(link_.brief(), world_);
-  }
   if (!link_.map()) {
     return;
   }

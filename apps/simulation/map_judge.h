@@ -22,6 +22,7 @@ class MapJudge final : public Judge {
   MapJudge(MissionLink& link, const Mapper& mapper, const World& world, double least_percent)
       : link_{link}, mapper_{mapper}, world_{world}, least_percent_{least_percent} {}
 
+  void prepare() override;
   /// A row of channel `coverage`.
   void look(MissionTime now) override;
   [[nodiscard]] MissionFailure objection() const override;
@@ -33,7 +34,7 @@ class MapJudge final : public Judge {
   const Mapper& mapper_;
   const World& world_;
   double least_percent_;
-  std::optional<ExplorationJudge> judge_{};  ///< From the first look on: it takes long to make.
+  std::optional<ExplorationJudge> judge_{};  ///< Once it is prepared.
   double coverage_percent_{};
 };
 

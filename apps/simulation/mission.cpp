@@ -25,6 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto state_period = 100ms;
+constexpr auto meter_period = 100ms;  // INA3221 averages over tens of milliseconds.
 constexpr auto progress_period = 10s;
 
 VehicleExtras extras_of(const MissionSetup& setup) {
@@ -54,7 +55,8 @@ struct Flight {
          MissionSetup& setup,
          MemoryRecorder& trace,
          std::unique_ptr<Workload> made,
-         const MakeExecutor& make_executor = make_virtual)
+         const MakeExecutor& make_executor = make_virtual,
+         RealtimeBoard* real_computer = nullptr)
       : workload{std::move(made)},
         graph{scenario.mission.workload},
         computer{setup.platform->model()},
@@ -74,7 +76,7 @@ struct Flight {
     referee = std::make_unique<Referee>(*link, scenario, setup.things, graph, *executor, queue,
                                         *loop, *parts.kernels.mapper);
     drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
-    board.connect(*executor, *loop, drift.get());
+    board.connect(*executor, *loop, drift.get(), real_computer);
     recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
   }
 
@@ -137,6 +139,14 @@ void connect(Flight& flight, const MissionHooks& hooks) {
   flight.link->log("governor", {{"period_s", to_seconds(flight.period)}});
   queue.every(MissionTime{}, state_period, EventOrder::observer,
               [&flight] { flight.recorder->record_state(); });
+  if (hooks.computer != nullptr) {
+    queue.every(MissionTime{}, meter_period, EventOrder::observer,
+                [&flight, computer = hooks.computer] {
+                  computer->refresh(flight.queue.now().time_since_epoch());
+                });
+    flight.loop->measure_computer(
+        [computer = hooks.computer] { return computer->read().computer_power; });
+  }
   if (hooks.progress) {
     queue.every(MissionTime{progress_period}, progress_period, EventOrder::observer,
                 [&flight, &hooks] { tell_progress(flight, hooks); });
@@ -284,8 +294,12 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{scenario, *setup, *record.trace, std::move(*workload),
-                hooks.executor ? hooks.executor : make_virtual};
+  Flight flight{scenario,
+                *setup,
+                *record.trace,
+                std::move(*workload),
+                hooks.executor ? hooks.executor : make_virtual,
+                hooks.computer};
   connect(flight, hooks);
   run(flight, hooks);
   if (const Status written =

@@ -73,6 +73,9 @@ void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapp
 }
 
 void Referee::start() {
+  for (const auto& judge : judges_) {
+    judge->prepare();
+  }
   queue_.every(MissionTime{check_period}, check_period, EventOrder::sensor, [this] { check(); });
   queue_.every(MissionTime{first_look}, look_period, EventOrder::observer, [this] {
     for (const auto& judge : judges_) {

@@ -6,10 +6,15 @@ namespace flyball {
 
 void SimulatedBoard::connect(Executor& executor,
                              const ClosedLoop& loop,
-                             const ComputerDrift* drift) {
+                             const ComputerDrift* drift,
+                             RealtimeBoard* computer) {
   executor_ = &executor;
   loop_ = &loop;
   drift_ = drift;
+  computer_ = computer;
+  if (computer != nullptr) {
+    computer->connect(executor);
+  }
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
   measure();
 }
@@ -19,7 +24,11 @@ void SimulatedBoard::measure() {
   now.computer_power = Watts{loop_->log().computer_w};
   now.rotor_power = Watts{loop_->log().rotor_w};
   now.battery_percent = loop_->battery().percent();
-  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
+  if (computer_ != nullptr) {
+    const BoardReading real = computer_->read();
+    now.temperature_c = real.temperature_c;
+    now.trip_c = real.trip_c;
+  } else if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
     now.temperature_c = heat->temperature_c();
     now.trip_c = heat->first_trip_c().value_or(0.0);
   }

@@ -6,6 +6,7 @@
 /// them.
 
 #include "flyball/runtime/board.h"
+#include "flyball/runtime/realtime/realtime_board.h"
 
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
@@ -20,8 +21,12 @@ class SimulatedBoard final : public Board {
  public:
   /// Until it is connected it says that this is granted, and hears no request.
   explicit SimulatedBoard(const OperatingPoint& start) { unconnected_.granted = start; }
-  /// All arguments outlive the board; `drift` may be null: then nothing is known of heat.
-  void connect(Executor& executor, const ClosedLoop& loop, const ComputerDrift* drift);
+  /// All arguments outlive the board; `drift` may be null: then nothing is known of heat. With a
+  /// `computer`, which runs the nodes and is not modeled, watts and heat are what it measures.
+  void connect(Executor& executor,
+               const ClosedLoop& loop,
+               const ComputerDrift* drift,
+               RealtimeBoard* computer = nullptr);
   /// The gauges show what the simulator says now. To be called whenever that has changed.
   void measure();
 
@@ -35,6 +40,7 @@ class SimulatedBoard final : public Board {
   Executor* executor_{};
   const ClosedLoop* loop_{};
   const ComputerDrift* drift_{};
+  const RealtimeBoard* computer_{};
   std::atomic<std::uint64_t> deadline_misses_{};
   mutable std::mutex mutex_{};  ///< Of `gauges_`.
   BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.

@@ -87,7 +87,7 @@ void RealtimeEngine::set_up(const std::string& name, std::size_t level) {
     wish.fifo_priority = *settings.fifo_priority + static_cast<int>(lanes.size() - level);
   } else {
     const int below_timer = std::max(0, static_cast<int>(level) - 1);
-    wish.nice = std::min(most_nice, nice_per_level * below_timer);
+    wish.nice = std::min(most_nice, process_nice() + nice_per_level * below_timer);
   }
   std::vector<std::string> refused = set_up_thread(wish);
   const std::vector<int> active = active_cpus(operating_point().cores);

@@ -64,6 +64,10 @@ std::optional<std::string> set_nice(const std::string& name, int nice) {
 
 }  // namespace
 
+int process_nice() {
+  return getpriority(PRIO_PROCESS, static_cast<id_t>(getpid()));
+}
+
 pid_t thread_id() {
   return static_cast<pid_t>(syscall(SYS_gettid));
 }
@@ -76,7 +80,7 @@ std::vector<std::string> set_up_thread(const ThreadWish& wish) {
   std::optional<std::string> note;
   if (wish.fifo_priority) {
     note = set_fifo(wish.name, *wish.fifo_priority);
-  } else if (wish.nice > 0) {
+  } else if (wish.nice != process_nice()) {
     note = set_nice(wish.name, wish.nice);
   }
   if (note) {

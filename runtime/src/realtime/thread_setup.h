@@ -15,7 +15,7 @@ namespace flyball {
 struct ThreadWish {
   std::string name{};                  ///< At most 15 characters, for `top` and debuggers.
   std::optional<int> fifo_priority{};  ///< Empty: ordinary scheduling with `nice`.
-  int nice{};
+  int nice{};                          ///< Absolute.
   bool prefault_stack{};
 };
 
@@ -25,6 +25,9 @@ struct ThreadWish {
 
 /// Keeps what the process touches from now on in memory; a sentence if that failed.
 [[nodiscard]] std::optional<std::string> lock_process_memory();
+
+/// The nice value that the process was started with, of its first thread.
+[[nodiscard]] int process_nice();
 
 /// Of the calling thread, as the kernel counts it.
 [[nodiscard]] pid_t thread_id();

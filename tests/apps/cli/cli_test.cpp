@@ -53,6 +53,14 @@ TEST_F(Cli, refuses_an_unknown_policy) {
                  "try: flyball list policies");
 }
 
+TEST_F(Cli, refuses_wishes_for_a_computer_that_is_modeled) {
+  expect_refused("run delivery_forest --fifo 20", "--fifo is of no use to a modeled computer");
+  expect_refused("run delivery_forest --set-clocks --executor virtual",
+                 "--set-clocks is of no use to a modeled computer; add --executor realtime");
+  const auto other = flyball.run("run delivery_forest --executor sundial");
+  EXPECT_EQ(other.exit_code, 2) << other.errors;
+}
+
 TEST_F(Cli, refuses_bad_seeds) {
   expect_refused("run delivery_forest --seed -1", "seed = -1");
   expect_refused("run delivery_forest --seed one", "seed = one");

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "real_computer.h"
+
+#include "flyball/scenario/files.h"
+#include "flyball/simulation/realtime_flight.h"
+
+#include "console.h"
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <sys/utsname.h>
+
+namespace flyball {
+namespace {
+
+Result<BoardFile> board_named(const std::string& name) {
+  const auto path = find_shipped("boards", name);
+  return path ? load_board_file(*path) : Result<BoardFile>{path.error()};
+}
+
+bool is_x86() {
+  utsname system{};
+  uname(&system);
+  const std::string machine{static_cast<const char*>(system.machine)};
+  return machine == "x86_64" || machine == "i686";
+}
+
+}  // namespace
+
+Result<BoardFile> choose_board(const std::string& name, const std::string& model) {
+  if (!name.empty()) {
+    return board_named(name);
+  }
+  std::vector<BoardFile> known;
+  for (const std::string& one : shipped("boards")) {
+    auto board = board_named(one);
+    if (!board) {
+      return board;
+    }
+    known.push_back(std::move(*board));
+  }
+  BoardFile found = board_file_for(known, model);
+  // Firmware names thousands of PCs; a device tree names a board that a file could describe.
+  return found.models.empty() && is_x86() ? board_named("generic_x86") : Result<BoardFile>{found};
+}
+
+void add_executor(CLI::App& command, ExecutorOptions& options) {
+  command
+      .add_option("--executor", options.executor,
+                  "what runs the nodes: a modeled computer, or this one in real time")
+      ->check(CLI::IsMember({"virtual", "realtime"}))
+      ->capture_default_str();
+  command
+      .add_option("--fifo", options.fifo_priority,
+                  "with --executor realtime: SCHED_FIFO priority of the least urgent nodes")
+      ->check(CLI::Range(1, 80))
+      ->type_name("N");
+  command.add_flag("--set-clocks", options.sets_clocks,
+                   "with --executor realtime: sets this computer's clock as the policy asks, and "
+                   "restores it");
+}
+
+Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& options) {
+  const bool is_modeled = options.executor == "virtual";
+  if (is_modeled && (options.fifo_priority > 0 || options.sets_clocks)) {
+    return Error{ErrorCode::invalid_input,
+                 std::string{options.sets_clocks ? "--set-clocks" : "--fifo"} +
+                     " is of no use to a modeled computer; add --executor realtime"};
+  }
+  std::unique_ptr<RealComputer> computer{new RealComputer{options}};
+  if (options.sets_clocks) {
+    if (const Status opened = computer->open_board(); !opened) {
+      return opened.error();
+    }
+  }
+  return computer;
+}
+
+Status RealComputer::open_board() {
+  system_ = linux_system();
+  auto file = choose_board({}, discover_board(*system_).model);
+  if (!file) {
+    return file.error();
+  }
+  LinuxBoardOptions options;
+  options.file = std::move(*file);
+  auto opened = LinuxBoard::open(*system_, options);
+  if (!opened) {
+    return opened.error();
+  }
+  board_ = std::move(*opened);
+  shared_board_ = std::make_unique<RealtimeBoard>(*board_);
+  return Done{};
+}
+
+void RealComputer::equip(MissionHooks& hooks) {
+  if (options_.executor == "virtual") {
+    return;
+  }
+  RealtimeSettings settings;
+  if (options_.fifo_priority > 0) {
+    settings.fifo_priority = options_.fifo_priority;
+  }
+  settings.lock_memory = true;
+  settings.refused = [](const std::string& sentence) { note(sentence); };
+  if (shared_board_) {
+    settings.grant = [board = shared_board_.get()](const OperatingPoint& wanted) {
+      return board->grant(wanted);
+    };
+    hooks.computer = shared_board_.get();
+  }
+  hooks.executor = in_real_time(settings);
+}
+
+void RealComputer::close() {
+  if (!shared_board_) {
+    return;
+  }
+  for (const std::string& sentence : shared_board_->take_notes()) {
+    note(sentence);
+  }
+  for (const Error& error : board_->close()) {
+    note(error.message);
+  }
+}
+
+}  // namespace flyball
