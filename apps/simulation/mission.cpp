@@ -95,10 +95,11 @@ struct Flight {
                                               computer, std::move(settings));
       inputs.future = future.get();
     }
+    period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
+    inputs.period = period;
     governor = std::make_shared<GovernorLoop>(parts, setup.equipment.knobs, *setup.governor, board,
                                               inputs);
-    period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
-    add_governor(graph, parts, inputs, period, governor);
+    add_governor(graph, parts, inputs, governor);
   }
 
   EventQueue queue;

@@ -26,7 +26,11 @@ class Decisions {
     if (number_ == flight_.decisions) {
       return false;
     }
-    seen_.now = MissionTime{flight_.period * static_cast<Duration::rep>(number_++)};
+    const auto dropped = flight_.after_drops.find(number_);
+    seen_.now = dropped != flight_.after_drops.end() ? dropped->second
+                : number_ == 0                       ? MissionTime{}
+                                                     : seen_.now + flight_.period;
+    ++number_;
     for (; change_ != flight_.changes.end() && change_->first <= seen_.now; ++change_) {
       for (const auto& [field, value] : change_->second) {
         observation_fields()[field].set(seen_, value);

@@ -67,6 +67,9 @@ void take_row(const Json& row, RecordedFlight& flight) {
     if (const auto fault = fault_of_period(to_seconds(flight.period)); fault[0] != '\0') {
       throw std::out_of_range{fault.data()};
     }
+    if (row.contains("decision")) {
+      flight.after_drops[row.at("decision").get<std::uint64_t>()] = time_of(row);
+    }
   } else if (channel == "mission") {
     flight.version = row.at("version").get<std::string>();
   }

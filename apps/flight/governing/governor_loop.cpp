@@ -59,7 +59,7 @@ double density_ahead(const NavigatorState& navigator, const OccupancyView& map) 
 
 GovernorInputs governor_inputs(const Graph& graph) {
   return {graph.find<NavigatorState>("navigator"), graph.find<MapRevision>("map_revision"),
-          nullptr};
+          Duration{}, nullptr};
 }
 
 GovernorLoop::GovernorLoop(const FlightParts& parts,
@@ -80,9 +80,25 @@ GovernorLoop::GovernorLoop(const FlightParts& parts,
   seen_.gap_distance_m = scan.reach_m;
 }
 
+void GovernorLoop::note(JobContext& job, std::string_view channel, std::vector<Field> fields) {
+  job.publish(parts_.mission.log, LogRow{seen_.now, channel, std::move(fields)});
+}
+
+void GovernorLoop::note_event(JobContext& job, const std::string& what) {
+  note(job, "event", {{"what", what}});
+}
+
 void GovernorLoop::tick(JobContext& job) {
-  const MissionTime now = job.now();
+  // When the decision is due, which is when it begins on a modeled computer, and a little earlier
+  // on a real one: so the record says when each one was made.
+  const MissionTime now = job.released();
   seen_.now = now;
+  if (now != due_) {
+    note(job, "governor",
+         {{"period_s", to_seconds(inputs_.period)},
+          {"decision", static_cast<std::int64_t>(decisions_)}});
+  }
+  due_ = now + inputs_.period;
   observe_computer(now);
   const bool looks = now >= next_look_;
   if (looks) {
@@ -101,10 +117,10 @@ void GovernorLoop::decide(JobContext& job) {
   decision_host_us_.push_back(
       std::chrono::duration<double, std::micro>(HostTime::clock::now() - asked).count());
   if (choices_.is_new(governor_, decision)) {
-    log(job, parts_.mission, "choice", {{"what", choice_text(governor_, decision)}});
+    note(job, "choice", {{"what", choice_text(governor_, decision)}});
   }
   if (const std::string_view said = governor_.remark(); !said.empty()) {
-    log_event(job, parts_.mission, "policy says: " + std::string{said});
+    note_event(job, "policy says: " + std::string{said});
   }
   apply(job, decision);
   ++decisions_;
@@ -122,10 +138,10 @@ void GovernorLoop::record_bounds(JobContext& job) {
   const std::optional<BoundCount> count = governor_.bounds();
   if (count && count->issued != settled_bounds_) {
     settled_bounds_ = count->issued;
-    log(job, parts_.mission, "latency_bound",
-        {{"issued", static_cast<std::int64_t>(count->issued)},
-         {"late", static_cast<std::int64_t>(count->late)},
-         {"factor", count->factor}});
+    note(job, "latency_bound",
+         {{"issued", static_cast<std::int64_t>(count->issued)},
+          {"late", static_cast<std::int64_t>(count->late)},
+          {"factor", count->factor}});
   }
 }
 
@@ -145,7 +161,7 @@ void GovernorLoop::record(JobContext& job, bool is_whole) {
     }
   }
   if (!row.empty()) {
-    log(job, parts_.mission, is_whole ? "observation" : "computer", std::move(row));
+    note(job, is_whole ? "observation" : "computer", std::move(row));
   }
 }
 
@@ -248,7 +264,7 @@ void GovernorLoop::note_moved_wishes(JobContext& job) {
     char text[96];
     std::snprintf(text, sizeof text, "%s %g is not legal here, %g instead", spec->name.c_str(),
                   wish.value, spec->nearest(wish.value));
-    log_event(job, parts_.mission, text);
+    note_event(job, text);
   }
 }
 
@@ -268,8 +284,8 @@ void GovernorLoop::note_fallback(JobContext& job) {
     trouble_ = why;
   }
   if (fallback != fallback_ || why != why_) {
-    log_event(job, parts_.mission,
-              "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
+    note_event(job,
+               "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
   }
   fallback_ = fallback;
   why_ = why;
@@ -284,11 +300,11 @@ void GovernorLoop::apply(JobContext& job, const Decision& decision) {
     }
     has_new_knobs_ = true;
     ++knob_changes_;
-    log(job, parts_.mission, "decision",
-        {{"knob", std::string{wish.knob}},
-         {"value", wish.value},
-         {"before", before},
-         {"reason", std::string{to_string(decision.reason)}}});
+    note(job, "decision",
+         {{"knob", std::string{wish.knob}},
+          {"value", wish.value},
+          {"before", before},
+          {"reason", std::string{to_string(decision.reason)}}});
   }
   note_fallback(job);
   const OperatingPoint wished{static_cast<int>(knobs_.value("cpu.cores")),
@@ -304,11 +320,10 @@ void GovernorLoop::apply(JobContext& job, const Decision& decision) {
 void add_governor(Graph& graph,
                   const FlightParts& parts,
                   const GovernorInputs& inputs,
-                  Duration period,
                   std::shared_ptr<GovernorLoop> loop) {
   NodeSpec spec;
   spec.name = "govern";
-  spec.trigger = OnPeriod{period, Duration{}};
+  spec.trigger = OnPeriod{inputs.period, Duration{}};
   spec.priority = govern_priority;
   spec.reads = {parts.mission.state.index};
   if (inputs.navigator) {

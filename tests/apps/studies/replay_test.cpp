@@ -4,9 +4,12 @@
 
 #include "flyball/records/report.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/simulation/realtime_flight.h"
 
 #include "scratch_folder.h"
 #include "short_delivery.h"
+#include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +41,30 @@ TEST(Replay, repeats_every_decision_bit_for_bit) {
         << result->differences.front().recorded << "\n"
         << result->differences.front().now;
   }
+}
+
+TEST(Replay, repeats_a_flight_in_real_time_with_decisions_that_were_dropped) {
+  Scenario scenario = kit::short_delivery(200.0);
+  scenario.mission.time_limit_s = 3.0;
+  scenario.governor.policy = "schedutil_10ms";
+  RealtimeSettings settings;
+  settings.grant = [](const OperatingPoint& wanted) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{25});  // A slow board.
+    return wanted;
+  };
+  MissionHooks hooks;
+  hooks.executor = in_real_time(settings);
+  const auto record = fly(scenario, hooks);
+  ASSERT_TRUE(record) << record.error().message;
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_run(folder.path(), scenario, *record));
+  const auto flight = read_flight(folder.path());
+  ASSERT_TRUE(flight) << flight.error().message;
+  EXPECT_FALSE(flight->after_drops.empty());
+  const auto result = replay(*flight);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->decisions, record->summary.decisions);
+  EXPECT_EQ(result->different, 0U);
 }
 
 TEST(Replay, finds_what_was_changed_in_a_record) {

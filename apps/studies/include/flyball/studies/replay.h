@@ -24,6 +24,8 @@ struct RecordedFlight {
   Duration period{};  ///< Between two decisions; the first is at 0.
   MissionTime end{};  ///< Of the last row of the trace.
   std::uint64_t decisions{};
+  /// Where decisions before it were dropped, by its number from 0: when it was made.
+  std::map<std::uint64_t, MissionTime> after_drops{};
   /// Members of the observation that changed, by the time of the decision.
   std::map<MissionTime, std::vector<std::pair<std::size_t, double>>> changes{};
   /// What was decided, in words (`choice_text`), where it was not as before.

@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flyball {
@@ -40,6 +41,7 @@ class ForesightSource {
 struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
   std::optional<Topic<MapRevision>> map{};
+  Duration period{};          ///< Between decisions.
   ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
@@ -70,6 +72,9 @@ class GovernorLoop {
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const { return governor_.bound_levels(); }
 
  private:
+  /// Rows of the record, at the time of the decision.
+  void note(JobContext& job, std::string_view channel, std::vector<Field> fields);
+  void note_event(JobContext& job, const std::string& what);
   /// Of the newest messages; empty while there is no map or no navigator.
   struct Surroundings {
     std::shared_ptr<const NavigatorState> navigator{};
@@ -106,6 +111,7 @@ class GovernorLoop {
   std::uint64_t last_drops_{};
   std::uint64_t last_misses_{};
   std::uint64_t decisions_{};
+  MissionTime due_{};  ///< The next decision, unless the executor drops its period.
   std::uint64_t knob_changes_{};
   std::vector<double> decision_host_us_{};
   std::uint64_t faults_{};
@@ -116,11 +122,11 @@ class GovernorLoop {
   std::set<std::string> moved_{};  ///< Knobs whose wishes had to be moved to a legal value.
 };
 
-/// Adds the node `govern`, which ticks the loop. Owners: the node, and who asks it for its counts.
+/// Adds the node `govern`, which decides each `inputs.period` and so ticks the loop. Owners: the
+/// node, and who asks it for its counts.
 void add_governor(Graph& graph,
                   const FlightParts& parts,
                   const GovernorInputs& inputs,
-                  Duration period,
                   std::shared_ptr<GovernorLoop> loop);
 
 }  // namespace flyball
