@@ -103,7 +103,7 @@ void RealComputer::equip(MissionHooks& hooks) {
     settings.fifo_priority = options_.fifo_priority;
   }
   settings.lock_memory = true;
-  settings.refused = [](const std::string& sentence) { note(sentence); };
+  settings.tell = [](const std::string& sentence) { note(sentence); };
   if (shared_board_) {
     settings.grant = [board = shared_board_.get()](const OperatingPoint& wanted) {
       return board->grant(wanted);

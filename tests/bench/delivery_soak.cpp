@@ -108,7 +108,7 @@ void soak(double seconds) {
   const DeliveryShape shape;
   RealtimeSettings settings;
   settings.lock_memory = true;
-  settings.refused = [](const std::string& sentence) { std::printf("%s\n", sentence.c_str()); };
+  settings.tell = [](const std::string& sentence) { std::printf("%s\n", sentence.c_str()); };
   RealtimeExecutor executor{shape.graph, {64, Hertz{1e9}}, settings};
   std::uint64_t jobs = 0;
   std::uint64_t misses = 0;

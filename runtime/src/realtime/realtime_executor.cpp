@@ -127,6 +127,10 @@ void RealtimeEngine::tell_news() {
         tell(miss_listeners, one.index, spec(one.index).on_miss);
         break;
       case News::Kind::stuck:
+        if (settings.tell) {
+          settings.tell("the job of node " + spec(one.index).name + " has run for " +
+                        std::to_string(to_seconds(one.running)) + " s and has not ended");
+        }
         tell(stuck_listeners, one.index, one.running);
         break;
     }

@@ -46,8 +46,8 @@ void RealtimeEngine::start() {
   threads.emplace_back([this] { keep_time(); });
   wait_for_threads(threads.size());
   for (const std::string& note : notes) {  // No thread adds to them any more.
-    if (settings.refused) {
-      settings.refused(note);
+    if (settings.tell) {
+      settings.tell(note);
     }
   }
   {

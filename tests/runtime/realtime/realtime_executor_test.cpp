@@ -294,6 +294,8 @@ TEST(RealtimeExecutor, the_board_says_which_clock_is_granted) {
 TEST(RealtimeExecutor, tells_once_of_a_job_that_does_not_end) {
   RealtimeRig rig;
   rig.settings.stuck_after = 3ms;
+  std::vector<std::string> sentences;
+  rig.settings.tell = [&](const std::string& sentence) { sentences.push_back(sentence); };
   std::atomic<int> told{};
   const auto in = rig.add("stuck", 0, [&](JobContext&) {
     EXPECT_TRUE(comes_true([&] { return told.load() == 1; }));
@@ -310,13 +312,15 @@ TEST(RealtimeExecutor, tells_once_of_a_job_that_does_not_end) {
   ASSERT_TRUE(rig.serve([&] { return rig.records.size() == 1; }));
   EXPECT_EQ(told, 1);
   EXPECT_GE(running, 3ms);
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_EQ(sentences.front().rfind("the job of node stuck has run for ", 0), 0U);
 }
 
 TEST(RealtimeExecutor, says_what_the_system_did_not_permit) {
   RealtimeRig rig;
   rig.settings.fifo_priority = 10;
   std::vector<std::string> notes;
-  rig.settings.refused = [&](const std::string& note) { notes.push_back(note); };
+  rig.settings.tell = [&](const std::string& note) { notes.push_back(note); };
   int policy = -1;
   const auto in = rig.add("node", 0, [&](JobContext&) { policy = sched_getscheduler(0); });
   rig.start();
@@ -334,7 +338,7 @@ TEST(RealtimeExecutor, says_which_core_does_not_exist) {
   RealtimeRig rig;
   rig.settings.cpus = {CPU_SETSIZE - 1};
   std::vector<std::string> notes;
-  rig.settings.refused = [&](const std::string& note) { notes.push_back(note); };
+  rig.settings.tell = [&](const std::string& note) { notes.push_back(note); };
   rig.add("node", 0, nothing);
   rig.start();
   rig.executor->serve_until(MissionTime{1ms});

@@ -30,15 +30,15 @@ struct RealtimeSettings {
   Duration spin{};
   /// Keeps all that the process touches in memory.
   bool lock_memory{};
-  /// A job that has run for so long is told by `on_stuck`, once. Chosen: ten times the longest
-  /// planning budget of the shipped workloads.
+  /// A job that has run for so long is told of by `tell` and `on_stuck`, once. Chosen: ten times
+  /// the longest planning budget of the shipped workloads.
   Duration stuck_after{std::chrono::seconds{10}};
   /// Asks the board for a clock, and says what it granted. Empty: the clock is what it was at the
   /// start, whatever is asked. Called by whoever sets the operating point.
   std::function<OperatingPoint(const OperatingPoint& wanted)> grant{};
-  /// Told at the start, on the owner's thread, one sentence for each thing that the system did not
-  /// permit, and what would help.
-  std::function<void(const std::string& sentence)> refused{};
+  /// Called on the owner's thread with one sentence for each thing that a person should know: what
+  /// the system did not permit, and what would help; which job does not end.
+  std::function<void(const std::string& sentence)> tell{};
   /// Where each step is written; null: nowhere. Outlives the executor.
   RunLog* log{};
 };
