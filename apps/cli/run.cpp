@@ -21,6 +21,7 @@ struct RunOptions {
   std::string seed{};
   std::string start_map{};
   std::string final_map{};
+  std::string timeline{};
   ExecutorOptions executor{};
 };
 
@@ -127,6 +128,8 @@ int run(const RunOptions& options) {
   MissionHooks hooks = hooks_of(scenario);
   hooks.start_map = options.start_map;
   hooks.final_map = options.final_map;
+  Timeline timeline;
+  hooks.timeline = options.timeline.empty() ? nullptr : &timeline;
   (*computer)->equip(hooks);
   const Result<MissionRecord> record = fly(scenario, hooks);
   (*computer)->close();
@@ -135,6 +138,10 @@ int run(const RunOptions& options) {
     return refuse({record.error()});
   }
   if (const Status written = write_run(folder, scenario, *record); !written) {
+    return refuse({written.error()});
+  }
+  if (const Status written = options.timeline.empty() ? Done{} : timeline.write(options.timeline);
+      !written) {
     return refuse({written.error()});
   }
   print(options.flight.json ? to_json(record->summary) + "\n"
@@ -169,6 +176,10 @@ void add_run(CLI::App& program, int& exit_code) {
   refuse_empty(*command
                     ->add_option("--map", options->final_map,
                                  "writes the map that the flight made, .bt or .ot")
+                    ->type_name("FILE"));
+  refuse_empty(*command
+                    ->add_option("--timeline", options->timeline,
+                                 "writes when each job ran, for ui.perfetto.dev")
                     ->type_name("FILE"));
   add_executor(*command, options->executor);
   add_output(*command, options->flight);

@@ -132,6 +132,10 @@ void tell_progress(const Flight& flight, const MissionHooks& hooks) {
 void connect(Flight& flight, const MissionHooks& hooks) {
   auto& queue = flight.queue;
   flight.executor->on_job([&flight](const JobRecord& job) { flight.recorder->record_job(job); });
+  if (Timeline* timeline = hooks.timeline) {
+    timeline->begin(flight.graph);
+    flight.executor->on_job([timeline](const JobRecord& job) { timeline->note(job); });
+  }
   flight.executor->on_miss([&flight](int, OnMiss action) {
     if (action == OnMiss::brake && flight.link->phase() == MissionPhase::cruise) {
       flight.loop->emergency_hold();

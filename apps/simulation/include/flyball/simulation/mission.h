@@ -5,6 +5,7 @@
 /// Flies one scenario from take-off to its end.
 
 #include "flyball/records/mission_record.h"
+#include "flyball/records/timeline.h"
 #include "flyball/runtime/event_queue.h"
 #include "flyball/runtime/executor.h"
 #include "flyball/runtime/realtime/realtime_board.h"
@@ -29,8 +30,9 @@ struct MissionHooks {
   std::function<bool()> stop{};
   std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
-  /// The real computer that the executor runs the nodes on: it is refreshed while the mission flies,
-  /// and its watts and heat count. Null: the scenario's platform is modeled.
+  Timeline* timeline{};     ///< Is told of all jobs; null: nothing is.
+  /// The real computer that the executor runs the nodes on: it is refreshed while the mission
+  /// flies, and its watts and heat count. Null: the scenario's platform is modeled.
   RealtimeBoard* computer{};
   MakeExecutor executor{};  ///< Empty: a `VirtualExecutor`, which models the scenario's computer.
 };
