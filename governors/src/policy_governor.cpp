@@ -3,7 +3,11 @@
 
 #include "flyball/runtime/assert.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -12,6 +16,17 @@ namespace {
 
 constexpr std::string_view clock_knob = "cpu.frequency_hz";
 constexpr std::string_view cores_knob = "cpu.cores";
+
+/// One after the other, cut off where `text` is full. @pre `size > 0`.
+void join(std::initializer_list<std::string_view> parts, char* text, std::size_t size) noexcept {
+  std::size_t used = 0;
+  for (const std::string_view part : parts) {
+    const std::size_t fitting = std::min(part.size(), size - 1 - used);
+    std::copy_n(part.data(), fitting, text + used);
+    used += fitting;
+  }
+  text[used] = '\0';
+}
 
 }  // namespace
 
@@ -87,30 +102,40 @@ Decision PolicyGovernor::decide(const Observation& seen) noexcept {
 }
 
 std::string PolicyGovernor::why() const {
+  if (fallback_ == Fallback::safe_static && was_asked_ && last_fault_ == PolicyFault::failed) {
+    return std::string{hosts_code_->trouble()};  // Of any length.
+  }
+  std::array<char, 1024> text{};  // Knobs that scripts name have at most 512 bytes.
+  write_why(text.data(), text.size());
+  return text.data();
+}
+
+void PolicyGovernor::write_why(char* text, std::size_t size) const noexcept {
   if (fallback_ != Fallback::safe_static) {
-    return std::string{ladder_.why()};
+    return join({ladder_.why()}, text, size);
   }
   if (!was_asked_) {
-    return "the policy failed " + std::to_string(settings_.max_faults) +
-           " times in a row and is not asked any more";
+    std::snprintf(text, size, "the policy failed %d times in a row and is not asked any more",
+                  settings_.max_faults);
+    return;
   }
   switch (last_fault_) {
     case PolicyFault::none:
-      return {};
+      return join({}, text, size);
     case PolicyFault::failed:
-      return std::string{hosts_code_->trouble()};
+      return join({hosts_code_->trouble()}, text, size);
     case PolicyFault::overtime:
-      return "the policy took longer than " + std::to_string(to_seconds(settings_.time_limit)) +
-             " s";
+      std::snprintf(text, size, "the policy took longer than %f s",
+                    to_seconds(settings_.time_limit));
+      return;
     case PolicyFault::overflow:
-      return "the policy wishes more than a decision holds";
+      return join({"the policy wishes more than a decision holds"}, text, size);
     case PolicyFault::unknown_knob:
-      return "the policy wishes for a knob that does not exist: \"" + std::string{faulty_knob_} +
-             "\"";
+      return join({"the policy wishes for a knob that does not exist: \"", faulty_knob_, "\""},
+                  text, size);
     case PolicyFault::not_finite:
-      return "the policy's wish for " + std::string{faulty_knob_} + " is not a finite number";
+      return join({"the policy's wish for ", faulty_knob_, " is not a finite number"}, text, size);
   }
-  return {};
 }
 
 std::string_view PolicyGovernor::remark() const {

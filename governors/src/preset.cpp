@@ -34,6 +34,17 @@ class Reader {
     return std::move(preset_);
   }
 
+  /// The file has nothing but parameters.
+  Result<Preset> read_parameters(const toml::table& file) {
+    for (const auto& [name, value] : file) {
+      read_parameter(name, value);
+    }
+    if (!problems_.empty()) {
+      return Error{ErrorCode::invalid_input, problems_};
+    }
+    return std::move(preset_);
+  }
+
  private:
   [[nodiscard]] std::string missing() const {
     const bool both = !preset_.application.empty() && !preset_.clock.empty();
@@ -115,6 +126,25 @@ std::optional<std::string> content_of(const std::string& path) {
   return file.good() || file.eof() ? std::optional{std::move(text)} : std::nullopt;
 }
 
+using ReaderFunction = Result<Preset> (Reader::*)(const toml::table& file);
+
+Result<Preset> parsed(const std::string& origin, const std::string& text, ReaderFunction read) {
+  if (const auto fault = fault_of_toml(text)) {
+    return Error{ErrorCode::invalid_input,
+                 origin + ":" + std::to_string(fault->line) + ": " + fault->what};
+  }
+  try {
+    Reader reader{origin};
+    return (reader.*read)(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    return Error{ErrorCode::invalid_input, origin + ":" +
+                                               std::to_string(error.source().begin.line) + ": " +
+                                               std::string{error.description()}};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::failed, origin + ": " + error.what()};
+  }
+}
+
 }  // namespace
 
 Result<Preset> load_preset(const std::string& path) {
@@ -122,18 +152,15 @@ Result<Preset> load_preset(const std::string& path) {
   if (!text) {
     return Error{ErrorCode::not_found, "no preset file " + path + "; try: flyball list policies"};
   }
-  if (const auto fault = fault_of_toml(*text)) {
-    return Error{ErrorCode::invalid_input,
-                 path + ":" + std::to_string(fault->line) + ": " + fault->what};
+  return parsed(path, *text, &Reader::read);
+}
+
+Result<std::map<std::string, ParameterValue>> read_parameters(const std::string& text) {
+  auto preset = parsed("parameters", text, &Reader::read_parameters);
+  if (!preset) {
+    return preset.error();
   }
-  try {
-    return Reader{path}.read(toml::parse(*text));
-  } catch (const toml::parse_error& error) {
-    return Error{ErrorCode::invalid_input, path + ":" + std::to_string(error.source().begin.line) +
-                                               ": " + std::string{error.description()}};
-  } catch (const std::exception& error) {
-    return Error{ErrorCode::failed, path + ": " + error.what()};
-  }
+  return std::move(preset->parameters);
 }
 
 }  // namespace flyball

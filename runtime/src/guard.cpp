@@ -62,18 +62,16 @@ bool Guard::must_brake(double speed_m_s, double known_free_now_m) const {
 }
 
 void LatencyWindow::add(Duration latency) {
-  constexpr std::size_t samples = 20;
-  recent_.push_back(latency);
-  if (recent_.size() > samples) {
-    recent_.pop_front();
-  }
+  recent_[added_ % recent_.size()] = latency;
+  ++added_;
 }
 
 Duration LatencyWindow::bound() const {
-  if (recent_.empty()) {
+  if (added_ == 0) {
     return seed_;
   }
-  const Duration worst = *std::max_element(recent_.begin(), recent_.end());
+  const std::size_t count = std::min(added_, recent_.size());
+  const Duration worst = *std::max_element(recent_.begin(), recent_.begin() + count);
   return worst + worst / 10;
 }
 

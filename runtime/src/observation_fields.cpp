@@ -33,23 +33,31 @@ void set(Observation& seen, double value) {
 }
 
 template <auto member>
-ObservationField field(const char* name) {
-  return {name, get<member>, set<member>};
+ObservationField field(const char* name, const char* unit, const char* description) {
+  return {name, get<member>, set<member>, false, unit, description};
 }
 
 template <auto member>
-ObservationField seconds(const char* name) {
-  return {name, [](const Observation& seen) { return to_seconds(seen.*member); },
-          [](Observation& seen, double value) { seen.*member = nearest_duration(value); }};
+ObservationField seconds(const char* name, const char* description) {
+  return {name,
+          [](const Observation& seen) { return to_seconds(seen.*member); },
+          [](Observation& seen, double value) { seen.*member = nearest_duration(value); },
+          false,
+          "s",
+          description};
 }
 
 /// Of a type that carries its unit.
 template <auto member>
-ObservationField scalar(const char* name) {
-  return {name, [](const Observation& seen) { return (seen.*member).value(); },
+ObservationField scalar(const char* name, const char* unit, const char* description) {
+  return {name,
+          [](const Observation& seen) { return (seen.*member).value(); },
           [](Observation& seen, double value) {
             seen.*member = std::decay_t<decltype(seen.*member)>{value};
-          }};
+          },
+          false,
+          unit,
+          description};
 }
 
 ObservationField optional(ObservationField one) {
@@ -58,10 +66,14 @@ ObservationField optional(ObservationField one) {
 }
 
 ObservationField phase_field() {
-  return {"phase", [](const Observation& seen) { return static_cast<double>(seen.phase); },
+  return {"phase",
+          [](const Observation& seen) { return static_cast<double>(seen.phase); },
           [](Observation& seen, double value) {
             seen.phase = static_cast<MissionPhase>(std::min(whole<int>(value), 3));
-          }};
+          },
+          false,
+          "1",
+          "What the vehicle does: 0 take-off, 1 cruise, 2 landing, 3 waiting"};
 }
 
 }  // namespace
@@ -73,35 +85,58 @@ const std::vector<ObservationField>& observation_fields() {
   using O = Observation;
   static const std::vector<ObservationField> all{
       phase_field(),
-      field<&O::speed_m_s>("speed_m_s"),
-      field<&O::known_free_m>("known_free_m"),
-      field<&O::obstacle_density>("obstacle_density"),
-      field<&O::density_ahead>("density_ahead"),
-      field<&O::nearest_obstacle_m>("nearest_obstacle_m"),
-      field<&O::distance_to_goal_m>("distance_to_goal_m"),
-      field<&O::tracking_error_m>("tracking_error_m"),
-      field<&O::speed_limit_m_s>("speed_limit_m_s"),
-      field<&O::map_resolution_m>("map_resolution_m"),
-      field<&O::map_revision>("map_revision"),
-      seconds<&O::latency>("latency_s"),
-      seconds<&O::latency_bound>("latency_bound_s"),
-      field<&O::deadline_misses>("deadline_misses"),
-      field<&O::queue_drops>("queue_drops"),
-      field<&O::planner_failures>("planner_failures"),
-      field<&O::cores>("cores"),
-      scalar<&O::frequency>("frequency_hz"),
-      field<&O::busy_cores>("busy_cores"),
-      field<&O::busiest_core_load>("busiest_core_load"),
-      scalar<&O::computer_power>("computer_power_w"),
-      scalar<&O::rotor_power>("rotor_power_w"),
-      field<&O::battery_percent>("battery_percent"),
-      field<&O::max_deceleration_m_s2>("max_deceleration_m_s2"),
-      field<&O::narrowest_gap_m>("narrowest_gap_m"),
-      field<&O::gap_distance_m>("gap_distance_m"),
-      field<&O::mean_gap_m>("mean_gap_m"),
-      optional(field<&O::temperature_c>("temperature_c")),
-      optional(field<&O::trip_c>("trip_c")),
-      seconds<&O::map_age>("map_age_s"),
+      field<&O::speed_m_s>("speed_m_s", "m/s", "Speed of the vehicle"),
+      field<&O::known_free_m>(
+          "known_free_m", "m",
+          "Distance along the committed path that is known to be free; 0: there is no path"),
+      field<&O::obstacle_density>(
+          "obstacle_density", "1",
+          "Share of .8 m columns around the vehicle that hold an obstacle, 0 to 1"),
+      field<&O::density_ahead>("density_ahead", "1",
+                               "The largest such density around the committed path, 4 to 12 m on"),
+      field<&O::nearest_obstacle_m>(
+          "nearest_obstacle_m", "m",
+          "From the body's centre to the nearest obstacle in the map, at most 20"),
+      field<&O::distance_to_goal_m>("distance_to_goal_m", "m",
+                                    "From the vehicle to the goal, as the crow flies"),
+      field<&O::tracking_error_m>("tracking_error_m", "m",
+                                  "From the vehicle to where its reference is"),
+      field<&O::speed_limit_m_s>("speed_limit_m_s", "m/s",
+                                 "The mission's least speed limit, here and 20 m on"),
+      field<&O::map_resolution_m>("map_resolution_m", "m", "Edge of the map's cells in force"),
+      field<&O::map_revision>(
+          "map_revision", "1",
+          "Number of maps that were published; the latency is the newest one's"),
+      seconds<&O::latency>("latency_s", "From sensor to command, of the newest map"),
+      seconds<&O::latency_bound>("latency_bound_s",
+                                 "Upper bound on that latency, from which the speed limit follows"),
+      field<&O::deadline_misses>("deadline_misses", "1",
+                                 "Deadlines missed since the last decision"),
+      field<&O::queue_drops>("queue_drops", "1", "Messages dropped since the last decision"),
+      field<&O::planner_failures>("planner_failures", "1", "Plans that failed in a row"),
+      field<&O::cores>("cores", "1", "Cores that the computer grants"),
+      scalar<&O::frequency>("frequency_hz", "Hz", "Clock that the computer grants"),
+      field<&O::busy_cores>("busy_cores", "1", "Mean number of busy cores since the last decision"),
+      field<&O::busiest_core_load>(
+          "busiest_core_load", "1",
+          "Share of the time since the last decision in which the busiest core was busy, 0 to 1"),
+      scalar<&O::computer_power>("computer_power_w", "W", "Power that the computer draws"),
+      scalar<&O::rotor_power>("rotor_power_w", "W", "Power that the rotors draw"),
+      field<&O::battery_percent>("battery_percent", "%", "Charge of the battery"),
+      field<&O::max_deceleration_m_s2>("max_deceleration_m_s2", "m/s^2",
+                                       "Deceleration that the mission's safe speed counts on"),
+      field<&O::narrowest_gap_m>("narrowest_gap_m", "m",
+                                 "Least width ahead, on the way to the goal and along the path"),
+      field<&O::gap_distance_m>("gap_distance_m", "m", "How far ahead that gap is"),
+      field<&O::mean_gap_m>("mean_gap_m", "m", "Mean of the widest openings ahead"),
+      optional(field<&O::temperature_c>(
+          "temperature_c", "degC",
+          "Temperature of the computer where its clocks' limit is measured")),
+      optional(field<&O::trip_c>(
+          "trip_c", "degC",
+          "Lowest temperature at which the computer loses clocks; 0: nobody says")),
+      seconds<&O::map_age>("map_age_s",
+                           "Since the frame of the newest map was captured; 0: nobody says"),
   };
   return all;
 }

@@ -111,4 +111,17 @@ TEST_F(Preset, is_not_found_where_no_file_is) {
   }
 }
 
+TEST_F(Preset, parameters_are_read_alone) {
+  const auto given = flyball::read_parameters("fine_m = 0.2\nmapper = \"octomap\"  # a text\n");
+  ASSERT_TRUE(given.ok()) << given.error().message;
+  ASSERT_EQ(2U, given->size());
+  EXPECT_EQ(0.2, std::get<double>(given->at("fine_m")));
+  EXPECT_EQ("octomap", std::get<std::string>(given->at("mapper")));
+  EXPECT_TRUE(flyball::read_parameters("")->empty());
+  const auto wrong = flyball::read_parameters("fine_m = 0.2\ncoarse_m = true\n");
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_EQ("parameters:2: parameter \"coarse_m\" must be a number or a text",
+            wrong.error().message);
+}
+
 }  // namespace

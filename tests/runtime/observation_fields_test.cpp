@@ -69,5 +69,14 @@ TEST(ObservationFields, take_nonsense_of_a_damaged_record_without_harm) {
   }
 }
 
+TEST(ObservationFields, say_what_they_are_and_in_which_unit) {
+  for (const ObservationField& field : observation_fields()) {
+    ASSERT_NE(nullptr, field.unit) << field.name;
+    ASSERT_NE(nullptr, field.description) << field.name;
+    EXPECT_STRNE("", field.unit) << field.name;
+    EXPECT_STRNE("", field.description) << field.name;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

@@ -77,6 +77,8 @@ class PolicyGovernor final : public Governor {
   /// What the last decision is, and why: one sentence, empty for `Fallback::none`.
   [[nodiscard]] Fallback fallback() const { return fallback_; }
   [[nodiscard]] std::string why() const;
+  /// The same sentence without an allocation, cut off where `text` is full. @pre `size > 0`.
+  void write_why(char* text, std::size_t size) const noexcept;
   /// For the bound on latency that speed follows from; 1 unless it is widened.
   [[nodiscard]] double bound_factor() const;
   /// Whether the vehicle shall brake and stand.

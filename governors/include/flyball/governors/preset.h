@@ -29,5 +29,9 @@ struct Preset {
 
 /// @error `not_found`, `invalid_input` with the file's name and line.
 [[nodiscard]] Result<Preset> load_preset(const std::string& path);
+/// Parameters alone, from text as it stands below [parameters]: `fine_m = 0.15`, a line for each.
+/// @error `invalid_input` with the line.
+[[nodiscard]] Result<std::map<std::string, ParameterValue>> read_parameters(
+    const std::string& text);
 
 }  // namespace flyball

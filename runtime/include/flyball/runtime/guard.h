@@ -10,7 +10,8 @@
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/trajectory.h"
 
-#include <deque>
+#include <array>
+#include <cstddef>
 
 namespace flyball {
 
@@ -65,7 +66,7 @@ class Guard {
 };
 
 /// Upper bound on sensor-to-publish latency: the largest of the last 20, times 1.1; until there is
-/// a sample, the seed.
+/// a sample, the seed. Allocates nothing.
 class LatencyWindow {
  public:
   explicit LatencyWindow(Duration seed) : seed_{seed} {}
@@ -74,7 +75,8 @@ class LatencyWindow {
 
  private:
   Duration seed_;
-  std::deque<Duration> recent_;
+  std::array<Duration, 20> recent_{};
+  std::size_t added_{};  ///< Ever: the next one takes the place of the oldest.
 };
 
 }  // namespace flyball

@@ -17,6 +17,8 @@ struct ObservationField {
   double (*get)(const Observation& seen){};
   void (*set)(Observation& seen, double value){};
   bool is_optional{};  ///< Some computers never say it: then it is 0, and no record mentions it.
+  const char* unit{};  ///< `1` where it has none.
+  const char* description{};
 };
 
 /// Every member but `now`, in the order of `Observation`; `phase` as its number.
