@@ -144,7 +144,9 @@ class Loop {
   }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
+  // governor {
   ~Loop() { flyball_governor_close(governor_); }
+  // governor }
 
   /// One frame; then flies on until the next one is due.
   void run_frame(double x_m, Ground& ground, double wanted_m) {
@@ -179,8 +181,10 @@ class Loop {
   std::vector<Point> pillars_{pillars()};
   double cell_m_{0.15};
   long reached_{};
+  // governor {
   FlyballGovernor* governor_{flyball_governor_create()};
   FlyballGovernorDecision decision_{};
+  // governor }
 };
 
 void print(const char* name, const Ground& ground) {

@@ -32,3 +32,6 @@ target_compile_definitions(test_embedding PRIVATE
   FLYBALL_EXAMPLE_POLICIES="${PROJECT_SOURCE_DIR}/examples/policies"
   FLYBALL_TEST_PLUGINS="${PROJECT_BINARY_DIR}/test_plugins")
 add_dependencies(test_embedding culprit)
+add_test(NAME embedding.added_lines COMMAND ${CMAKE_COMMAND} -D root=${PROJECT_SOURCE_DIR}
+         -P ${PROJECT_SOURCE_DIR}/tests/governors/embedding/added_lines.cmake)
+set_tests_properties(embedding.added_lines PROPERTIES LABELS unit)

@@ -5,6 +5,7 @@ set(consumer_settings
   -D built=${PROJECT_BINARY_DIR}
   -D generator=${CMAKE_GENERATOR}
   -D compiler=${CMAKE_CXX_COMPILER}
+  -D c_compiler=${CMAKE_C_COMPILER}
   -D launcher=${CMAKE_CXX_COMPILER_LAUNCHER}
   -D type=${CMAKE_BUILD_TYPE}
   -D install_prefix=${CMAKE_INSTALL_PREFIX}
@@ -14,6 +15,9 @@ foreach(way find_package add_subdirectory)
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_consumer.cmake)
   set_tests_properties(package.${way} PROPERTIES LABELS package TIMEOUT 600)
 endforeach()
+add_test(NAME package.governor COMMAND ${CMAKE_COMMAND} ${consumer_settings}
+                                       -P ${CMAKE_CURRENT_LIST_DIR}/build_governor.cmake)
+set_tests_properties(package.governor PROPERTIES LABELS package TIMEOUT 600)
 if(FLYBALL_BUILD_SIM)
   add_test(NAME package.policy COMMAND ${CMAKE_COMMAND} ${consumer_settings}
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_policy.cmake)
