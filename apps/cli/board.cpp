@@ -22,10 +22,10 @@ struct BoardArguments {
 
 int report(const BoardArguments& given) {
   const auto system = linux_system(given.root);
-  if (system->entries("/").empty()) {
+  if (system->entries("/sys/devices/system/cpu").empty()) {
     return refuse({{ErrorCode::not_found, "no folder \"" + given.root +
-                                              "\" to look for a board "
-                                              "in; --root names one that has sys and proc"}});
+                                              "/sys/devices/system/cpu\" to look for a board "
+                                              "in; --root names a folder that has sys and proc"}});
   }
   const BoardInventory found = discover_board(*system);
   const auto board = choose_board(given.board, found.model);

@@ -106,7 +106,7 @@ std::string to_text(const DriftOptions& options,
     lines.push_back(
         {cases[i / options.policies.size()].name, options.policies[i % options.policies.size()],
          std::to_string(one.latency_bounds.late), std::to_string(one.latency_bounds.decisions),
-         percent(one.latency_bounds.late_share()),
+         one.latency_bounds.decisions > 0 ? percent(one.latency_bounds.late_share()) : "-",
          std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
          std::to_string(one.collisions),
          rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
@@ -130,7 +130,9 @@ std::string to_json(const DriftOptions& options,
                    {"policy", options.policies[i % options.policies.size()]},
                    {"latency_bounds", one.latency_bounds.decisions},
                    {"late", one.latency_bounds.late},
-                   {"late_share", one.latency_bounds.late_share()},
+                   {"late_share", one.latency_bounds.decisions > 0
+                                      ? nlohmann::ordered_json(one.latency_bounds.late_share())
+                                      : nlohmann::ordered_json()},
                    {"flights", one.flights},
                    {"succeeded", one.succeeded},
                    {"collisions", one.collisions},

@@ -38,8 +38,10 @@ std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
       {"  distance", with_unit(s.distance_m, 1, "m") + ", mean " +
                          with_unit(s.mean_speed_m_s, 2, "m/s") + ", max " +
                          with_unit(s.max_speed_m_s, 2, "m/s")},
-      {"  latency", with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
-                        with_unit(s.latency_p95_s * 1e3, 0, "ms")},
+      {"  latency", s.maps == 0
+                        ? "-, it made no map"
+                        : with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
+                              with_unit(s.latency_p95_s * 1e3, 0, "ms")},
       {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")}};
   if (const std::string trouble = trouble_text(s.policy_faults, s.decisions, s.policy_trouble);
       !trouble.empty()) {

@@ -5,6 +5,7 @@
 #include "flyball/runtime/text/listed.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -75,7 +76,10 @@ ComparisonRow row_of(const Flights& flights, const Flights& first) {
   row.battery_used_percent =
       median_over(flights, [](const Summary& s) { return s.battery_used_percent(); });
   row.mean_speed_m_s = median_over(flights, [](const Summary& s) { return s.mean_speed_m_s; });
-  row.latency_p50_s = median_over(flights, [](const Summary& s) { return s.latency_p50_s; });
+  Flights mapping;  // The others have no latency from sensor to command.
+  std::copy_if(flights.begin(), flights.end(), std::back_inserter(mapping),
+               [](const Summary* flight) { return flight->maps > 0; });
+  row.latency_p50_s = median_over(mapping, [](const Summary& s) { return s.latency_p50_s; });
   add_ratios(row, flights, first);
   return row;
 }
