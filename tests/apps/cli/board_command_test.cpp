@@ -37,10 +37,10 @@ TEST(BoardCommand, looks_at_the_machine_that_it_runs_on) {
 TEST(BoardCommand, refuses_folders_and_boards_that_are_not_there) {
   const auto nowhere = FlyballProgram{}.run("board --root nowhere");
   EXPECT_EQ(nowhere.exit_code, 2);
-  EXPECT_EQ(
-      nowhere.errors,
-      "flyball: no folder \"nowhere\" to look for a board in; --root names one that has sys and "
-      "proc\n");
+  EXPECT_EQ(nowhere.errors,
+            "flyball: no folder \"nowhere/sys/devices/system/cpu\" to look for a board in; --root "
+            "names a "
+            "folder that has sys and proc\n");
   const auto unknown = FlyballProgram{}.run("board --board abacus");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.errors.find("abacus"), std::string::npos);
