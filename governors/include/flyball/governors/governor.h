@@ -21,10 +21,11 @@
  *     flyball_governor_close(governor);
  *
  * Time is the caller's: every call that needs it takes it in seconds, from any beginning, and it
- * never goes back. The library reads no clock, starts no thread, prints nothing and, once
- * `flyball_governor_open` has returned, allocates nothing. (A policy that is a library of its own
- * runs in a process of its own, which `open` starts.) One governor may be used from one thread at a
- * time, several governors side by side.
+ * never goes back. The library reads no clock (so nothing watches how long a policy takes to
+ * decide), starts no thread, prints nothing and, once `flyball_governor_open` has returned,
+ * allocates nothing. (A policy that is a library of its own runs in a process of its own, which
+ * `open` starts.) One governor may be used from one thread at a time, several governors side by
+ * side.
  *
  * Every function returns a code: 0, or why it did nothing; then `flyball_governor_last_error` has
  * the sentence. Nothing that a caller passes ends the program, save a pointer that points nowhere.
