@@ -20,6 +20,20 @@ double most_taken(const std::vector<ComputerEvent>& events) {
   return most;
 }
 
+/// @param place  Of the slowdown in the list of events.
+void check_prices(const ComputerEvent& slowdown,
+                  std::size_t place,
+                  const PlatformModel& platform,
+                  std::vector<Error>& errors) {
+  for (const std::string& name : kernels_of(slowdown)) {
+    if (platform.kernels.find(name) == platform.kernels.end()) {
+      errors.push_back(impossible(place, ".kernels: " + platform.name +
+                                             " has no price for a kernel \"" + name +
+                                             "\" that could grow; try: flyball list kernels"));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> kernels_of(const ComputerEvent& event) {
@@ -77,13 +91,7 @@ std::vector<Error> impossible_events(const std::vector<ComputerEvent>& events,
   std::vector<Error> errors;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (events[i].kind == "slowdown") {
-      for (const std::string& name : kernels_of(events[i])) {
-        if (platform.kernels.find(name) == platform.kernels.end()) {
-          errors.push_back(impossible(i, ".kernels: " + platform.name +
-                                             " has no price for a kernel \"" + name +
-                                             "\" that could grow; try: flyball list kernels"));
-        }
-      }
+      check_prices(events[i], i, platform, errors);
     } else if (events[i].kind == "cooling" && !platform.thermal) {
       errors.push_back(impossible(i, ": " + platform.name +
                                          " has no [thermal] table, so that nothing is known of " +

@@ -47,6 +47,7 @@ FamilyChoice switched_family(const char* name, const char* description) {
   choice.kinds = kinds;
   choice.join = [](std::vector<KernelKind<Kernel>> any) -> std::unique_ptr<Kernel> {
     std::vector<KernelKind<Family>> all;
+    all.reserve(any.size());
     for (KernelKind<Kernel>& one : any) {
       all.push_back({std::move(one.name), of_family<Family>(std::move(one.kernel))});
     }

@@ -145,10 +145,10 @@ Status add_kernels(const Scenario& scenario, const Platform& platform, std::vect
     if (!declared) {
       return declared.error();
     }
-    if (const Status priced = check_switch_prices(family, scenario, platform); !priced) {
+    if (Status priced = check_switch_prices(family, scenario, platform); !priced) {
       return priced;
     }
-    const Status added = add(std::move(*declared), family.owner(scenario.kernels), scenario, all);
+    Status added = add(std::move(*declared), family.owner(scenario.kernels), scenario, all);
     if (!added) {
       return added;
     }

@@ -65,7 +65,7 @@ class CellSet {
   [[nodiscard]] std::size_t index(const GridCell& cell) const {
     const auto along = [&](std::size_t i) { return static_cast<std::size_t>(cell[i] - first_[i]); };
     const auto extent = [&](std::size_t i) {
-      return static_cast<std::size_t>(last_[i] - first_[i] + 1);
+      return static_cast<std::size_t>(last_[i] - first_[i]) + 1;
     };
     return (along(2) * extent(1) + along(1)) * extent(0) + along(0);
   }

@@ -73,8 +73,9 @@ struct Flight {
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                         parts.vehicle, parts.kernels.localizer);
-    referee = std::make_unique<Referee>(*link, scenario, setup.things, graph, *executor, queue,
-                                        *loop, *parts.kernels.mapper);
+    referee =
+        std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
+                                                        queue, *loop, *parts.kernels.mapper});
     drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
     board.connect(*executor, *loop, drift.get(), real_computer);
     recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);

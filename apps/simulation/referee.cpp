@@ -20,22 +20,15 @@ constexpr double clearance_limit_m = 5.0;
 
 }  // namespace
 
-Referee::Referee(MissionLink& link,
-                 const Scenario& scenario,
-                 const SimulatedThings& things,
-                 const Graph& graph,
-                 Executor& executor,
-                 EventQueue& queue,
-                 ClosedLoop& loop,
-                 const Mapper& mapper)
+Referee::Referee(MissionLink& link, const RefereedFlight& flight)
     : link_{link},
-      scenario_{scenario},
-      things_{things},
-      queue_{queue},
-      loop_{loop},
-      clearance_{things.world},
+      scenario_{flight.scenario},
+      things_{flight.things},
+      queue_{flight.queue},
+      loop_{flight.loop},
+      clearance_{flight.things.world},
       min_clearance_m_{clearance_limit_m} {
-  appoint(graph, executor, mapper);
+  appoint(flight.graph, flight.executor, flight.mapper);
 }
 
 void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapper) {
@@ -48,7 +41,7 @@ void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapp
   const auto finding = graph.find<Finding>("finding");
   if (sightings && finding) {
     judges_.push_back(std::make_unique<SightingJudge>(link_, things_.world.people, executor, queue_,
-                                                      *sightings, *finding));
+                                                      SearchTopics{*sightings, *finding}));
   }
   if (graph.find<ExploreQuery>("explore.request")) {
     const double least_percent = sightings ? 0.0 : link_.brief().settings.explore.coverage_percent;

@@ -18,20 +18,24 @@ struct Verdict {
   MissionFailure failure{MissionFailure::none};
 };
 
+/// What a referee looks at. All of it outlives it.
+struct RefereedFlight {
+  const Scenario& scenario;
+  const SimulatedThings& things;
+  const Graph& graph;
+  Executor& executor;
+  EventQueue& queue;
+  ClosedLoop& loop;
+  const Mapper& mapper;
+};
+
 /// Ends missions by collision, empty battery or their time limit, and asks a judge for each thing
 /// that the graph publishes to be judged: `pose`, `sightings` with `finding`, `target`, `picture`,
 /// and `explore.request`, whose sender makes a map.
 class Referee {
  public:
-  /// All arguments outlive the referee.
-  Referee(MissionLink& link,
-          const Scenario& scenario,
-          const SimulatedThings& things,
-          const Graph& graph,
-          Executor& executor,
-          EventQueue& queue,
-          ClosedLoop& loop,
-          const Mapper& mapper);
+  /// @param link  Outlives the referee.
+  Referee(MissionLink& link, const RefereedFlight& flight);
 
   /// From now on it looks. After `ClosedLoop::start`.
   void start();

@@ -19,11 +19,10 @@ SightingJudge::SightingJudge(MissionLink& link,
                              const std::vector<Person>& people,
                              Executor& executor,
                              const EventQueue& queue,
-                             Topic<Sightings> sightings,
-                             Topic<Finding> finding)
+                             const SearchTopics& topics)
     : link_{link}, people_{people}, queue_{queue} {
-  executor.subscribe<Sightings>(sightings, [this](const Sightings& seen) { saw(seen); });
-  executor.subscribe<Finding>(finding, [this](const Finding& what) { found(what); });
+  executor.subscribe<Sightings>(topics.sightings, [this](const Sightings& seen) { saw(seen); });
+  executor.subscribe<Finding>(topics.finding, [this](const Finding& what) { found(what); });
 }
 
 void SightingJudge::saw(const Sightings& seen) {

@@ -15,6 +15,12 @@
 
 namespace flyball {
 
+/// What a search publishes to be judged.
+struct SearchTopics {
+  Topic<Sightings> sightings;
+  Topic<Finding> finding;
+};
+
 class SightingJudge final : public Judge {
  public:
   /// All arguments outlive the judge, which listens to both topics from now on.
@@ -22,8 +28,7 @@ class SightingJudge final : public Judge {
                 const std::vector<Person>& people,
                 Executor& executor,
                 const EventQueue& queue,
-                Topic<Sightings> sightings,
-                Topic<Finding> finding);
+                const SearchTopics& topics);
 
   /// `false_alarm` when the finding is farther than a metre from everybody.
   [[nodiscard]] MissionFailure objection() const override;

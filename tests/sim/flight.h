@@ -39,7 +39,7 @@ class Flight {
                   const std::string& name = "matrice_100",
                   const std::optional<GimbalSpec>& gimbal = std::nullopt)
       : airframe{shipped_airframe(name)},
-        vehicle{airframe, payload_kg, {0.0, 0.0, height_m}, 0.0, 0.0, gimbal},
+        vehicle{airframe, payload_kg, {{0.0, 0.0, height_m}, 0.0, 0.0}, gimbal},
         controller{airframe, 0.0},
         step_s{dt_s} {
     controller.hold(vehicle.state());

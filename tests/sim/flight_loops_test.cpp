@@ -89,7 +89,7 @@ TEST(FlightLoops, keeps_its_attitude_when_the_rotors_have_no_more_to_give) {
 TEST(FlightLoops, other_airframes_fly_too) {
   for (const char* name : {"solo", "f450", "mini_2", "spark", "tello"}) {
     const Airframe airframe = shipped_airframe(name);
-    Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 0.5 * airframe.body_height_m}, 1.0, 0.0};
+    Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 0.5 * airframe.body_height_m}, 1.0, 0.0}};
     FlightController controller{airframe, 0.0};
     controller.take_off(vehicle.state(), 2.0);
     MissionTime now{};

@@ -29,7 +29,7 @@ RotorSpeeds all(double rev_s) {
 }
 
 TEST(Vehicle, falls_freely) {
-  Vehicle vehicle{in_vacuum(), 0.5, {0.0, 0.0, 100.0}, 0.3, 0.0};
+  Vehicle vehicle{in_vacuum(), 0.5, {{0.0, 0.0, 100.0}, 0.3, 0.0}};
   const double t = 2.0;
   for (int i = 0; i < 2000; ++i) {
     vehicle.step(dt_s, all(0.0), calm);
@@ -44,7 +44,7 @@ TEST(Vehicle, falls_freely) {
 TEST(Vehicle, reaches_the_terminal_speed_of_quadratic_drag) {
   Airframe airframe = in_vacuum();
   airframe.drag_area_m2 = 0.2;
-  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 1000.0}, 0.0, 0.0};
+  Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 1000.0}, 0.0, 0.0}};
   const Vec3 wind_W{3.0, 0.0, 0.0};
   for (int i = 0; i < 10000; ++i) {
     vehicle.step(dt_s, all(0.0), wind_W);
@@ -58,7 +58,7 @@ TEST(Vehicle, reaches_the_terminal_speed_of_quadratic_drag) {
 TEST(Vehicle, hovers_when_thrust_equals_weight) {
   for (const double payload_kg : {0.0, 1.0}) {
     const Airframe airframe = in_vacuum();
-    Vehicle vehicle{airframe, payload_kg, {0.0, 0.0, 100.0}, 0.0, 0.0};
+    Vehicle vehicle{airframe, payload_kg, {{0.0, 0.0, 100.0}, 0.0, 0.0}};
     for (int i = 0; i < 2000; ++i) {
       vehicle.step(dt_s, all(hover_rev_s(airframe, vehicle.mass_kg())), calm);
     }
@@ -70,7 +70,7 @@ TEST(Vehicle, hovers_when_thrust_equals_weight) {
 TEST(Vehicle, rotors_follow_their_command_exactly_at_any_step) {
   const Airframe airframe = in_vacuum();
   for (const double step_s : {0.001, 0.004, 0.02}) {
-    Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+    Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 100.0}, 0.0, 0.0}};
     for (double t = 0.0; t < airframe.rotor_lag_s - 1e-9; t += step_s) {
       vehicle.step(step_s, all(60.0), calm);
     }
@@ -86,7 +86,7 @@ TEST(Vehicle, rotors_follow_their_command_exactly_at_any_step) {
 
 TEST(Vehicle, limits_the_rotors_to_their_fastest) {
   const Airframe airframe = in_vacuum();
-  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 100.0}, 0.0, 0.0}};
   for (int i = 0; i < 1000; ++i) {
     vehicle.step(dt_s, all(1e6), calm);
   }
@@ -98,7 +98,7 @@ TEST(Vehicle, limits_the_rotors_to_their_fastest) {
 Vec3 turn_of(const RotorSpeeds& speeds) {
   Airframe airframe = in_vacuum();
   airframe.rotor_lag_s = 1e-6;
-  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 100.0}, 0.0, 0.0}};
   vehicle.step(dt_s, speeds, calm);
   return vehicle.state().w_WB_B / dt_s;
 }
@@ -123,7 +123,7 @@ TEST(Vehicle, turns_about_each_axis_by_torque_over_inertia) {
 
 TEST(Vehicle, stands_on_its_legs_and_does_not_slide_in_wind) {
   const Airframe airframe = shipped_airframe("matrice_100");
-  Vehicle vehicle{airframe, 0.5, {0.0, 0.0, 0.5 * airframe.body_height_m}, 0.0, 0.0};
+  Vehicle vehicle{airframe, 0.5, {{0.0, 0.0, 0.5 * airframe.body_height_m}, 0.0, 0.0}};
   for (const double step_s : {0.001, 0.004}) {
     for (int i = 0; i < 1000; ++i) {
       vehicle.step(step_s, all(0.0), {5.0, 0.0, 0.0});
@@ -138,7 +138,7 @@ TEST(Vehicle, stands_on_its_legs_and_does_not_slide_in_wind) {
 TEST(Vehicle, loses_in_the_legs_what_it_fell) {
   const Airframe airframe = in_vacuum();
   const double stand_m = 0.5 * airframe.body_height_m;
-  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, stand_m + 0.5}, 0.0, 0.0};
+  Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, stand_m + 0.5}, 0.0, 0.0}};
   const double before_j = vehicle.potential_j();
   for (int i = 0; i < 3000; ++i) {
     vehicle.step(dt_s, all(0.0), calm);
@@ -183,7 +183,7 @@ TEST(Vehicle, balances_its_energy_over_a_flight) {
 TEST(Vehicle, turns_against_its_panning_camera) {
   const Airframe airframe = in_vacuum();
   const GimbalSpec gimbal;
-  Vehicle vehicle{airframe, 0.0, {0.0, 0.0, 500.0}, 0.0, 0.0, gimbal};
+  Vehicle vehicle{airframe, 0.0, {{0.0, 0.0, 500.0}, 0.0, 0.0}, gimbal};
   EXPECT_DOUBLE_EQ(vehicle.mass_kg(), airframe.mass_kg + gimbal.mass_kg);
   vehicle.aim({0.5, 0.0});
   for (int i = 0; i < 20; ++i) {
@@ -203,7 +203,7 @@ TEST(Vehicle, turns_against_its_panning_camera) {
 TEST(Vehicle, pans_no_faster_than_the_gimbals_rate_and_arrives) {
   const GimbalSpec gimbal;
   for (const double step_s : {0.001, 0.004}) {
-    Vehicle vehicle{in_vacuum(), 0.0, {0.0, 0.0, 500.0}, 0.0, 0.0, gimbal};
+    Vehicle vehicle{in_vacuum(), 0.0, {{0.0, 0.0, 500.0}, 0.0, 0.0}, gimbal};
     vehicle.aim({0.8, 0.5});
     double fastest_rad_s = 0.0;
     for (double t_s = 0.0; t_s < 2.0; t_s += step_s) {
@@ -252,7 +252,7 @@ TEST(Vehicle, holds_its_cameras_axis_while_it_banks_and_balances_its_energy) {
 
 TEST(Vehicle, goes_on_when_the_payload_leaves) {
   const Airframe airframe = in_vacuum();
-  Vehicle vehicle{airframe, 1.0, {0.0, 0.0, 100.0}, 0.4, 0.0};
+  Vehicle vehicle{airframe, 1.0, {{0.0, 0.0, 100.0}, 0.4, 0.0}};
   const double hover = hover_rev_s(airframe, vehicle.mass_kg());
   for (int i = 0; i < 1000; ++i) {
     vehicle.step(dt_s, {hover, hover, hover + 0.01, hover}, calm);
@@ -285,7 +285,7 @@ TEST(Vehicle, repeats_itself_bit_for_bit) {
 }
 
 TEST(VehicleDeathTest, refuses_a_step_that_is_not_positive_or_finite) {
-  Vehicle vehicle{in_vacuum(), 0.0, {0.0, 0.0, 100.0}, 0.0, 0.0};
+  Vehicle vehicle{in_vacuum(), 0.0, {{0.0, 0.0, 100.0}, 0.0, 0.0}};
   EXPECT_DEATH(vehicle.step(0.0, all(0.0), calm), "dt_s=0");
   EXPECT_DEATH(vehicle.step(dt_s, {0.0, NAN, 0.0, 0.0}, calm), "not finite");
 }

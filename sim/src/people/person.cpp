@@ -48,11 +48,11 @@ bool is_free(const Vec3& from,
          });
 }
 
-/// A free leg, after turns that grow when the small ones lead nowhere.
+/// A leg to where `is_free_to(place)`, after turns that grow when the small ones lead nowhere.
+template <class IsFreeTo>
 std::optional<Vec3> next_leg(const Vec3& from,
                              double& heading_rad,
-                             const Aabb& area_W,
-                             const std::vector<WalkObstacle>& obstacles,
+                             IsFreeTo&& is_free_to,
                              const WalkStyle& style,
                              RandomStream& random) {
   for (int i = 0; i < most_tries; ++i) {
@@ -62,7 +62,7 @@ std::optional<Vec3> next_leg(const Vec3& from,
     const double length_m = style.leg_m * random.uniform(0.5, 1.5);
     const double along_rad = heading_rad + turn_rad;
     const Vec3 to = from + length_m * Vec3{std::cos(along_rad), std::sin(along_rad), 0.0};
-    if (is_free(from, to, area_W, obstacles)) {
+    if (is_free_to(to)) {
       heading_rad = along_rad;
       return to;
     }
@@ -102,7 +102,10 @@ std::vector<WalkPoint> random_walk(const Vec3& start_W,
     const bool sprints = random.uniform() < style.sprint_share;
     const double speed_m_s =
         (sprints ? style.sprint_m_s : style.speed_m_s) * random.uniform(0.85, 1.15);
-    const auto to = next_leg(from.foot_W, heading_rad, area_W, obstacles, style, random);
+    const auto is_free_to = [&](const Vec3& place) {
+      return is_free(from.foot_W, place, area_W, obstacles);
+    };
+    const auto to = next_leg(from.foot_W, heading_rad, is_free_to, style, random);
     const double length_m = to ? (*to - from.foot_W).norm() : 0.0;
     walk.push_back({from.time_s + (to ? length_m / speed_m_s : 1.0), to.value_or(from.foot_W)});
   }

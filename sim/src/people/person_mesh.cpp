@@ -217,6 +217,7 @@ Result<std::string> packed_mesh(const std::string& file, const Look& look) {
 
 std::vector<std::string> person_looks() {
   std::vector<std::string> names;
+  names.reserve(looks.size());
   for (const Look& look : looks) {
     names.emplace_back(look.name);
   }

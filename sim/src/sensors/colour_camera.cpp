@@ -20,6 +20,7 @@ constexpr float camera_light = 0.15F;  // Shape where neither reaches: indoors.
 constexpr float shadow_gap_m = 1e-3F;  // The ray to the sun starts off the surface.
 
 std::uint8_t byte_of(float share) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): positive, and lround is a call for each colour
   return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
@@ -45,7 +46,7 @@ struct ColourCamera::Scene {
                    .cast<float>();
   }
 
-  void render_tile(const Eigen::Isometry3f& X_WC, Corner corner, ColourImage& image);
+  void render_tile(const Eigen::Isometry3f& X_WC, Corner corner, ColourImage& image) const;
   [[nodiscard]] Packet towards_sun(const std::array<SurfaceHit, lanes>& hits) const;
 
   ColourCameraSpec spec;
@@ -66,7 +67,7 @@ Packet ColourCamera::Scene::towards_sun(const std::array<SurfaceHit, lanes>& hit
 
 void ColourCamera::Scene::render_tile(const Eigen::Isometry3f& X_WC,
                                       Corner corner,
-                                      ColourImage& image) {
+                                      ColourImage& image) const {
   const auto focal = static_cast<float>(camera.focal_px);
   Packet packet;
   for (int lane = 0; lane < lanes; ++lane) {

@@ -166,20 +166,18 @@ void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
 
 Vehicle::Vehicle(const Airframe& airframe,
                  double payload_kg,
-                 const Vec3& p_WB,
-                 double yaw_rad,
-                 double ground_z_m,
+                 const VehicleStart& start,
                  const std::optional<GimbalSpec>& gimbal) {
   FLYBALL_ASSERT(airframe.validate().empty(), "%s", airframe.validate().front().message.c_str());
   FLYBALL_ASSERT(payload_kg >= 0.0, "payload_kg=%g", payload_kg);
-  body_ = std::make_unique<Body>(Build{airframe, payload_kg, gimbal}, ground_z_m);
+  body_ = std::make_unique<Body>(Build{airframe, payload_kg, gimbal}, start.ground_z_m);
   SimTK::Vector& q = body_->physics->state.updQ();
-  q[0] = std::cos(0.5 * yaw_rad);
+  q[0] = std::cos(0.5 * start.yaw_rad);
   q[1] = 0.0;
   q[2] = 0.0;
-  q[3] = std::sin(0.5 * yaw_rad);
+  q[3] = std::sin(0.5 * start.yaw_rad);
   for (int i = 0; i < 3; ++i) {
-    q[4 + i] = p_WB[i];
+    q[4 + i] = start.p_WB[i];
   }
   body_->read_state(SimTK::Vec3{0.0});
 }

@@ -126,10 +126,11 @@ Error broken_off(int status, const ImportLimits& limits) {
     return {ErrorCode::invalid_input, "takes more than " + std::to_string(limits.processor_s) +
                                           " s to be read; it is damaged or too large"};
   }
-  const std::string how =
-      signal != 0 ? "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) +
-                        ")"  // NOLINT(concurrency-mt-unsafe): one thread forks
-                  : "ended with exit code " + std::to_string(WEXITSTATUS(status));
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread forks
+  const char* name = strsignal(signal);
+  const std::string how = signal != 0
+                              ? "was ended by signal " + std::to_string(signal) + " (" + name + ")"
+                              : "ended with exit code " + std::to_string(WEXITSTATUS(status));
   return {ErrorCode::invalid_input, "is damaged: the library that reads it " + how};
 }
 

@@ -142,13 +142,16 @@ void mark(ScanGrid& grid, const Triangle& triangle) {
   const Aabb around = extent_of({triangle});
   const Index low = cell_at(around.min, cell_m).cwiseMax(grid.low());
   const Index high = cell_at(around.max, cell_m).cwiseMin(grid.high());
+  const auto mark_cell = [&](const Index& cell) {
+    const Vec3 corner = cell_m * Vec3{cell.cast<double>()};
+    if (touches(triangle, {corner, corner + Vec3::Constant(cell_m)})) {
+      grid.set(cell, CellState::occupied);
+    }
+  };
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
-        const Vec3 corner = cell_m * Vec3{Index{x, y, z}.cast<double>()};
-        if (touches(triangle, {corner, corner + Vec3::Constant(cell_m)})) {
-          grid.set({x, y, z}, CellState::occupied);
-        }
+        mark_cell({x, y, z});
       }
     }
   }
@@ -196,8 +199,8 @@ Result<ScanGrid> read_mesh(const std::string& path, const MeshReading& reading) 
   const Vec3 cells = (extent.max - extent.min) / reading.cell_m + Vec3::Ones();
   const double farthest_m =
       std::max(extent.min.cwiseAbs().maxCoeff(), extent.max.cwiseAbs().maxCoeff());
-  if (!(cells.prod() <= most_grid_cells) ||
-      !(farthest_m / reading.cell_m < std::numeric_limits<int>::max() / 2)) {
+  constexpr int most_along = std::numeric_limits<int>::max() / 2;
+  if (!(cells.prod() <= most_grid_cells) || !(farthest_m / reading.cell_m < most_along)) {
     return unreadable(path,
                       "has an extent of more than 2e8 cells; set a larger cell_m, or a "
                       "metres_per_unit that fits the file");

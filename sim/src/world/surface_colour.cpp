@@ -25,7 +25,7 @@ float random_cell(std::uint32_t cell) {
 
 const std::vector<float>& noise_table() {
   static const std::vector<float> table = [] {
-    std::vector<float> cells(noise_size * noise_size);
+    std::vector<float> cells(std::size_t{noise_size} * noise_size);
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
       cells[i] = random_cell(i);
     }

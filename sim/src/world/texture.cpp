@@ -13,6 +13,7 @@ namespace flyball {
 namespace {
 
 std::uint8_t byte_of(float share) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): positive, and lround is a call for each colour
   return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 

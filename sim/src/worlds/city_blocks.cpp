@@ -119,7 +119,8 @@ class CityBlocks final : public flyball::WorldGenerator {
     constexpr double play_m = 1.5;
     const int trees = static_cast<int>(side_m / pitch_m);
     for (int i = 0; i < trees * trees; ++i) {
-      Vec3 foot_W = corner + pitch_m * Vec3{i % trees + 0.5, i / trees + 0.5, 0.0};
+      const int row = i / trees;
+      Vec3 foot_W = corner + pitch_m * Vec3{i % trees + 0.5, row + 0.5, 0.0};
       foot_W.x() += random.uniform(-play_m, play_m);
       foot_W.y() += random.uniform(-play_m, play_m);
       world.pillars.push_back({foot_W, trunk_radius_m, tree_height_m, Material::bark});

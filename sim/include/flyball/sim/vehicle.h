@@ -27,14 +27,18 @@ struct VehicleState {
 /// clockwise seen from above, so they push the body anticlockwise.
 using RotorSpeeds = std::array<double, 4>;  ///< Commanded, rev/s.
 
+/// Where a vehicle begins.
+struct VehicleStart {
+  Vec3 p_WB{Vec3::Zero()};
+  double yaw_rad{};
+  double ground_z_m{};  ///< Height of the plane that it stands on.
+};
+
 class Vehicle {
  public:
-  /// @param ground_z_m  Height of the plane that it stands on.
   Vehicle(const Airframe& airframe,
           double payload_kg,
-          const Vec3& p_WB,
-          double yaw_rad,
-          double ground_z_m,
+          const VehicleStart& start,
           const std::optional<GimbalSpec>& gimbal = std::nullopt);
   ~Vehicle();
   Vehicle(const Vehicle&) = delete;
