@@ -48,27 +48,40 @@ struct Outcome {
 
 using Entries = std::vector<Entry>;
 
+/// Adds the flights of one event, which is `cases[drift]`. Returns why one cannot be flown.
+std::vector<Error> add_event(const DriftOptions& options,
+                             const std::vector<DriftCase>& cases,
+                             std::size_t drift,
+                             const std::vector<std::uint64_t>& seeds,
+                             Entries& entries) {
+  FlightOptions flight = options.flight;
+  flight.settings.insert(flight.settings.end(), cases[drift].settings.begin(),
+                         cases[drift].settings.end());
+  for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
+    for (const std::uint64_t seed : seeds) {
+      auto planned = plan_flight(flight, options.policies[policy], seed, "");
+      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+        return std::move(*errors);
+      }
+      auto& one = std::get<PlannedFlight>(planned);
+      const std::string folder =
+          comparison_folder(options.flight, one.scenario) + "/" + cases[drift].name;
+      one.folder = run_folder(folder, options.policies[policy], seed);
+      *(std::find(one.arguments.begin(), one.arguments.end(), "--out") + 1) = one.folder;
+      entries.push_back({std::move(one), drift, policy});
+    }
+  }
+  return {};
+}
+
 std::variant<Entries, std::vector<Error>> plan(const DriftOptions& options,
                                                const std::vector<DriftCase>& cases,
                                                const std::vector<std::uint64_t>& seeds) {
   Entries entries;
   for (std::size_t drift = 0; drift < cases.size(); ++drift) {
-    FlightOptions flight = options.flight;
-    flight.settings.insert(flight.settings.end(), cases[drift].settings.begin(),
-                           cases[drift].settings.end());
-    for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
-      for (const std::uint64_t seed : seeds) {
-        auto planned = plan_flight(flight, options.policies[policy], seed, "");
-        if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-          return std::move(*errors);
-        }
-        auto& one = std::get<PlannedFlight>(planned);
-        const std::string folder =
-            comparison_folder(options.flight, one.scenario) + "/" + cases[drift].name;
-        one.folder = run_folder(folder, options.policies[policy], seed);
-        *(std::find(one.arguments.begin(), one.arguments.end(), "--out") + 1) = one.folder;
-        entries.push_back({std::move(one), drift, policy});
-      }
+    auto errors = add_event(options, cases, drift, seeds, entries);
+    if (!errors.empty()) {
+      return errors;
     }
   }
   return entries;

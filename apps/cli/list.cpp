@@ -35,8 +35,8 @@ std::string number(double value) {
   return text.data();
 }
 
-/// The first sentence of a data file's first comment that is not its licence says what it is.
-std::string first_sentence(const std::string& path) {
+/// A data file's first comment that is not its licence.
+std::string first_comment(const std::string& path) {
   std::ifstream file{path};
   std::string comment;
   for (std::string line; std::getline(file, line) && line.rfind('#', 0) == 0;) {
@@ -47,6 +47,12 @@ std::string first_sentence(const std::string& path) {
       comment += (comment.empty() ? "" : " ") + line.substr(2);
     }
   }
+  return comment;
+}
+
+/// The first sentence of that comment says what the file is.
+std::string first_sentence(const std::string& path) {
+  const std::string comment = first_comment(path);
   // "DAC 2021. The" ends a sentence, "eq. 1" and ".3 m" do not.
   for (std::size_t at = comment.find(". "); at != std::string::npos;
        at = comment.find(". ", at + 1)) {

@@ -74,6 +74,36 @@ Result<DetectedFrame> look(const DetectionRun& run, Detector& detector, Picture 
   return frame;
 }
 
+Status look_at_all(const DetectionRun& run,
+                   Detector& detector,
+                   PictureReader& pictures,
+                   const std::function<bool(const DetectedFrame&)>& report) {
+  std::error_code failed;
+  const bool is_folder = fs::is_directory(run.input, failed);
+  while (true) {
+    auto picture = pictures.next();
+    if (!picture) {
+      return picture.error();
+    }
+    if (!picture->has_value()) {
+      return Done{};
+    }
+    if ((*picture)->frame % run.every != 0) {
+      continue;
+    }
+    const auto frame = look(run, detector, std::move(**picture));
+    if (!frame) {
+      return frame.error();
+    }
+    if (!frame->trouble.empty() && !is_folder) {
+      return Error{ErrorCode::invalid_input, frame->trouble};
+    }
+    if (!report(*frame)) {
+      return Done{};
+    }
+  }
+}
+
 }  // namespace
 
 Status run_detection(const DetectionRun& run,
@@ -91,30 +121,7 @@ Status run_detection(const DetectionRun& run,
       return prepared.error();
     }
   }
-  std::error_code failed;
-  const bool is_folder = fs::is_directory(run.input, failed);
-  while (true) {
-    auto picture = (*pictures)->next();
-    if (!picture) {
-      return picture.error();
-    }
-    if (!picture->has_value()) {
-      return Done{};
-    }
-    if ((*picture)->frame % run.every != 0) {
-      continue;
-    }
-    const auto frame = look(run, **detector, std::move(**picture));
-    if (!frame) {
-      return frame.error();
-    }
-    if (!frame->trouble.empty() && !is_folder) {
-      return Error{ErrorCode::invalid_input, frame->trouble};
-    }
-    if (!report(*frame)) {
-      return Done{};
-    }
-  }
+  return look_at_all(run, **detector, **pictures, report);
 }
 
 void DetectionTotals::add(const DetectedFrame& frame) {

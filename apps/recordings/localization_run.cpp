@@ -27,6 +27,18 @@ Status check_inputs(const Recording& recording, const LocalizerInputs& inputs) {
   return Done{};
 }
 
+void add(const VisualFix& fix, double uncertain_above_m, LocalizationRun& run) {
+  ++run.frames;
+  run.lost += fix.tracked ? 0 : 1;
+  run.keyframes = fix.keyframes;
+  run.loops_closed = fix.loops_closed;
+  if (fix.tracked) {
+    run.path.push_back({fix.captured, fix.X_WB});
+    run.sigma_m_last = fix.sigma_m();
+    run.uncertain += fix.sigma_m() <= uncertain_above_m ? 0 : 1;
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name,
@@ -71,17 +83,9 @@ Result<LocalizationRun> localize(const Recording& recording,
     if (!fix) {
       return fix.error();
     }
-    ++run.frames;
-    run.lost += fix->tracked ? 0 : 1;
-    run.keyframes = fix->keyframes;
-    run.loops_closed = fix->loops_closed;
+    add(*fix, uncertain_above_m, run);
     busy_ms += frame_ms;
     run.frame_ms_max = std::max(run.frame_ms_max, frame_ms);
-    if (fix->tracked) {
-      run.path.push_back({fix->captured, fix->X_WB});
-      run.sigma_m_last = fix->sigma_m();
-      run.uncertain += fix->sigma_m() <= uncertain_above_m ? 0 : 1;
-    }
   }
   run.frame_ms_mean = run.frames > 0 ? busy_ms / run.frames : 0.0;
   run.error = absolute_trajectory_error(run.path, recording.truth);

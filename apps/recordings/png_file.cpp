@@ -83,6 +83,7 @@ Result<PngPixels> read_png(const std::string& file) {
   const std::size_t stride = png_get_rowbytes(decoder.png, decoder.info);
   pixels.bytes.resize(stride * static_cast<std::size_t>(pixels.height_px));
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(pixels.height_px));
   for (int row = 0; row < pixels.height_px; ++row) {
     rows.push_back(&pixels.bytes[stride * static_cast<std::size_t>(row)]);
   }

@@ -101,18 +101,17 @@ Status read_camera(const std::string& file, Recording& recording) {
   if (!intrinsics) {
     return intrinsics.error();
   }
-  std::string nested = text;  // T_BS's list stands one level deeper: data: [...].
-  const std::size_t pose_at = nested.find("\nT_BS:");
-  const std::size_t data_at =
-      pose_at == std::string::npos ? pose_at : nested.find("data:", pose_at);
+  // T_BS's list stands one level deeper: data: [...].
+  const std::size_t pose_at = text.find("\nT_BS:");
+  const std::size_t data_at = pose_at == std::string::npos ? pose_at : text.find("data:", pose_at);
   const auto X =
-      list_of(file, data_at == std::string::npos ? "" : "\n" + nested.substr(data_at), "data", 16);
+      list_of(file, data_at == std::string::npos ? "" : "\n" + text.substr(data_at), "data", 16);
   if (!X) {
     return X.error();
   }
   recording.camera = {0, 0, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3],
                       {}};
-  if (const Status lens = read_lens(file, text, recording.camera); !lens) {
+  if (Status lens = read_lens(file, text, recording.camera); !lens) {
     return lens;
   }
   Eigen::Matrix3d R;
@@ -134,7 +133,7 @@ Status read_images(const std::string& folder, Recording& recording) {
       return wrong(file, line, "expected a time in nanoseconds and a file name");
     }
     const MissionTime last = recording.frames.empty() ? *stamp : recording.frames.back().stamp;
-    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+    if (Status ordered = check_order(file, line, last, *stamp); !ordered) {
       return ordered;
     }
     recording.frames.push_back({*stamp, in(folder, "cam0/data/" + line.words[1]), ""});
@@ -158,7 +157,7 @@ Status read_imu(const std::string& folder, Recording& recording) {
       return stamp ? values.error() : wrong(file, line, "expected a time in nanoseconds");
     }
     const MissionTime last = recording.imu.empty() ? *stamp : recording.imu.back().stamp;
-    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+    if (Status ordered = check_order(file, line, last, *stamp); !ordered) {
       return ordered;
     }
     const auto& v = *values;

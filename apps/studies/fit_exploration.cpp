@@ -85,7 +85,7 @@ class Exploration {
     for (double s_m = look_every_m; s_m < path.length_m(); s_m += look_every_m) {
       const Path::Sample on_path = path.at(s_m);
       const Viewpoint ahead{on_path.p_W, yaw_of(on_path.tangent_W)};
-      if (const Status seen = look(ahead); !seen) {
+      if (Status seen = look(ahead); !seen) {
         return seen;
       }
       if (scene_.localizes_every > 0 && looks_++ % scene_.localizes_every == 0) {

@@ -150,8 +150,10 @@ bool PathCells::fits_at(const Vec3& centre_W) const {
 }
 
 Aabb PathCells::extent_W(int cell) const {
-  const Vec3 low{bounds_W_.min.x() + cell % columns_ * cell_m,
-                 bounds_W_.min.y() + cell / columns_ * cell_m, bounds_W_.min.z()};
+  const int column = cell % columns_;
+  const int row = cell / columns_;
+  const Vec3 low{bounds_W_.min.x() + column * cell_m, bounds_W_.min.y() + row * cell_m,
+                 bounds_W_.min.z()};
   return {low, {low.x() + cell_m, low.y() + cell_m, bounds_W_.max.z()}};
 }
 

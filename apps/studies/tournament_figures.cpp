@@ -131,6 +131,7 @@ std::vector<BoundFigures> bound_figures(const std::vector<Summary>& flights,
     }
   }
   std::vector<BoundFigures> all;
+  all.reserve(levels.size());
   for (const auto& [resolution_m, figures] : levels) {
     all.push_back(figures);
   }

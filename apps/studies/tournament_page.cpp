@@ -175,12 +175,10 @@ const PairedDifference* pair_in(const WorldResult& world, const PairedDifference
   return nullptr;
 }
 
-/// The pairs that were asked for over all worlds: when it pays, and when not.
-std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
+/// One of each name, in the order in which they first stand.
+std::vector<PairedDifference> pairs_in(const std::vector<WorldResult>& worlds) {
   std::vector<PairedDifference> pairs;
-  std::string head;
   for (const WorldResult& world : worlds) {
-    head += "<th>" + html_text(world.comparison.scenario) + "</th>";
     for (const PairedDifference& pair : world.pairs) {
       const bool is_known = std::any_of(pairs.begin(), pairs.end(), [&](const auto& known) {
         return known.name() == pair.name();
@@ -190,8 +188,26 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
       }
     }
   }
+  return pairs;
+}
+
+std::string pair_cell(const PairedDifference* here) {
+  return here == nullptr || !here->energy_percent
+             ? "<td>-</td>"
+             : "<td>" + rounded(here->energy_percent->median, 1) + "<small>" +
+                   (here->computer_percent ? rounded(here->computer_percent->median, 1) : "-") +
+                   "</small></td>";
+}
+
+/// The pairs that were asked for over all worlds: when it pays, and when not.
+std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
+  const std::vector<PairedDifference> pairs = pairs_in(worlds);
   if (pairs.empty()) {
     return {};
+  }
+  std::string head;
+  for (const WorldResult& world : worlds) {
+    head += "<th>" + html_text(world.comparison.scenario) + "</th>";
   }
   std::string table =
       "<h2>Pairs over all worlds</h2>\n<div class=\"panel\"><div "
@@ -201,13 +217,7 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
   for (const PairedDifference& pair : pairs) {
     table += "<tr><td>" + html_text(pair.name()) + "</td>";
     for (const WorldResult& world : worlds) {
-      const PairedDifference* here = pair_in(world, pair);
-      table +=
-          here == nullptr || !here->energy_percent
-              ? "<td>-</td>"
-              : "<td>" + rounded(here->energy_percent->median, 1) + "<small>" +
-                    (here->computer_percent ? rounded(here->computer_percent->median, 1) : "-") +
-                    "</small></td>";
+      table += pair_cell(pair_in(world, pair));
     }
     table += "</tr>\n";
   }
