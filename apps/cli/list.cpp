@@ -52,7 +52,7 @@ std::string first_comment(const std::string& path) {
 
 /// The first sentence of that comment says what the file is.
 std::string first_sentence(const std::string& path) {
-  const std::string comment = first_comment(path);
+  std::string comment = first_comment(path);
   // "DAC 2021. The" ends a sentence, "eq. 1" and ".3 m" do not.
   for (std::size_t at = comment.find(". "); at != std::string::npos;
        at = comment.find(". ", at + 1)) {

@@ -49,14 +49,19 @@ std::unique_ptr<Executor> make_virtual(const Graph& graph,
   return std::make_unique<VirtualExecutor>(graph, computer, queue, start);
 }
 
+/// On what a flight is computed.
+struct FlightComputer {
+  MakeExecutor make_executor{make_virtual};
+  RealtimeBoard* board{};  ///< Null for one that is modelled.
+};
+
 /// Everything that one flight needs, in the order in which it must be made.
 struct Flight {
   Flight(const Scenario& scenario,
          MissionSetup& setup,
          MemoryRecorder& trace,
          std::unique_ptr<Workload> made,
-         const MakeExecutor& make_executor = make_virtual,
-         RealtimeBoard* real_computer = nullptr)
+         const FlightComputer& on = {})
       : workload{std::move(made)},
         graph{scenario.mission.workload},
         computer{setup.platform->model()},
@@ -69,7 +74,7 @@ struct Flight {
     add_finish(graph, parts.mission);
     add_record(graph, parts.mission, trace);
     add_governing(scenario, setup);
-    executor = make_executor(graph, computer, queue, start_point(scenario));
+    executor = on.make_executor(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                         parts.vehicle, parts.kernels.localizer);
@@ -77,7 +82,7 @@ struct Flight {
         std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
                                                         queue, *loop, *parts.kernels.mapper});
     drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
-    board.connect(*executor, *loop, drift.get(), real_computer);
+    board.connect(*executor, *loop, drift.get(), on.board);
     recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
   }
 
@@ -304,8 +309,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
                 *setup,
                 *record.trace,
                 std::move(*workload),
-                hooks.executor ? hooks.executor : make_virtual,
-                hooks.computer};
+                {hooks.executor ? hooks.executor : make_virtual, hooks.computer}};
   connect(flight, hooks);
   run(flight, hooks);
   if (const Status written =
