@@ -4,7 +4,6 @@
 #include "../board/fake_kernel.h"
 #include "../board/fake_trees.h"
 #include "realtime_rig.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
