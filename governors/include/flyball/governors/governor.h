@@ -138,7 +138,9 @@ typedef struct FlyballGovernorBoard {
 typedef struct FlyballGovernorSettings {
   uint32_t struct_size;
   uint32_t reserved;
-  const char* policy;     /* A name, "density", or a file: a preset ./mine.toml, a ./libmine.so. */
+  /** A name, "density", or a file: a preset ./mine.toml, or a library ./libmine.so, which is code:
+   * who names one trusts its author. */
+  const char* policy;
   const char* parameters; /* "fine_m = 0.2\ncoarse_m = 0.6" as in a preset; NULL: its defaults. */
   /** Called with one line for each decision, without a newline; NULL: nothing is recorded. It may
    * call nothing of this governor. */
