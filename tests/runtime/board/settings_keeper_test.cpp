@@ -65,6 +65,7 @@ TEST_F(SettingsKeeperTest, restores_after_any_signal) {
     const int status = fake::run_apart(options().run_folder, [&] {
       auto keeper = SettingsKeeper::open(kernel_, options());
       if ((*keeper)->write(policy0 + "scaling_governor", "userspace").ok()) {
+        (void)signal(number, SIG_DFL);  // `nohup` has it ignored.
         kill(getpid(), number);
       }
     });
