@@ -34,6 +34,7 @@ Scenario in_rooms() {
   Scenario scenario = among_trees();
   scenario.world.generator = "office";
   scenario.world.parameters = {};
+  scenario.mission.workload = "mapping";  // A delivery there would land where it starts.
   return scenario;
 }
 
