@@ -156,7 +156,7 @@ void connect(Flight& flight, const MissionHooks& hooks) {
                   computer->refresh(flight.queue.now().time_since_epoch());
                 });
     flight.loop->measure_computer(
-        [computer = hooks.computer] { return computer->read().computer_power; });
+        [computer = hooks.computer] { return computer->meters().computer_power; });
   }
   if (hooks.progress) {
     queue.every(MissionTime{progress_period}, progress_period, EventOrder::observer,

@@ -25,7 +25,7 @@ void SimulatedBoard::measure() {
   now.rotor_power = Watts{loop_->log().rotor_w};
   now.battery_percent = loop_->battery().percent();
   if (computer_ != nullptr) {
-    const BoardReading real = computer_->read();
+    const BoardReading real = computer_->meters();
     now.temperature_c = real.temperature_c;
     now.trip_c = real.trip_c;
   } else if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {

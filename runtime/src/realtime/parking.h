@@ -5,7 +5,6 @@
 /// Where threads sleep until another one has something for them, or until a time.
 
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <climits>
 #include <cstdint>

@@ -51,6 +51,11 @@ std::vector<std::string> RealtimeBoard::take_notes() {
   return fresh;
 }
 
+BoardReading RealtimeBoard::meters() const {
+  const std::lock_guard lock{mutex_};
+  return last_;
+}
+
 BoardReading RealtimeBoard::read() const {
   BoardReading reading;
   {

@@ -45,6 +45,8 @@ class RealtimeBoard final : public Board {
   /// What the board has not done as it was asked, or says beside, since the last call.
   [[nodiscard]] std::vector<std::string> take_notes();
 
+  /// What the board's own meters said last: clock, watts and heat. Asks neither board nor executor.
+  [[nodiscard]] BoardReading meters() const;
   [[nodiscard]] BoardReading read() const override;
   void request(const OperatingPoint& point) override;
 
