@@ -14,61 +14,6 @@
 
 namespace flyball {
 
-namespace {
-
-/// What a job may do while it computes.
-class RunningJob final : public JobContext {
- public:
-  RunningJob(VirtualComputer& computer, int node, Job& job)
-      : computer_{computer}, node_{node}, job_{job} {}
-
-  [[nodiscard]] MissionTime now() const override { return computer_.queue.now(); }
-  [[nodiscard]] MissionTime released() const override { return job_.record.released; }
-  void at_end(std::function<void(MissionTime)> action) override {
-    job_.at_end.push_back(std::move(action));
-  }
-  [[nodiscard]] bool has_taken_trigger() const { return has_taken_trigger_; }
-
- protected:
-  [[nodiscard]] Message read(int topic) const override {
-    (void)inbox(topic);
-    const VersionedMessage& newest = computer_.topics[VirtualComputer::index(topic)].newest;
-    job_.record.reads.push_back({topic, newest.version});
-    return newest.message;
-  }
-  [[nodiscard]] Message pop(int topic) override {
-    Inbox& box = inbox(topic);
-    has_taken_trigger_ = has_taken_trigger_ || &box == &node().inboxes.front();
-    VersionedMessage taken = box.take();
-    job_.record.reads.push_back({topic, taken.version});
-    return std::move(taken.message);
-  }
-  void push(int topic, Message message) override {
-    const NodeSpec& spec = computer_.spec(node_);
-    FLYBALL_ASSERT(std::count(spec.writes.begin(), spec.writes.end(), topic) == 1,
-                   "node %s does not declare that it writes topic %d", spec.name.c_str(), topic);
-    job_.outputs.emplace_back(topic, std::move(message));
-  }
-
- private:
-  [[nodiscard]] NodeState& node() const { return computer_.nodes[VirtualComputer::index(node_)]; }
-  [[nodiscard]] Inbox& inbox(int topic) const {
-    auto& boxes = node().inboxes;
-    const auto box = std::find_if(boxes.begin(), boxes.end(),
-                                  [topic](const Inbox& b) { return b.topic() == topic; });
-    FLYBALL_ASSERT(box != boxes.end(), "node %s does not declare that it reads topic %d",
-                   computer_.spec(node_).name.c_str(), topic);
-    return *box;
-  }
-
-  VirtualComputer& computer_;
-  int node_;
-  Job& job_;
-  bool has_taken_trigger_{};
-};
-
-}  // namespace
-
 void VirtualComputer::request_dispatch() {
   if (!is_dispatch_pending) {
     is_dispatch_pending = true;
@@ -123,14 +68,21 @@ void VirtualComputer::compute(int node) {
   job.has_started = true;
   job.record.started = queue.now();
   job.record.clock = point.frequency;
-  RunningJob context{*this, node, job};
+  NodeJob& context = here.context;
+  context.renew();
+  context.record.released = job.record.released;
+  context.record.started = job.record.started;
+  exchange.open(node, context);
   const auto begin = std::chrono::steady_clock::now();
   job.record.work = graph.nodes()[index(node)].body(context);
   const std::chrono::duration<double> host = std::chrono::steady_clock::now() - begin;
   job.record.host_s = host.count();
-  if (here.has_trigger_inbox && !context.has_taken_trigger()) {
-    (void)here.inboxes.front().take();  // read by `latest`, or of no interest: one job, one message
-  }
+  exchange.close(node, context);
+  context.note_questions();
+  job.record.reads = context.record.reads;
+  job.record.questions_before_stop = context.record.questions_before_stop;
+  job.outputs = std::move(context.outputs);
+  job.at_end = std::move(context.last_actions);
   job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
 }
 

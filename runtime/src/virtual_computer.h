@@ -7,8 +7,9 @@
 
 #include "flyball/runtime/virtual_executor.h"
 
-#include "inbox.h"
 #include "job.h"
+#include "message_exchange.h"
+#include "node_job.h"
 #include <deque>
 #include <optional>
 #include <vector>
@@ -16,16 +17,10 @@
 namespace flyball {
 
 struct NodeState {
-  std::optional<Job> job{};
-  std::vector<Inbox> inboxes{};  ///< The trigger's first, if a message is the trigger.
-  bool has_trigger_inbox{};
-};
+  explicit NodeState(const NodeSpec& spec) : context{spec, nullptr} {}
 
-struct TopicState {
-  VersionedMessage newest{};
-  std::vector<int> readers{};  ///< Nodes, ascending.
-  /// A deque: a listener may add another one while it runs.
-  std::deque<std::function<void(const Message&)>> listeners{};
+  std::optional<Job> job{};
+  NodeJob context;  ///< Of the job that computes, for a moment of mission time.
 };
 
 struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
@@ -34,11 +29,9 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
                   EventQueue& events,
                   OperatingPoint first);
   void start();
-  void open_inboxes(int node);
 
   // Messages and jobs.
   void publish(int topic, const Message& message);
-  void deliver(int node, int topic, const VersionedMessage& message);
   void trigger_periodically(int node);
   void release(int node, MissionTime at);
   void release_next(int node);
@@ -80,12 +73,14 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   OperatingPoint requested;
   OperatingPoint point;  ///< Granted.
   double taken_cores;    ///< Busy with somebody else's work.
-  std::vector<NodeState> nodes;
-  std::vector<TopicState> topics;
+  MessageExchange exchange;
+  std::deque<NodeState> nodes{};
+  /// Of each topic. Deques: a listener may add another one while it runs.
+  std::vector<std::deque<std::function<void(const Message&)>>> listeners;
   std::deque<std::function<void(const JobRecord&)>> job_listeners;
   std::deque<std::function<void(int, OnMiss)>> miss_listeners;
   std::uint64_t jobs_released{};
-  std::uint64_t drops{};
+  std::uint64_t dropped_periods{};
   double busy_core_s{};
   double busiest_core_s{};
   MissionTime advanced_to{};

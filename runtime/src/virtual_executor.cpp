@@ -19,28 +19,13 @@ VirtualComputer::VirtualComputer(const Graph& hosted,
       requested{first},
       point{model.granted(first)},
       taken_cores{model.taken_cores()},
-      nodes(hosted.nodes().size()),
-      topics(hosted.topics().size()),
+      exchange{hosted},
+      listeners(hosted.topics().size()),
       advanced_to{events.now()} {
   FLYBALL_ASSERT(point.cores >= 1 && point.frequency.value() > 0.0, "cores=%d, frequency=%g Hz",
                  point.cores, point.frequency.value());
-  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    open_inboxes(node);
-  }
-}
-
-void VirtualComputer::open_inboxes(int node) {
-  std::vector<int> reads = spec(node).reads;
-  if (const auto* message = std::get_if<OnMessage>(&spec(node).trigger)) {
-    nodes[index(node)].has_trigger_inbox = true;
-    reads.insert(reads.begin(), message->topic);
-  }
-  for (const int topic : reads) {
-    auto& readers = topics[index(topic)].readers;
-    if (readers.empty() || readers.back() != node) {
-      readers.push_back(node);
-      nodes[index(node)].inboxes.emplace_back(topic, graph.topics()[index(topic)].capacity);
-    }
+  for (int node = 0; node < static_cast<int>(graph.nodes().size()); ++node) {
+    exchange.equip(node, nodes.emplace_back(spec(node)).context);
   }
 }
 
@@ -69,35 +54,22 @@ void VirtualComputer::trigger_periodically(int node) {
   at(queue.now() + std::get<OnPeriod>(spec(node).trigger).period, EventOrder::trigger,
      [node](VirtualComputer& computer) { computer.trigger_periodically(node); });
   if (nodes[index(node)].job) {
-    ++drops;
+    ++dropped_periods;
   } else {
     release(node, queue.now());
   }
 }
 
 void VirtualComputer::publish(int topic, const Message& message) {
-  TopicState& here = topics[index(topic)];
-  here.newest = {message, here.newest.version + 1};
-  for (const int node : here.readers) {
-    deliver(node, topic, here.newest);
+  for (const int node : exchange.put(topic, message, queue.now())) {
+    if (!nodes[index(node)].job) {
+      release(node, queue.now());
+    }
   }
-  const std::size_t listeners = here.listeners.size();
-  for (std::size_t i = 0; i < listeners; ++i) {
-    here.listeners[i](message);
-  }
-}
-
-void VirtualComputer::deliver(int node, int topic, const VersionedMessage& message) {
-  NodeState& reader = nodes[index(node)];
-  const auto inbox = std::find_if(reader.inboxes.begin(), reader.inboxes.end(),
-                                  [topic](const Inbox& box) { return box.topic() == topic; });
-  const bool is_trigger = reader.has_trigger_inbox && inbox == reader.inboxes.begin();
-  // Looking at the newest value now and then drops nothing; an overtaken trigger does.
-  if (inbox->add(message, queue.now()) && (is_trigger || inbox->capacity() > 1)) {
-    ++drops;
-  }
-  if (is_trigger && !reader.job) {
-    release(node, queue.now());
+  auto& told = listeners[index(topic)];
+  const std::size_t count = told.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    told[i](message);
   }
 }
 
@@ -116,12 +88,8 @@ void VirtualComputer::release(int node, MissionTime at_time) {
 }
 
 void VirtualComputer::release_next(int node) {
-  const NodeState& here = nodes[index(node)];
-  if (!here.has_trigger_inbox) {
-    return;
-  }
-  if (const auto arrived = here.inboxes.front().oldest_arrival()) {
-    release(node, *arrived);
+  if (const auto since = exchange.owed_since(node)) {
+    release(node, *since);
   }
 }
 
@@ -186,9 +154,7 @@ void VirtualComputer::kill_job(int node) {
   job.record.killed = true;
   if (!job.has_started) {
     job.record.started = job.record.ended;
-    if (nodes[index(node)].has_trigger_inbox) {
-      (void)nodes[index(node)].inboxes.front().take();  // nobody will read it any more
-    }
+    exchange.drop_trigger(node);  // Nobody will read it any more.
   }
   release_next(node);
   tell(job.record);
@@ -245,7 +211,7 @@ double VirtualExecutor::busy_cores() const {
 }
 
 std::uint64_t VirtualExecutor::drops() const {
-  return computer_->drops;
+  return computer_->exchange.drops() + computer_->dropped_periods;
 }
 
 void VirtualExecutor::stop() {
@@ -257,7 +223,7 @@ void VirtualExecutor::inject(int topic, Message message) {
 }
 
 void VirtualExecutor::listen(int topic, std::function<void(const Message&)> listener) {
-  computer_->topics[VirtualComputer::index(topic)].listeners.push_back(std::move(listener));
+  computer_->listeners[VirtualComputer::index(topic)].push_back(std::move(listener));
 }
 
 }  // namespace flyball
