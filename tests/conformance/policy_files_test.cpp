@@ -65,6 +65,37 @@ TEST(PolicyFiles, of_one_rule_decide_the_same) {
   EXPECT_GT(changes, 10) << "nothing was compared";
 }
 
+#ifdef FLYBALL_HAS_LUA
+TEST(PolicyFiles, a_script_of_a_shipped_rule_decides_as_the_rule_does) {
+  const PolicyChoice script = chosen(FLYBALL_EXAMPLES "/gap_switch.lua");
+  const auto breaches = PolicyConformance{
+      {[&script] { return std::move(*script.make()); },
+       script.parameters}}.breaches();
+  EXPECT_TRUE(breaches.empty()) << breaches.front();
+
+  const auto scripted = script.started(conformance_knobs(), conformance_board());
+  ASSERT_TRUE(scripted.ok()) << scripted.error().message;
+  const auto shipped = chosen("gap_switch").started(conformance_knobs(), conformance_board());
+  ASSERT_TRUE(shipped.ok()) << shipped.error().message;
+  int changes = 0;
+  double last_m = 0.0;
+  for (Observation seen : plausible_observations(400)) {
+    // They tell of failed plans in three of four, after each of which the finest cells last.
+    seen.planner_failures = seen.map_revision % 20 == 0 ? seen.planner_failures : 0;
+    const Decision expected = (*shipped)->decide(seen);
+    const Decision decided = (*scripted)->decide(seen);
+    ASSERT_EQ(expected.size(), decided.size()) << kit::trouble(**scripted);
+    for (const auto& [knob, value] : expected) {
+      EXPECT_EQ(value, kit::wish_for(decided, knob)) << knob;
+    }
+    const double cells_m = *kit::wish_for(expected, "map.resolution_m");
+    changes += cells_m != last_m ? 1 : 0;
+    last_m = cells_m;
+  }
+  EXPECT_GT(changes, 10) << "nothing was compared";
+}
+#endif
+
 TEST(PolicyFiles, with_wrong_parameters_refuse_in_one_sentence) {
   for (const std::string& file : examples()) {
     PolicyChoice choice = chosen(file);
