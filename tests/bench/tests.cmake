@@ -47,3 +47,11 @@ if(TBB_FOUND)
   target_link_libraries(hop_bench PRIVATE TBB::tbb)
   target_compile_definitions(hop_bench PRIVATE FLYBALL_HAS_TBB)
 endif()
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
+if(TARGET flyball_cli AND Python3_FOUND)
+  # One pair of ten: a flight through rooms of a mesh whose doors are known must not take longer.
+  add_test(NAME known_map
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/known_map.py
+                   --flyball $<TARGET_FILE:flyball_cli> --only "mesh, (0")
+  set_tests_properties(known_map PROPERTIES LABELS closed_loop TIMEOUT 600)
+endif()

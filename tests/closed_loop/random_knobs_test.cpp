@@ -31,7 +31,7 @@ struct Place {
 /// Nothing moves in any of them.
 std::vector<Place> places() {
   return {{"forest", {{"goal_distance_m", 40.0}, {"width_m", 20.0}}},
-          {"office", {}},
+          {"office", {{"goal_room", 6.0}}},
           {"congestion", {{"goal_m", 60.0}}},
           {"mixed", {{"length_m", 450.0}}},
           {"outdoor_to_indoor", {{"outdoors_m", 30.0}}}};

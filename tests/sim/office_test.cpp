@@ -46,5 +46,24 @@ TEST(Office, grows_with_its_rooms) {
   EXPECT_GT(large->boxes.size(), small->boxes.size());
 }
 
+TEST(Office, delivers_to_the_room_that_is_named_and_keeps_its_middle_clear) {
+  for (int room = 1; room <= 6; ++room) {
+    const auto world = made_world(
+        "office", 3, {{"goal_room", static_cast<double>(room)}, {"furniture_per_room", 10.0}});
+    ASSERT_TRUE(world) << world.error().message;
+    EXPECT_EQ(world->goal_W.y() < -1.2, room % 2 == 1) << "odd rooms lie south";
+    EXPECT_NEAR(world->goal_W.x(), 5.1 * ((room - 1) / 2 + 0.5), 1e-9);
+    const Vec3 middle = world->goal_W + Vec3{0.0, 0.0, 1.25};
+    EXPECT_GT(Clearance{*world}.distance_m(middle, {world->goal_clear_m, 1.2}, 0.1, true), 0.0);
+  }
+}
+
+TEST(Office, refuses_a_goal_in_a_room_that_there_is_not) {
+  const auto world = made_world("office", 1, {{"rooms_per_side", 2.0}, {"goal_room", 5.0}});
+  ASSERT_FALSE(world);
+  EXPECT_NE(world.error().message.find("not among the 4 rooms"), std::string::npos)
+      << world.error().message;
+}
+
 }  // namespace
 }  // namespace flyball

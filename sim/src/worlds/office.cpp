@@ -2,6 +2,7 @@
 //
 // Inside one storey of an office building: a corridor with rooms to both sides, each behind a door.
 // The vehicle stands at the corridor's west end and knows nothing but the size of the building.
+// What is delivered goes to the middle of a room.
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
@@ -10,6 +11,7 @@
 #include "world/building.h"
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace {
 
@@ -55,7 +57,9 @@ class Office final : public flyball::WorldGenerator {
              0.0,
              0.0,
              "`fine`: open in .15 m voxels and shut in .80 m ones; `random`: as it comes.",
-             {"fine", "random"}}};
+             {"fine", "random"}},
+            {"goal_room", 0.0, 0.0, 40.0,
+             "Of a delivery: from the west, odd ones south, even ones north; 0: the start."}};
   }
 
   [[nodiscard]] flyball::Result<flyball::World> make(const flyball::Parameters& given,
@@ -71,9 +75,17 @@ class Office final : public flyball::WorldGenerator {
     plan.fine_doors = given.text("door_alignment") == "fine";
     plan.furniture_per_room = static_cast<int>(given.number("furniture_per_room"));
 
+    const int goal_room = static_cast<int>(given.number("goal_room"));
+    if (goal_room > 2 * layout.rooms) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "goal_room " + std::to_string(goal_room) + " is not among the " +
+                                std::to_string(2 * layout.rooms) +
+                                " rooms; rooms_per_side sets how many there are"};
+    }
     flyball::World world;
-    world.start_W = world.goal_W = {start_from_wall_m, 0.0, 0.0};
-    plan.keep_clear_W = world.start_W;
+    world.start_W = {start_from_wall_m, 0.0, 0.0};
+    world.goal_W = goal_room == 0 ? world.start_W : middle_of_room(layout, goal_room);
+    plan.keep_clear_W = world.goal_W;  // There is no furniture in the corridor, near the start.
     const Building building = build(layout, plan, random);
     world.boxes = building.boxes;
     world.volume_W = building.extent_W;
@@ -87,6 +99,13 @@ class Office final : public flyball::WorldGenerator {
   }
 
  private:
+  static Vec3 middle_of_room(const Layout& layout, int number) {
+    const double side = number % 2 == 1 ? -1.0 : 1.0;
+    const int column = (number - 1) / 2;
+    return {(column + 0.5) * layout.width_m, side * 0.5 * (layout.corridor_m + layout.depth_m),
+            0.0};
+  }
+
   static Building build(const Layout& layout, const BuildingPlan& plan, RandomStream& random) {
     Building building;
     building.extent_W.min = {-flyball::half_wall_m, layout.outer_m(-1.0) - flyball::half_wall_m,
