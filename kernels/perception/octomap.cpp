@@ -4,44 +4,41 @@
 //
 // OctoMap's log-odds octree: Hornung et al. 2013, doi:10.1007/s10514-012-9321-0. The trees are
 // those that stock insertion makes, byte for byte, and so is the work that is counted; the host is
-// spared: bricks/ray_scan.h walks the rays, bricks/octree_record.h writes the cells. One tree per
-// resolution that was used.
+// spared: scans/ray_scan.h walks the rays, bricks/octree_record.h writes the cells. One tree per
+// resolution that was used. Questions do not look at the tree, but at a copy of what it says of
+// each cell (free, occupied, unknown), which follows every change: a reader on another thread can
+// be given a revision of that at once.
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/registry.h"
 
 #include "bricks/octree_copy.h"
 #include "bricks/octree_record.h"
-#include "maps/frozen_tree.h"
 #include "maps/layered_mapper.h"
 #include "maps/octree_file.h"
 
 namespace {
 
+using flyball::Error;
 using flyball::MapLevel;
 using flyball::Result;
 using flyball::Status;
 
 class TreeStore {
  public:
-  using Cells = octomap::OcTree;
-  using Frozen = flyball::FrozenTree;
-
-  explicit TreeStore(double cell_m) : tree_{std::make_unique<octomap::OcTree>(cell_m)} {
+  explicit TreeStore(double cell_m)
+      : tree_{std::make_unique<octomap::OcTree>(cell_m)},
+        shown_{flyball::BrickMap::of_states(cell_m)} {
     tree_->setClampingThresMin(0.12);  // both as in MAVBench's code
     tree_->setClampingThresMax(0.97);
   }
 
   [[nodiscard]] double cell_m() const { return tree_->getResolution(); }
-  [[nodiscard]] const octomap::OcTree& cells() const { return *tree_; }
-
-  [[nodiscard]] std::shared_ptr<const flyball::FrozenTree> revision() {
-    return freezer_.freeze(*tree_);
-  }
+  [[nodiscard]] const flyball::BrickCells& cells() const { return shown_.cells(); }
+  [[nodiscard]] std::shared_ptr<const flyball::BrickCells> revision() { return shown_.revision(); }
 
   void write(const std::vector<flyball::BrickMasks>& masks) {
-    freezer_.forget(masks);
-    record_.write(masks, *tree_);
+    shown_.show(record_.write(masks, *tree_));
   }
 
   [[nodiscard]] bool is_confirmed(const flyball::CellKey& cell) const {
@@ -49,16 +46,12 @@ class TreeStore {
     return node != nullptr && node->getLogOdds() >= flyball::confirmed_log_odds;
   }
   void confirm(const flyball::CellKey& cell) {
-    freezer_.forget(cell);
     tree_->setNodeValue(key_of(cell), flyball::confirmed_log_odds);
-  }
-
-  [[nodiscard]] Status add_to(flyball::ClearCells& clear) const {
-    if (Status fits = flyball::check_extent(*tree_); !fits) {
-      return fits;
-    }
-    clear.add(*tree_);
-    return flyball::Done{};
+    const flyball::CellKey brick = cell.above(flyball::brick_level);
+    flyball::CellMasks states = shown_.cells().masks(brick);
+    states.occupied |= std::uint64_t{1} << flyball::bit_in_brick(cell);
+    states.unknown &= ~states.occupied;
+    shown_.show({{brick, states}});
   }
 
   [[nodiscard]] MapLevel counts() const {
@@ -70,7 +63,7 @@ class TreeStore {
     }
     return counts;
   }
-  [[nodiscard]] std::size_t bytes() const { return tree_->memoryUsage() + freezer_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return tree_->memoryUsage() + shown_.bytes(); }
 
   [[nodiscard]] Status write_file(const std::string& path) const {
     octomap::OcTree copy{*tree_};  // Writing .bt rounds a tree.
@@ -81,8 +74,13 @@ class TreeStore {
     if (!tree) {
       return tree.error();
     }
+    auto shown = flyball::to_bricks(**tree);
+    if (!shown) {
+      return Error{shown.error().code, "map file \"" + path + "\": " + shown.error().message};
+    }
     TreeStore store{(*tree)->getResolution()};
     store.tree_->swapContent(**tree);
+    store.shown_ = std::move(*shown);
     return store;
   }
 
@@ -94,7 +92,7 @@ class TreeStore {
 
   std::unique_ptr<octomap::OcTree> tree_;  ///< It cannot be moved.
   flyball::OctreeRecord record_{};
-  flyball::TreeFreezer freezer_{};
+  flyball::BrickMap shown_;  ///< What the tree says of each cell.
 };
 
 }  // namespace

@@ -3,9 +3,10 @@
 
 #include "bricks/brick_view.h"
 #include "map_table.h"
-#include "maps/octomap_view.h"
+#include "octree_walk.h"
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <tuple>
 
@@ -55,7 +56,7 @@ struct Maps {
   Pipeline bricks;
   Pipeline octree;
   BrickView brick_view{bricks.map().cells()};
-  OctomapView tree_view{};
+  std::optional<OctreeView> tree_view{};
 
   Maps(Scene scene, int level, ImageSize size)
       : bricks{{"exact", false, widest_simd()}, 0},
@@ -65,7 +66,7 @@ struct Maps {
       octree.insert(frame);
     }
     brick_view.activate(level);
-    tree_view.activate(octree.tree());
+    tree_view.emplace(octree.tree());
   }
 };
 
@@ -78,38 +79,39 @@ const Maps& maps(Scene scene, int level, ImageSize size) {
   return *kept;
 }
 
-using Answer = int (*)(const OccupancyView& view, const Questions& asked, std::size_t i);
+template <class View>
+using Answer = int (*)(const View& view, const Questions& asked, std::size_t i);
 
-Answer answer_of(const std::string& kind) {
+template <class View>
+Answer<View> answer_of(const std::string& kind) {
   if (kind == "point") {
-    return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
+    return [](const View& view, const Questions& asked, std::size_t i) {
       return static_cast<int>(view.state(asked.places[i]));
     };
   }
   if (kind == "way") {
-    return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
+    return [](const View& view, const Questions& asked, std::size_t i) {
       return static_cast<int>(view.state(asked.on_ways[i]));
     };
   }
   if (kind == "body") {
-    return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
+    return [](const View& view, const Questions& asked, std::size_t i) {
       return static_cast<int>(view.body_state(asked.places[i], body));
     };
   }
-  return [](const OccupancyView& view, const Questions& asked, std::size_t i) {
+  return [](const View& view, const Questions& asked, std::size_t i) {
     return view.segment_hits(asked.places[i], asked.ends[i], body) ? 1 : 0;
   };
 }
 
-/// Nanoseconds a question. At the finest level, a million of them are compared with stock.
-void ask(benchmark::State& state, const Plan& plan, Scene scene, const Question& question) {
-  const Maps& both = maps(scene, question.level, plan.sizes.front());
-  const OccupancyView& view =
-      question.stock ? static_cast<const OccupancyView&>(both.tree_view) : both.brick_view;
-  const std::size_t count =
-      question.kind == "point" || question.kind == "way" ? plan.questions : plan.questions / 20;
-  const Questions asked = questions(scene, count);
-  const Answer answer = answer_of(question.kind);
+/// Nanoseconds a question.
+template <class View>
+void time_answers(benchmark::State& state,
+                  const View& view,
+                  const Questions& asked,
+                  const std::string& kind,
+                  std::size_t count) {
+  const Answer<View> answer = answer_of<View>(kind);
   int sum = 0;
   for (auto _ : state) {
     const double start_s = thread_s();
@@ -119,10 +121,25 @@ void ask(benchmark::State& state, const Plan& plan, Scene scene, const Question&
     state.SetIterationTime((thread_s() - start_s) / static_cast<double>(count));
   }
   benchmark::DoNotOptimize(sum);
-  if (!question.stock && question.level == 0) {
+}
+
+/// At the finest level, a million answers are compared with stock.
+void ask(benchmark::State& state, const Plan& plan, Scene scene, const Question& question) {
+  const Maps& both = maps(scene, question.level, plan.sizes.front());
+  const std::size_t count =
+      question.kind == "point" || question.kind == "way" ? plan.questions : plan.questions / 20;
+  const Questions asked = questions(scene, count);
+  if (question.stock) {
+    time_answers(state, *both.tree_view, asked, question.kind, count);
+    return;
+  }
+  time_answers(state, both.brick_view, asked, question.kind, count);
+  if (question.level == 0) {
+    const auto ours = answer_of<BrickView>(question.kind);
+    const auto stock = answer_of<OctreeView>(question.kind);
     std::size_t differing = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      differing += answer(both.brick_view, asked, i) != answer(both.tree_view, asked, i) ? 1 : 0;
+      differing += ours(both.brick_view, asked, i) != stock(*both.tree_view, asked, i) ? 1 : 0;
     }
     state.counters["differing"] = static_cast<double>(differing);
   }

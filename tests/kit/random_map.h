@@ -4,8 +4,9 @@
 /// @file
 /// Random maps, and what they say by definition: the brute force that the view is held against.
 
+#include "bricks/octree_copy.h"
+#include "maps/layered_view.h"
 #include "maps/octomap_tree.h"
-#include "maps/octomap_view.h"
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -91,10 +92,26 @@ class Reference {
   std::vector<const octomap::OcTree*> trees_;
 };
 
-/// A map of one or two random trees with its reference.
+/// Trees as a view looks at them.
+class TreesInView {
+ public:
+  LayeredView view{};
+
+  void activate(const octomap::OcTree& tree) {
+    auto cells = to_bricks(tree);
+    maps_.push_back(std::make_unique<BrickMap>(std::move(cells.value())));
+    view.activate(maps_.back()->cells());
+  }
+
+ private:
+  std::vector<std::unique_ptr<BrickMap>> maps_{};
+};
+
+/// A map of some random trees with its reference.
 struct Rig {
   std::vector<std::unique_ptr<octomap::OcTree>> trees;  ///< The active one first.
-  OctomapView view;
+  TreesInView maps{};
+  const LayeredView& view{maps.view};
   std::optional<Reference> reference;
 
   Rig(const std::vector<double>& resolutions_m, Fill fill) {
@@ -104,7 +121,7 @@ struct Rig {
       order.push_back(trees.back().get());
     }
     for (auto tree = order.rbegin(); tree != order.rend(); ++tree) {
-      view.activate(**tree);
+      maps.activate(**tree);
     }
     reference.emplace(*std::min_element(resolutions_m.begin(), resolutions_m.end()), order);
   }

@@ -4,6 +4,7 @@
 /// @file
 /// Sixty-four cells in one cache line.
 
+#include "lattice.h"
 #include <array>
 #include <cstdint>
 
@@ -37,6 +38,11 @@ struct alignas(64) Brick {
 struct CellMasks {
   std::uint64_t occupied{};
   std::uint64_t unknown{~std::uint64_t{0}};
+};
+
+struct BrickStates {
+  CellKey brick{};  ///< At `brick_level`.
+  CellMasks states{};
 };
 
 /// What a block of cells holds.

@@ -31,6 +31,10 @@ class BrickCells {
   [[nodiscard]] BlockSummary summary(const CellKey& cell, int level) const;
   /// A coarse cell is occupied when any part of it is, free when no part of it is unknown.
   [[nodiscard]] CellState state(const CellKey& cell, int level) const;
+  /// @param brick  Key at `brick_level`.
+  [[nodiscard]] const CellMasks& masks(const CellKey& brick) const {
+    return chunk_at(brick.above(chunk_level - brick_level)).masks[brick_number(brick)];
+  }
   /// A chunk of unknown cells where nothing is known. What is found there decides no branch, so
   /// that questions about random places do not wait for wrong guesses.
   [[nodiscard]] const Chunk& chunk_at(const CellKey& chunk) const {

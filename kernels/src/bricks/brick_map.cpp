@@ -5,6 +5,12 @@ namespace flyball {
 
 BrickMap::BrickMap(double finest_m, Simd simd) : cells_{finest_m, simd} {}
 
+BrickMap BrickMap::of_states(double finest_m) {
+  BrickMap map{finest_m};
+  map.keeps_log_odds_ = false;
+  return map;
+}
+
 std::shared_ptr<const BrickCells> BrickMap::revision() {
   auto revision = revisions_->hand_on(cells_, is_changed_);
   is_changed_ = false;
@@ -48,6 +54,18 @@ void BrickMap::fill(const CellKey& brick, const Brick& cells) {
   chunk.set_masks(number, masks);
 }
 
+void BrickMap::show(const std::vector<BrickStates>& bricks) {
+  begin_change();
+  Chunk* chunk = nullptr;
+  for (const BrickStates& shown : bricks) {
+    const CellKey key = shown.brick.above(chunk_level - brick_level);
+    if (chunk == nullptr || !(chunk->key == key)) {
+      chunk = &at(key);
+    }
+    chunk->set_masks(brick_number(shown.brick), shown.states);
+  }
+}
+
 std::size_t BrickMap::drop_beyond(const Vec3& p_W,
                                   double radius_m,
                                   const std::function<void(const Chunk&)>& show) {
@@ -79,15 +97,18 @@ std::size_t BrickMap::drop_beyond(const Vec3& p_W,
 }
 
 std::size_t BrickMap::bytes() const {
-  constexpr std::size_t whole_chunk = sizeof(Chunk) + sizeof(Chunk::Bricks);
+  const std::size_t whole_chunk = sizeof(Chunk) + (keeps_log_odds_ ? sizeof(Chunk::Bricks) : 0);
   return (cells_.chunks().size() + spare_.size()) * whole_chunk + cells_.bytes() +
          revisions_->bytes();
 }
 
-BrickMap::Spare BrickMap::make_spare() {
+BrickMap::Spare BrickMap::make_spare() const {
+  if (!keeps_log_odds_) {
+    return {nullptr, std::make_unique<Chunk>(CellKey{})};
+  }
   auto bricks = std::make_unique<Chunk::Bricks>();
   clear(*bricks);
-  auto chunk = std::make_unique<Chunk>(CellKey{}, *bricks);
+  auto chunk = std::make_unique<Chunk>(CellKey{}, bricks.get());
   return {std::move(bricks), std::move(chunk)};
 }
 
@@ -128,12 +149,14 @@ Chunk& BrickMap::make(const CellKey& chunk) {
 /// Leaves empty places in the lists.
 void BrickMap::drop(std::size_t number) {
   Spare left{std::move(bricks_[number]), std::move(revisions_->chunks[number])};
-  clear(*left.bricks);
+  if (keeps_log_odds_) {
+    clear(*left.bricks);
+  }
   if (left.chunk->first_revision <= newest_read_) {
     revisions_->retire(std::move(left.chunk));
-    left.chunk = std::make_unique<Chunk>(CellKey{}, *left.bricks);
+    left.chunk = std::make_unique<Chunk>(CellKey{}, left.bricks.get());
   } else {
-    *left.chunk = Chunk{CellKey{}, *left.bricks};
+    *left.chunk = Chunk{CellKey{}, left.bricks.get()};
   }
   spare_.push_back(std::move(left));
 }

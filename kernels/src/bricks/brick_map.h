@@ -17,6 +17,9 @@ namespace flyball {
 class BrickMap {
  public:
   explicit BrickMap(double finest_m, Simd simd = widest_simd());
+  /// A map that keeps the states of cells and no log-odds, in a quarter of the memory. Only `show`
+  /// may change it.
+  [[nodiscard]] static BrickMap of_states(double finest_m);
 
   /// What is known now.
   [[nodiscard]] const BrickCells& cells() const { return cells_; }
@@ -32,6 +35,8 @@ class BrickMap {
   void apply(const std::vector<BrickMasks>& changes);
   /// Replaces a brick, as a file has it.
   void fill(const CellKey& brick, const Brick& cells);
+  /// Sets what questions find in bricks. Log-odds stay as they are.
+  void show(const std::vector<BrickStates>& bricks);
   /// Forgets the chunks that lie farther from `p_W` than `radius_m` as a whole. Their memory is
   /// kept for new ones.
   ///
@@ -45,12 +50,12 @@ class BrickMap {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// A chunk with its log-odds, all unknown, not in use.
+  /// A chunk with its log-odds, if the map keeps them, all unknown, not in use.
   struct Spare {
     std::unique_ptr<Chunk::Bricks> bricks;
     std::unique_ptr<Chunk> chunk;
   };
-  static Spare make_spare();
+  [[nodiscard]] Spare make_spare() const;
   /// Takes note of who reads, before the map changes.
   void begin_change();
   /// A chunk that no reader sees, made or copied if need be.
@@ -59,6 +64,7 @@ class BrickMap {
   void drop(std::size_t number);
 
   BrickCells cells_;
+  bool keeps_log_odds_{true};
   /// Keeps the chunks. Owners: this map and those who hold revisions of it.
   std::shared_ptr<BrickRevisions> revisions_{std::make_shared<BrickRevisions>()};
   std::vector<std::unique_ptr<Chunk::Bricks>> bricks_{};  ///< Of the chunks, in their order.

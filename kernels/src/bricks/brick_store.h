@@ -8,15 +8,11 @@
 #include "brick_map.h"
 #include "map_file.h"
 #include "maps/layered_mapper.h"
-#include "octree_copy.h"
 
 namespace flyball {
 
 class BrickStore {
  public:
-  using Cells = BrickCells;
-  using Frozen = BrickCells;
-
   explicit BrickStore(double cell_m) : map_{cell_m} {}
 
   [[nodiscard]] double cell_m() const { return map_.lattice().cell_m(0); }
@@ -35,11 +31,6 @@ class BrickStore {
     while (!is_confirmed(cell)) {
       map_.apply({hit});
     }
-  }
-
-  [[nodiscard]] Status add_to(ClearCells& clear) const {
-    clear.add(*to_octree(map_, 0));
-    return Done{};
   }
 
   [[nodiscard]] MapLevel counts() const { return contents_of(map_, 0).levels.front(); }

@@ -18,7 +18,7 @@ constexpr std::array<std::uint16_t, Chunk::brick_count> place_of = places_of_num
 /// A chunk of unknown cells, whose tag has to be none in particular, with its log-odds. It stays
 /// where it is made.
 struct UnknownChunk {
-  UnknownChunk() : chunk{CellKey{-1, -1, -1}, log_odds} {
+  UnknownChunk() : chunk{CellKey{-1, -1, -1}, &log_odds} {
     clear(log_odds);
     chunk.tag_bits = 0;
   }
@@ -32,7 +32,8 @@ struct UnknownChunk {
 
 }  // namespace
 
-Chunk::Chunk(const CellKey& at, Bricks& log_odds) : bricks{log_odds.data()} {
+Chunk::Chunk(const CellKey& at, Bricks* log_odds)
+    : bricks{log_odds != nullptr ? log_odds->data() : nullptr} {
   set_key(at);
   codes.fill(brick_code::all_unknown);
   has_unknown.fill(~std::uint64_t{0});

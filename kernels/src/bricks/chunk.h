@@ -46,7 +46,8 @@ struct alignas(64) Chunk {
   std::uint64_t tag{};       ///< `packed::chunk(key)`.
   std::uint64_t tag_bits{};  ///< Which bits of a tag have to be those: all, or none for `nothing`.
   /// Log-odds, by numbers of bricks. They are those of the map as it is now, also where this chunk
-  /// belongs to an older revision: only the thread that changes the map may look at them.
+  /// belongs to an older revision: only the thread that changes the map may look at them. Null
+  /// where the map keeps none.
   Brick* bricks{};
   std::uint64_t first_revision{};  ///< The first revision (see BrickRevisions) that may show it.
   std::array<std::uint8_t, brick_count> codes{};  ///< By places of bricks, see packed::brick_place.
@@ -55,8 +56,9 @@ struct alignas(64) Chunk {
   BrickBits has_known{};
   std::array<CellMasks, brick_count> masks{};
 
-  /// All is unknown. @param log_odds  All unknown as well; they outlive the chunk.
-  Chunk(const CellKey& at, Bricks& log_odds);
+  /// All is unknown. @param log_odds  All unknown as well; they outlive the chunk. Null where the
+  ///                                  map keeps none.
+  explicit Chunk(const CellKey& at, Bricks* log_odds = nullptr);
   void set_masks(std::size_t brick, const CellMasks& cells);
   void set_key(const CellKey& at);
   /// Whether it is the chunk with this tag, or the one of unknown cells.

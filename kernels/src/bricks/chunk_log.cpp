@@ -18,12 +18,6 @@ bool has(const BrickBits& bits, std::size_t brick) {
   return (bits[brick >> 6U] >> (brick & 63U) & 1U) != 0;
 }
 
-CellKey key_of(const CellKey& chunk, std::size_t brick) {
-  constexpr int edge = Chunk::bricks_per_edge;
-  return {edge * chunk.x + brick_offset(brick, 0), edge * chunk.y + brick_offset(brick, 1),
-          edge * chunk.z + brick_offset(brick, 2)};
-}
-
 /// Log-odds add up, as two series of scans do; only the clamps are applied once more.
 std::int8_t together(std::int8_t a, std::int8_t b) {
   if (a == log_odds::unknown || b == log_odds::unknown) {
@@ -63,7 +57,7 @@ bool add_entry(std::ifstream& file, BrickMap& map) {
     if (!read_as_bytes(file, brick)) {
       return false;
     }
-    add_brick(key_of(entry.chunk, number), brick, map);
+    add_brick(brick_in(entry.chunk, number), brick, map);
   }
   return true;
 }
@@ -115,7 +109,7 @@ Status ChunkLog::add_to(BrickMap& map) {
 void add_chunk(const Chunk& chunk, BrickMap& map) {
   for (std::size_t brick = 0; brick < Chunk::brick_count; ++brick) {
     if (has(chunk.has_known, brick)) {
-      add_brick(key_of(chunk.key, brick), chunk.bricks[brick], map);
+      add_brick(brick_in(chunk.key, brick), chunk.bricks[brick], map);
     }
   }
 }

@@ -43,6 +43,13 @@ inline constexpr int chunk_level = 5;
   return static_cast<int>((bits & 1U) | (bits >> 2U & 2U) | (bits >> 4U & 4U));
 }
 
+/// A chunk's brick by its number.
+[[nodiscard]] inline CellKey brick_in(const CellKey& chunk, std::size_t number) {
+  constexpr int bricks = 1 << (chunk_level - brick_level);
+  return {bricks * chunk.x + brick_offset(number, 0), bricks * chunk.y + brick_offset(number, 1),
+          bricks * chunk.z + brick_offset(number, 2)};
+}
+
 class Lattice {
  public:
   static constexpr int keys = 1 << 16;

@@ -79,11 +79,7 @@ std::size_t MaskWindow::collect_chunk(const CellKey& chunk, std::vector<BrickMas
       const std::size_t number = 64 * word + lowest_bit(left);
       Masks& masks = masks_[first + number];
       const std::uint64_t free = masks.free & ~masks.hit;
-      bricks.push_back(
-          {{8 * chunk.x + brick_offset(number, 0), 8 * chunk.y + brick_offset(number, 1),
-            8 * chunk.z + brick_offset(number, 2)},
-           free,
-           masks.hit});
+      bricks.push_back({brick_in(chunk, number), free, masks.hit});
       cells += count_bits(free | masks.hit);
       masks = Masks{};
     }

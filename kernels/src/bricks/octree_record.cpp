@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -53,12 +54,36 @@ class Descent {
 
   [[nodiscard]] bool has_children(Node parent) const { return tree_.nodeHasChildren(parent.node); }
   void update(Node leaf, bool hit) {
+    const bool was_occupied = tree_.isNodeOccupied(leaf.node);
     tree_.updateNodeLogOdds(leaf.node, hit ? tree_.getProbHitLog() : tree_.getProbMissLog());
+    has_new_state_ =
+        has_new_state_ || leaf.fresh || tree_.isNodeOccupied(leaf.node) != was_occupied;
+  }
+  /// Whether a leaf has got another state since the last call.
+  [[nodiscard]] bool take_has_new_state() { return std::exchange(has_new_state_, false); }
+
+  /// Adds those of a cube of `edge` cells (4, 2 or 1) in a brick, whose lowest bit is `first`.
+  void add_states(const octomap::OcTreeNode& node,
+                  unsigned edge,
+                  unsigned first,
+                  CellMasks& states) const {
+    if (!tree_.nodeHasChildren(&node)) {
+      const std::uint64_t cells = cells_in(edge) << first;
+      states.unknown &= ~cells;
+      states.occupied |= tree_.isNodeOccupied(&node) ? cells : 0;
+      return;
+    }
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      if (tree_.nodeChildExists(&node, octant)) {
+        add_states(*tree_.getNodeChild(&node, octant), edge / 2,
+                   first + first_bit(octant, edge / 2), states);
+      }
+    }
   }
 
   /// A cube of `edge` cells (4, 2 or 1); the cells' lowest bits are its.
   void cube(Node parent, unsigned edge, const Cells& cells) {
-    const std::uint64_t all = edge == 4 ? all_cells : edge == 2 ? 0x330033 : 1;
+    const std::uint64_t all = cells_in(edge);
     const bool is_whole = cells.free == all || cells.hit == all;
     if (is_saturated(parent, cells)) {
       return;
@@ -68,9 +93,9 @@ class Descent {
       return;
     }
     const unsigned half = edge / 2;
-    const std::uint64_t part = half == 2 ? 0x330033 : 1;
+    const std::uint64_t part = cells_in(half);
     for (unsigned octant = 0; octant < 8; ++octant) {
-      const unsigned shift = half * ((octant & 1U) + (octant >> 1U & 1U) * 4 + (octant >> 2U) * 16);
+      const unsigned shift = first_bit(octant, half);
       const Cells below{cells.free >> shift & part, cells.hit >> shift & part};
       if ((below.free | below.hit) != 0) {
         cube(child(parent, octant), half, below);
@@ -109,25 +134,45 @@ class Descent {
            (cells.free == 0 && log_odds >= tree_.getClampingThresMaxLog());
   }
 
+  /// The lowest bits of a brick that are a cube.
+  static constexpr std::uint64_t cells_in(unsigned edge) {
+    return edge == 4 ? all_cells : edge == 2 ? 0x330033 : 1;
+  }
+  /// Of the octant of a brick or of its part, whose edges are `edge` cells.
+  static constexpr unsigned first_bit(unsigned octant, unsigned edge) {
+    return edge * ((octant & 1U) + (octant >> 1U & 1U) * 4 + (octant >> 2U) * 16);
+  }
+
   octomap::OcTree& tree_;
+  bool has_new_state_{};
 };
 
 /// From the root down to the bricks.
 template <class Item>
 class Writer {
  public:
+  /// @param is_new   The tree was empty: whatever is written has a new state.
+  /// @param changed  Gets the bricks with new states.
   Writer(octomap::OcTree& tree,
          const std::vector<Item>& items,
-         const std::vector<std::uint32_t>& wholly_free)
-      : descent_{tree}, items_{items}, wholly_free_{wholly_free} {}
+         const std::vector<std::uint32_t>& wholly_free,
+         bool is_new,
+         std::vector<BrickStates>& changed)
+      : descent_{tree},
+        items_{items},
+        wholly_free_{wholly_free},
+        is_new_{is_new},
+        changed_{changed} {}
 
   void below(Descent::Node parent, unsigned depth, std::size_t first, std::size_t last) {
     if (depth == brick_depth) {
       descent_.cube(parent, 4, {items_[first].free, items_[first].hit});
+      note_states(*parent.node, first, last);
       return;
     }
     if (is_free_block(depth, first, last) && !descent_.has_children(parent)) {
       descent_.update(parent, false);
+      note_states(*parent.node, first, last);
       return;
     }
     const unsigned shift = 3 * (brick_depth - 1 - depth);
@@ -144,6 +189,18 @@ class Writer {
   }
 
  private:
+  /// @param node  Of a brick, or of a block of bricks without children.
+  void note_states(const octomap::OcTreeNode& node, std::size_t first, std::size_t last) {
+    if (!descent_.take_has_new_state() && !is_new_) {
+      return;
+    }
+    CellMasks states;
+    descent_.add_states(node, 4, 0, states);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint64_t code = items_[i].code;
+      changed_.push_back({{gathered(code), gathered(code >> 1U), gathered(code >> 2U)}, states});
+    }
+  }
   [[nodiscard]] bool is_free_block(unsigned depth, std::size_t first, std::size_t last) const {
     const unsigned levels = brick_depth - depth;
     return levels < 8 && last - first == std::size_t{1} << 3 * levels &&
@@ -153,23 +210,30 @@ class Writer {
   Descent descent_;
   const std::vector<Item>& items_;
   const std::vector<std::uint32_t>& wholly_free_;
+  bool is_new_;
+  std::vector<BrickStates>& changed_;
 };
 
 }  // namespace
 
-void OctreeRecord::write(const std::vector<BrickMasks>& changes, octomap::OcTree& tree) {
+const std::vector<BrickStates>& OctreeRecord::write(const std::vector<BrickMasks>& changes,
+                                                    octomap::OcTree& tree) {
+  changed_.clear();
   if (changes.empty()) {
-    return;
+    return changed_;
   }
   sort(changes);
-  if (tree.getRoot() == nullptr) {
+  const bool is_new = tree.getRoot() == nullptr;
+  if (is_new) {
     write_first_cell(items_.front(), tree);
   }
   wholly_free_.assign(1, 0);
   for (const Item& item : items_) {
     wholly_free_.push_back(wholly_free_.back() + (item.free == all_cells ? 1 : 0));
   }
-  Writer<Item>{tree, items_, wholly_free_}.below({tree.getRoot(), false}, 0, 0, items_.size());
+  Writer<Item>{tree, items_, wholly_free_, is_new, changed_}.below({tree.getRoot(), false}, 0, 0,
+                                                                   items_.size());
+  return changed_;
 }
 
 /// The masks come chunk by chunk, so whole chunks are put in order.

@@ -12,6 +12,7 @@
 /// block with a hit in it is not freed as a whole, (3) a free block over refined space reaches
 /// every leaf in it, (4) no coarse block is written through the cell at its centre.
 
+#include "brick.h"
 #include "maps/octomap_tree.h"
 #include "scans/scan_masks.h"
 #include <vector>
@@ -20,8 +21,11 @@ namespace flyball {
 
 class OctreeRecord {
  public:
-  /// @pre `tree` has the cells of the masks' lattice.
-  void write(const std::vector<BrickMasks>& changes, octomap::OcTree& tree);
+  /// @pre    `tree` has the cells of the masks' lattice.
+  /// @return The bricks in which a cell has another state than before: few, because most scans
+  ///         confirm what is known. Valid until the next call.
+  const std::vector<BrickStates>& write(const std::vector<BrickMasks>& changes,
+                                        octomap::OcTree& tree);
 
  private:
   struct Item {
@@ -40,6 +44,7 @@ class OctreeRecord {
   std::vector<Run> runs_{};
   std::vector<Item> items_{};                 ///< In Morton order.
   std::vector<std::uint32_t> wholly_free_{};  ///< Of the items before this one, how many.
+  std::vector<BrickStates> changed_{};
 };
 
 }  // namespace flyball

@@ -9,10 +9,8 @@
 /// A store has
 ///   Store(cell_m), cells()             what LayeredView looks at; empty at first
 ///   revision()                         the cells as they are now, which stay so: a shared pointer
-///                                      to `Frozen`, at which LayeredView can look as well
 ///   write(masks)                       of one scan
 ///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
-///   add_to(clear)                      tells all that it knows, unless that is too much
 ///   counts(), bytes()                  as in MapContents
 ///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
 
@@ -128,9 +126,7 @@ class LayeredMapper final : public Mapper {
     }
     auto layer = std::make_unique<Layer>(std::move(*store));
     if (layer->is_coarse()) {
-      if (Status added = layer->store.add_to(layer->clear); !added) {
-        return Error{added.error().code, "map file \"" + path + "\": " + added.error().message};
-      }
+      layer->clear.add(layer->store.cells());
     }
     view_.forget_layers();
     layers_.clear();
@@ -146,14 +142,10 @@ class LayeredMapper final : public Mapper {
   // that pass there without touching it would free the cell: stock OctoMap forgets the wall.
   static constexpr double wide_cell_m = 0.3;
 
-  using View = LayeredView<typename Store::Cells>;
-
   /// Cells that stay as they are, and the view of them.
   struct Revision {
-    // Owners: see Store::revision.
-    std::vector<std::shared_ptr<const typename Store::Frozen>> cells{};
-    std::vector<std::shared_ptr<const BrickCells>> trusted{};
-    LayeredView<typename Store::Frozen> view{};
+    std::vector<std::shared_ptr<const BrickCells>> cells{};  ///< Owners: see BrickMap::revision.
+    LayeredView view{};
   };
 
   /// The cells of one resolution as stock insertion makes them, and for wide cells the walls in
@@ -169,7 +161,7 @@ class LayeredMapper final : public Mapper {
     [[nodiscard]] bool is_coarse() const { return cell_m >= coarse_cell_m; }
     [[nodiscard]] bool is_wide() const { return cell_m > wide_cell_m; }
 
-    void show_in(View& view) const {
+    void show_in(LayeredView& view) const {
       view.activate({&store.cells(), is_coarse() ? &clear.cells() : nullptr});
       if (is_wide()) {
         view.activate(walls.cells());
@@ -177,14 +169,14 @@ class LayeredMapper final : public Mapper {
     }
 
     /// If it is this layer, or its walls, that the view shows.
-    void add_to(Revision& revision, const typename View::Layer& shown) {
+    void add_to(Revision& revision, const LayeredView::Layer& shown) {
       if (shown.cells != &store.cells() && shown.cells != &walls.cells()) {
         return;
       }
       Store& from = shown.cells == &store.cells() ? store : walls;
       const BrickCells* trusted = nullptr;
       if (shown.trusted_by_finer != nullptr) {
-        trusted = revision.trusted.emplace_back(clear.revision()).get();
+        trusted = revision.cells.emplace_back(clear.revision()).get();
       }
       revision.view.activate({revision.cells.emplace_back(from.revision()).get(), trusted});
     }
@@ -256,7 +248,7 @@ class LayeredMapper final : public Mapper {
   }
 
   std::vector<std::unique_ptr<Layer>> layers_{};
-  View view_{};
+  LayeredView view_{};
   const ScanMasks* masks_{};  ///< Of the pending layer.
   Layer* pending_{};
 };

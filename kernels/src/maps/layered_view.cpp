@@ -1,51 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: octomap_view
 #include "maps/layered_view.h"
 
 #include "bricks/box_words.h"
 #include "bricks/brick_walk.h"
 #include "bricks/obstacle_columns.h"
-#include "maps/frozen_tree.h"
-#include "maps/octree_walk.h"
 #include <algorithm>
-#include <limits>
 
 namespace flyball {
 namespace {
 
-// What a layer is asked, of a tree and of bricks.
-
-double cell_m(const octomap::OcTree& tree) {
-  return tree.getResolution();
-}
-double cell_m(const FrozenTree& tree) {
-  return tree.cell_m();
-}
 double cell_m(const BrickCells& map) {
   return map.lattice().cell_m(0);
 }
 
-CellState state_in(const octomap::OcTree& tree, const Vec3& p_W) {
-  octomap::OcTreeKey key;
-  const octomap::OcTreeNode* node =
-      tree.coordToKeyChecked(p_W.x(), p_W.y(), p_W.z(), key) ? tree.search(key) : nullptr;
-  return node == nullptr             ? CellState::unknown
-         : tree.isNodeOccupied(node) ? CellState::occupied
-                                     : CellState::free;
-}
-CellState state_in(const FrozenTree& tree, const Vec3& p_W) {
-  return tree.state(p_W);
-}
 CellState state_in(const BrickCells& map, const Vec3& p_W) {
   return map.lattice().contains(p_W) ? map.state(map.lattice().cell(p_W), 0) : CellState::unknown;
 }
 
-OctreeWalk<octomap::OcTree> walk_in(const octomap::OcTree& tree) {
-  return OctreeWalk{tree};
-}
-OctreeWalk<FrozenTree> walk_in(const FrozenTree& tree) {
-  return OctreeWalk{tree};
-}
 BrickWalk walk_in(const BrickCells& map) {
   return BrickWalk{map, 0};
 }
@@ -56,10 +27,6 @@ struct Glance {
   bool may_have_unknown{true};
 };
 
-template <class Tree>
-Glance glance_at(const Tree& /*tree*/, const Aabb& /*box*/) {
-  return {};
-}
 Glance glance_at(const BrickCells& map, const Aabb& box) {
   KeyBox keys;
   if (!keys_in(map.lattice(), box, touch_m, keys) || keys.is_empty()) {
@@ -82,12 +49,6 @@ Glance glance_at(const BrickCells& map, const Aabb& box) {
   return seen;
 }
 
-template <class Tree, class Visit>
-void for_each_cube(const Tree& tree, Visit&& visit) {
-  const Vec3 far = Vec3::Constant(std::numeric_limits<double>::max());
-  const BoxShape everywhere{{-far, far}};
-  (void)walk_in(tree).any_occupied(everywhere.bounds(), everywhere, visit);
-}
 template <class Visit>
 void for_each_cube(const BrickCells& map, Visit&& visit) {
   for (const Chunk* chunk : map.chunks()) {
@@ -97,20 +58,17 @@ void for_each_cube(const BrickCells& map, Visit&& visit) {
 
 }  // namespace
 
-template <class Cells>
-void LayeredView<Cells>::activate(const Layer& layer) {
+void LayeredView::activate(const Layer& layer) {
   const auto is_it = [&](const Layer& other) { return other.cells == layer.cells; };
   layers_.erase(std::remove_if(layers_.begin(), layers_.end(), is_it), layers_.end());
   layers_.insert(layers_.begin(), layer);
 }
 
-template <class Cells>
-double LayeredView<Cells>::resolution_m() const {
+double LayeredView::resolution_m() const {
   return layers_.empty() ? initial_resolution_m : cell_m(*layers_.front().cells);
 }
 
-template <class Cells>
-CellState LayeredView<Cells>::state(const Vec3& p_W) const {
+CellState LayeredView::state(const Vec3& p_W) const {
   if (!p_W.allFinite()) {
     return CellState::unknown;
   }
@@ -128,8 +86,7 @@ CellState LayeredView<Cells>::state(const Vec3& p_W) const {
   return clear_.contains(p_W) ? CellState::free : CellState::unknown;
 }
 
-template <class Cells>
-CellState LayeredView<Cells>::body_state(const Vec3& p_WB, const Cylinder& body) const {
+CellState LayeredView::body_state(const Vec3& p_WB, const Cylinder& body) const {
   if (!p_WB.allFinite()) {
     return CellState::unknown;
   }
@@ -146,8 +103,7 @@ CellState LayeredView<Cells>::body_state(const Vec3& p_WB, const Cylinder& body)
 }
 
 /// The usual case in the open: maps without an obstacle there, up to one that knows all of it.
-template <class Cells>
-bool LayeredView<Cells>::is_plainly_free(const Aabb& box) const {
+bool LayeredView::is_plainly_free(const Aabb& box) const {
   for (std::size_t layer = 0; layer < layers_.size() && !is_vague(layer, Use::move); ++layer) {
     const Glance seen = glance_at(*layers_[layer].cells, box);
     if (seen.may_have_occupied || !seen.may_have_unknown) {
@@ -157,30 +113,20 @@ bool LayeredView<Cells>::is_plainly_free(const Aabb& box) const {
   return false;
 }
 
-template <class Cells>
-bool LayeredView<Cells>::has_occupied(const Aabb& box) const {
+bool LayeredView::has_occupied(const Aabb& box) const {
   return hits(BoxShape{box}, Use::move);
 }
 
-template <class Cells>
-bool LayeredView<Cells>::segment_hits(const Vec3& from,
-                                      const Vec3& to,
-                                      const Cylinder& body) const {
+bool LayeredView::segment_hits(const Vec3& from, const Vec3& to, const Cylinder& body) const {
   return !from.allFinite() || !to.allFinite() || hits(SweepShape{from, to, body}, Use::move);
 }
 
-template <class Cells>
-double LayeredView<Cells>::obstacle_density(const Vec3& p_W,
-                                            double radius_m,
-                                            double half_band_m) const {
+double LayeredView::obstacle_density(const Vec3& p_W, double radius_m, double half_band_m) const {
   return ObstacleColumns{p_W, radius_m, half_band_m}.density(
       [this](const Aabb& box) { return hits(BoxShape{box}, Use::look); });
 }
 
-template <class Cells>
-double LayeredView<Cells>::nearest_obstacle_m(const Vec3& p_W,
-                                              double limit_m,
-                                              double half_band_m) const {
+double LayeredView::nearest_obstacle_m(const Vec3& p_W, double limit_m, double half_band_m) const {
   NearestShape shape{p_W, limit_m, half_band_m};
   (void)any_obstacle(shape, Use::look, [&](const Aabb& part) {
     shape.shrink_to(part);
@@ -189,9 +135,7 @@ double LayeredView<Cells>::nearest_obstacle_m(const Vec3& p_W,
   return shape.nearest_m();
 }
 
-template <class Cells>
-void LayeredView<Cells>::for_each_occupied(
-    const std::function<void(const Aabb& cube)>& show) const {
+void LayeredView::for_each_occupied(const std::function<void(const Aabb& cube)>& show) const {
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
     for_each_cube(*layers_[layer].cells, [&](const Aabb& cube) {
       if (any_gap({layer, Use::look}, cube, BoxShape{cube}, [](const Aabb&) { return true; })) {
@@ -202,29 +146,25 @@ void LayeredView<Cells>::for_each_occupied(
   }
 }
 
-template <class Cells>
-bool LayeredView<Cells>::is_vague(std::size_t layer, Use use) const {
+bool LayeredView::is_vague(std::size_t layer, Use use) const {
   constexpr double same = 1.001;
   return use == Use::move && cell_m(*layers_[layer].cells) > same * cell_m(*layers_.front().cells);
 }
 
-template <class Cells>
-const BrickCells* LayeredView<Cells>::trusted(std::size_t layer, Use use) const {
+const BrickCells* LayeredView::trusted(std::size_t layer, Use use) const {
   return is_vague(layer, use) ? layers_[layer].trusted_by_finer : nullptr;
 }
 
-template <class Cells>
 template <class Shape, class Show>
-bool LayeredView<Cells>::any_gap(Layers layers,
-                                 const Aabb& region,
-                                 const Shape& shape,
-                                 Show&& show) const {
+bool LayeredView::any_gap(Layers layers,
+                          const Aabb& region,
+                          const Shape& shape,
+                          Show&& show) const {
   return any_gap_from(0, layers, region, shape, show);
 }
 
-template <class Cells>
 template <class Shape, class Show>
-bool LayeredView<Cells>::any_gap_from(
+bool LayeredView::any_gap_from(
     std::size_t layer, Layers layers, const Aabb& region, const Shape& shape, Show& show) const {
   if (layer == layers.count) {
     return show(region);
@@ -240,14 +180,13 @@ bool LayeredView<Cells>::any_gap_from(
          (is_vague(layer, layers.use) && walk.any_occupied(region, shape, deeper));
 }
 
-template <class Cells>
 template <class Shape, class Show>
-bool LayeredView<Cells>::any_obstacle(const Shape& shape, Use use, Show&& show) const {
+bool LayeredView::any_obstacle(const Shape& shape, Use use, Show&& show) const {
   for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
     const auto show_visible = [&](const Aabb& part) {
       return any_gap({layer, use}, part, shape, show);
     };
-    const Cells& cells = *layers_[layer].cells;
+    const BrickCells& cells = *layers_[layer].cells;
     if (!is_vague(layer, use) && glance_at(cells, shape.bounds()).may_have_occupied &&
         walk_in(cells).any_occupied(shape.bounds(), shape, show_visible)) {
       return true;
@@ -256,14 +195,9 @@ bool LayeredView<Cells>::any_obstacle(const Shape& shape, Use use, Show&& show) 
   return false;
 }
 
-template <class Cells>
 template <class Shape>
-bool LayeredView<Cells>::hits(const Shape& shape, Use use) const {
+bool LayeredView::hits(const Shape& shape, Use use) const {
   return any_obstacle(shape, use, [](const Aabb&) { return true; });
 }
-
-template class LayeredView<octomap::OcTree>;
-template class LayeredView<FrozenTree>;
-template class LayeredView<BrickCells>;
 
 }  // namespace flyball

@@ -2,8 +2,7 @@
 #pragma once
 
 /// @file
-/// Several maps of different resolutions, seen as one: OctoMap's trees, copies of them that stay as
-/// they are, or brick maps at their finest level.
+/// Several maps of different resolutions, seen as one.
 ///
 /// The map used last answers. For a cube that it does not know, of whatever size, the map used
 /// before it answers, cut to that cube, and so on. A coarser map's occupied cube does not say
@@ -26,19 +25,17 @@ namespace flyball {
 
 class BrickCells;
 
-/// @tparam Cells  `octomap::OcTree`, `FrozenTree` or `BrickCells`.
-template <class Cells>
 class LayeredView final : public OccupancyView {
  public:
-  /// A map, and where those of its free cells stand that can be trusted where it answers for a
-  /// finer one. Null: in the map itself.
+  /// A map, at its finest level, and where those of its free cells stand that can be trusted where
+  /// it answers for a finer one. Null: in the map itself.
   struct Layer {
-    const Cells* cells;
+    const BrickCells* cells;
     const BrickCells* trusted_by_finer;
   };
   /// Makes the layer the one that answers first. Its maps outlive the view.
   void activate(const Layer& layer);
-  void activate(const Cells& cells) { activate({&cells, nullptr}); }
+  void activate(const BrickCells& cells) { activate({&cells, nullptr}); }
   /// The active one first.
   [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
   /// Back to knowing no map.
@@ -68,7 +65,7 @@ class LayeredView final : public OccupancyView {
                                           double limit_m,
                                           double half_band_m) const override;
 
-  /// Shows the cubes of all occupied leaves that count: those of the active map, and those of the
+  /// Shows all occupied cells that count: those of the active map, and those of the
   /// others that lie at least in part where no later map knows better.
   void for_each_occupied(const std::function<void(const Aabb& cube)>& show) const;
 

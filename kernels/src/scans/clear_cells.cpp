@@ -12,35 +12,6 @@ std::uint64_t number_of(const CellKey& brick) {
   return bits(brick.x) << 32U | bits(brick.y) << 16U | bits(brick.z);
 }
 
-/// A brick with free and unknown cells.
-Brick free_cells(std::uint64_t cells) {
-  Brick brick{};
-  for (std::size_t cell = 0; cell < brick.cells.size(); ++cell) {
-    brick.cells[cell] = (cells >> cell & 1U) != 0 ? log_odds::least : log_odds::unknown;
-  }
-  return brick;
-}
-
-/// Adds a cell to the last brick, or to a new one where the last is another.
-void add_cell(const CellKey& cell, bool hit, std::vector<BrickMasks>& cells) {
-  const CellKey brick = cell.above(brick_level);
-  if (cells.empty() || !(cells.back().brick == brick)) {
-    cells.push_back({brick});
-  }
-  (hit ? cells.back().hit : cells.back().free) |= std::uint64_t{1} << bit_in_brick(cell);
-}
-
-/// Adds the cube of `edge` cells at `first`.
-void add_cube(const CellKey& first, int edge, bool hit, std::vector<BrickMasks>& cells) {
-  for (int z = first.z; z < first.z + edge; ++z) {
-    for (int y = first.y; y < first.y + edge; ++y) {
-      for (int x = first.x; x < first.x + edge; ++x) {
-        add_cell({x, y, z}, hit, cells);
-      }
-    }
-  }
-}
-
 /// One of the 27 around and at a brick.
 CellKey neighbour(const CellKey& at, int i) {
   return {at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1};
@@ -108,6 +79,8 @@ void ClearCells::update_changed() {
     update(at);
   }
   changed_.clear();
+  cells_.show(shown_);
+  shown_.clear();
 }
 
 void ClearCells::take(const BrickMasks& change) {
@@ -131,7 +104,7 @@ void ClearCells::update(const CellKey& at) {
   const std::uint64_t clear = surrounded(known_around(at)) & brick.known & ~brick.ever_hit;
   if (clear != brick.clear) {
     brick.clear = clear;
-    cells_.fill(at, free_cells(clear));
+    shown_.push_back({at, {0, ~clear}});
   }
 }
 
@@ -170,12 +143,16 @@ std::uint64_t ClearCells::surrounded(const Rows& known) {
   return cells;
 }
 
-void ClearCells::add(const octomap::OcTree& tree) {
+void ClearCells::add(const BrickCells& map) {
   std::vector<BrickMasks> cells;
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const int edge = 1 << (tree.getTreeDepth() - leaf.getDepth());
-    const octomap::OcTreeKey first = leaf.getIndexKey();
-    add_cube({first[0], first[1], first[2]}, edge, tree.isNodeOccupied(*leaf), cells);
+  for (const Chunk* chunk : map.chunks()) {
+    for (std::size_t brick = 0; brick < Chunk::brick_count; ++brick) {
+      const CellMasks& states = chunk->masks[brick];
+      if (~states.unknown != 0) {
+        cells.push_back(
+            {brick_in(chunk->key, brick), ~(states.unknown | states.occupied), states.occupied});
+      }
+    }
   }
   add(cells);
 }

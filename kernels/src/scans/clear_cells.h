@@ -14,7 +14,6 @@
 #include "flyball/runtime/geometry.h"
 
 #include "bricks/brick_map.h"
-#include "maps/octomap_tree.h"
 #include "scan_masks.h"
 #include <array>
 #include <cstdint>
@@ -25,12 +24,12 @@ namespace flyball {
 
 class ClearCells {
  public:
-  explicit ClearCells(double cell_m) : cells_{cell_m} {}
+  explicit ClearCells(double cell_m) : cells_{BrickMap::of_states(cell_m)} {}
 
   /// @param changes  Of one scan, on the lattice of these cells.
   void add(const std::vector<BrickMasks>& changes);
-  /// Adds all that a tree knows: its occupied cells are the ones that were hit.
-  void add(const octomap::OcTree& tree);
+  /// Adds all that a map knows: its occupied cells are the ones that were hit.
+  void add(const BrickCells& map);
   /// @param space  Upright, around `centre_W`.
   void declare(const Vec3& centre_W, const Cylinder& space);
   /// The clear cells as free ones; all others are unknown.
@@ -58,7 +57,8 @@ class ClearCells {
 
   std::unordered_map<std::uint64_t, Known> bricks_{};
   BrickMap cells_;
-  std::vector<CellKey> changed_{};  ///< Bricks whose clear cells may be others now.
+  std::vector<CellKey> changed_{};    ///< Bricks whose clear cells may be others now.
+  std::vector<BrickStates> shown_{};  ///< Those whose clear cells are others.
 };
 
 }  // namespace flyball

@@ -46,12 +46,13 @@ std::vector<BrickMasks> masks_of(const octomap::OcTree& tree) {
 struct Twins {
   std::unique_ptr<octomap::OcTree> fine;
   std::unique_ptr<octomap::OcTree> coarse;
-  OctomapView expected;
+  kit::TreesInView trees{};
+  const LayeredView& expected{trees.view};
   BrickMap map{finest_m};
   BrickView view{map.cells()};
 
   Twins(int level, Fill fill) : fine{kit::random_tree(finest_m, fill, 7)} {
-    expected.activate(*fine);
+    trees.activate(*fine);
     map.apply(masks_of(*fine));
     view.activate(level);
     if (level > 0) {
@@ -61,7 +62,7 @@ struct Twins {
           coarse->setNodeValue(leaf.getX(), leaf.getY(), leaf.getZ(), 1.0F);
         }
       }
-      expected.activate(*coarse);
+      trees.activate(*coarse);
     }
   }
 };
@@ -183,7 +184,7 @@ TEST(BrickView, trusts_no_place_that_is_not_finite) {
 TEST(BrickView, treats_declared_cylinders_as_the_tree_view_does) {
   Twins twins{1, {0.40, 0.002}};
   for (const Vec3& centre : {Vec3{0, 0, 0}, Vec3{1.2, 0, 0.2}, Vec3{-0.8, 0.9, -0.5}}) {
-    twins.expected.declare_clear(centre, {1.0, 1.25});
+    twins.trees.view.declare_clear(centre, {1.0, 1.25});
     twins.view.declare_clear(centre, {1.0, 1.25});
   }
   std::mt19937 generator{8};

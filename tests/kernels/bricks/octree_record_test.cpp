@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bricks/octree_record.h"
 
+#include "bricks/brick_map.h"
 #include "scans/ray_scan.h"
 #include "world_scans.h"
 #include <random>
@@ -65,6 +66,43 @@ INSTANTIATE_TEST_SUITE_P(places,
                                   "cm";
                          });
 
+/// Every cell of the bricks around the middle: what a map says that was shown all changes, and what
+/// the tree says.
+void expect_shows(const BrickMap& shown, const octomap::OcTree& tree) {
+  constexpr int edge = 160;
+  const auto key = [](int i) { return Lattice::half_keys - edge / 2 + i; };
+  for (int i = 0; i < edge * edge * edge; ++i) {
+    const CellKey cell{key(i % edge), key(i / edge % edge), key(i / edge / edge)};
+    const auto octomap_key = [](int k) { return static_cast<octomap::key_type>(k); };
+    const auto* node = tree.search(
+        octomap::OcTreeKey{octomap_key(cell.x), octomap_key(cell.y), octomap_key(cell.z)});
+    const CellState expected = node == nullptr             ? CellState::unknown
+                               : tree.isNodeOccupied(node) ? CellState::occupied
+                                                           : CellState::free;
+    ASSERT_EQ(shown.cells().state(cell, 0), expected) << cell.x << " " << cell.y << " " << cell.z;
+  }
+}
+
+TEST(OctreeRecord, tells_all_bricks_whose_cells_have_new_states_and_few_others) {
+  octomap::OcTree tree{0.15};
+  clamp_as_mavbench(tree);
+  RayScan exact{0.15, RayScan::Match::stock};
+  OctreeRecord record;
+  BrickMap shown = BrickMap::of_states(0.15);
+  std::size_t told = 0;
+  std::size_t written = 0;
+  for (int frame = 0; frame < 10; ++frame) {
+    const auto& bricks = exact.compute(kit::world_scan(kit::Place::indoor, frame, range_m)).bricks;
+    const auto& changed = record.write(bricks, tree);
+    shown.show(changed);
+    written += frame > 0 ? bricks.size() : 0;
+    told += frame > 0 ? changed.size() : 0;
+  }
+  expect_shows(shown, tree);
+  EXPECT_GT(told, 0U);
+  EXPECT_LT(2 * told, written);
+}
+
 /// Blocks of 1 to 16 cells, freed as a whole or hit in places.
 std::vector<BrickMasks> random_blocks(std::mt19937_64& generator) {
   std::vector<BrickMasks> changes;
@@ -90,6 +128,7 @@ TEST(OctreeRecord, frees_whole_blocks_as_stock_frees_their_cells_one_by_one) {
   octomap::OcTree stock{0.2};
   octomap::OcTree ours{0.2};
   OctreeRecord record;
+  BrickMap shown = BrickMap::of_states(0.2);
   std::mt19937_64 generator{11};
   for (int round = 0; round < 60; ++round) {
     const auto changes = random_blocks(generator);
@@ -105,9 +144,10 @@ TEST(OctreeRecord, frees_whole_blocks_as_stock_frees_their_cells_one_by_one) {
         }
       }
     }
-    record.write(changes, ours);
+    shown.show(record.write(changes, ours));
     ASSERT_EQ(bytes(stock), bytes(ours)) << "round " << round;
   }
+  expect_shows(shown, ours);
   EXPECT_GT(ours.size(), 100U);
 }
 
@@ -137,7 +177,11 @@ TEST(OctreeRecord, starts_a_tree_from_any_single_cell) {
   for (int bit = 0; bit < 64; ++bit) {
     octomap::OcTree stock{0.2};
     octomap::OcTree ours{0.2};
-    OctreeRecord{}.write({{{8192, 8192, 8192}, 0, std::uint64_t{1} << bit}}, ours);
+    OctreeRecord record;
+    const auto& changed = record.write({{{8192, 8192, 8192}, 0, std::uint64_t{1} << bit}}, ours);
+    ASSERT_EQ(changed.size(), 1U);
+    EXPECT_EQ(changed.front().states.occupied, std::uint64_t{1} << bit);
+    EXPECT_EQ(changed.front().states.unknown, ~(std::uint64_t{1} << bit));
     const auto key = [&](int offset) {
       return static_cast<octomap::key_type>(32768 + (offset & 3));
     };

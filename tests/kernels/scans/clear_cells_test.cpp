@@ -73,15 +73,15 @@ TEST(ClearCells, are_those_without_a_hit_and_with_known_neighbours) {
   EXPECT_GT(clear, 500U);
 }
 
-TEST(ClearCells, know_of_a_tree_what_it_still_tells) {
-  octomap::OcTree tree{0.8};
+TEST(ClearCells, know_of_a_map_what_it_still_tells) {
+  std::vector<BrickMasks> seen;
   for (int i = 0; i < 512; ++i) {
-    const auto key = [](int offset) { return static_cast<octomap::key_type>(base + offset); };
-    const octomap::OcTreeKey cell{key(i % 8), key(i / 8 % 8), key(i / 64)};
-    tree.setNodeValue(cell, i == 3 + 8 * 3 + 64 * 3 ? 2.0F : -2.0F);
+    seen.push_back(one_cell(i % 8, i / 8 % 8, i / 64, i == 3 + 8 * 3 + 64 * 3));
   }
+  BrickMap map{0.8};
+  map.apply(seen);
   ClearCells cells{0.8};
-  cells.add(tree);
+  cells.add(map.cells());
   EXPECT_TRUE(is_clear(cells, 1, 1, 1));
   EXPECT_TRUE(is_clear(cells, 6, 6, 6));
   EXPECT_FALSE(is_clear(cells, 3, 3, 3));  // occupied

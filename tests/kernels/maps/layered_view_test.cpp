@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "maps/octomap_view.h"
+#include "maps/layered_view.h"
 
 #include "maps/octomap_tree.h"
 #include "random_map.h"
@@ -22,7 +22,7 @@ using kit::stacks;
 
 constexpr Cylinder body{0.35, 0.15};
 
-TEST(OctomapView, gives_the_worst_state_of_the_cubes_that_the_body_overlaps) {
+TEST(LayeredView, gives_the_worst_state_of_the_cubes_that_the_body_overlaps) {
   for (const auto& stack : stacks) {
     for (const Fill fill : {dense, sparse}) {
       const Rig rig{stack, fill};
@@ -41,7 +41,7 @@ TEST(OctomapView, gives_the_worst_state_of_the_cubes_that_the_body_overlaps) {
   }
 }
 
-TEST(OctomapView, says_of_a_point_what_the_cell_around_it_is) {
+TEST(LayeredView, says_of_a_point_what_the_cell_around_it_is) {
   for (const auto& stack : stacks) {
     const Rig rig{stack, sparse};
     std::mt19937 generator{2};
@@ -52,7 +52,7 @@ TEST(OctomapView, says_of_a_point_what_the_cell_around_it_is) {
   }
 }
 
-TEST(OctomapView, finds_an_occupied_cube_in_a_box) {
+TEST(LayeredView, finds_an_occupied_cube_in_a_box) {
   for (const auto& stack : stacks) {
     const Rig rig{stack, {0.90, 0.04}};
     std::mt19937 generator{3};
@@ -74,7 +74,7 @@ TEST(OctomapView, finds_an_occupied_cube_in_a_box) {
 
 // Between two samples 2 mm apart the body moves less than the .5 mm by which the wider one is
 // wider.
-TEST(OctomapView, misses_no_hit_on_a_segment_and_invents_none) {
+TEST(LayeredView, misses_no_hit_on_a_segment_and_invents_none) {
   for (const auto& stack : stacks) {
     const Rig rig{stack, {0.90, 0.02}};
     std::mt19937 generator{4};
@@ -104,53 +104,56 @@ TEST(OctomapView, misses_no_hit_on_a_segment_and_invents_none) {
   }
 }
 
-TEST(OctomapView, lets_a_body_stand_against_a_wall) {
+TEST(LayeredView, lets_a_body_stand_against_a_wall) {
   octomap::OcTree tree{0.15};
   for (int y = -10; y < 10; ++y) {
     for (int z = 0; z < 10; ++z) {
       tree.updateNode(1.5 + 0.075, 0.15 * y + 0.075, 0.15 * z + 0.075, true);
     }
   }
-  OctomapView view;
-  view.activate(tree);
+  kit::TreesInView maps;
+  maps.activate(tree);
+  LayeredView& view = maps.view;
   EXPECT_EQ(view.body_state({1.5 - body.radius_m, 0.0, 0.75}, body), CellState::unknown);
   EXPECT_EQ(view.body_state({1.5 - body.radius_m + 1e-6, 0.0, 0.75}, body), CellState::occupied);
   EXPECT_FALSE(view.segment_hits({1.15, -1.0, 0.75}, {1.15, 1.0, 0.75}, body));
   EXPECT_TRUE(view.segment_hits({1.15, -1.0, 0.75}, {1.1501, 1.0, 0.75}, body));
 }
 
-TEST(OctomapView, sees_a_wall_at_the_far_end_of_300_metres) {
+TEST(LayeredView, sees_a_wall_at_the_far_end_of_300_metres) {
   octomap::OcTree tree{0.15};
   tree.updateNode(280.0, 0.0, 5.0, true);
-  OctomapView view;
-  view.activate(tree);
+  kit::TreesInView maps;
+  maps.activate(tree);
+  LayeredView& view = maps.view;
   EXPECT_TRUE(view.segment_hits({-20.0, 0.0, 5.0}, {300.0, 0.0, 5.0}, body));
   EXPECT_FALSE(view.segment_hits({-20.0, 0.0, 5.0}, {279.0, 0.0, 5.0}, body));
   EXPECT_FALSE(view.segment_hits({-20.0, 1.0, 5.0}, {300.0, 1.0, 5.0}, body));
 }
 
-TEST(OctomapView, knows_nothing_before_the_first_tree) {
-  const OctomapView view;
+TEST(LayeredView, knows_nothing_before_the_first_tree) {
+  const LayeredView view;
   EXPECT_EQ(view.state({0, 0, 0}), CellState::unknown);
   EXPECT_EQ(view.body_state({0, 0, 0}, body), CellState::unknown);
   EXPECT_FALSE(view.segment_hits({0, 0, 0}, {9, 0, 0}, body));
   EXPECT_EQ(view.obstacle_density({0, 0, 0}, 10.0, 1.0), 0.0);
   EXPECT_EQ(view.nearest_obstacle_m({0, 0, 0}, 20.0, 1.0), 20.0);
-  EXPECT_EQ(view.resolution_m(), OctomapView::initial_resolution_m);
+  EXPECT_EQ(view.resolution_m(), LayeredView::initial_resolution_m);
 }
 
-TEST(OctomapView, never_calls_free_what_lies_outside_its_keys) {
+TEST(LayeredView, never_calls_free_what_lies_outside_its_keys) {
   octomap::OcTree tree{0.15};
   tree.updateNode(0.0, 0.0, 0.0, false);
-  OctomapView view;
-  view.activate(tree);
+  kit::TreesInView maps;
+  maps.activate(tree);
+  LayeredView& view = maps.view;
   EXPECT_EQ(view.state({1e6, 0, 0}), CellState::unknown);
   EXPECT_EQ(view.body_state({1e6, 0, 0}, body), CellState::unknown);
   EXPECT_FALSE(view.segment_hits({1e6, 0, 0}, {2e6, 0, 0}, body));
 }
 
-TEST(OctomapView, trusts_no_place_that_is_not_finite) {
-  OctomapView view;
+TEST(LayeredView, trusts_no_place_that_is_not_finite) {
+  LayeredView view;
   view.declare_clear({0, 0, 0}, {1.0, 1.0});
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     EXPECT_EQ(view.state({0, bad, 0}), CellState::unknown);
@@ -159,7 +162,7 @@ TEST(OctomapView, trusts_no_place_that_is_not_finite) {
   }
 }
 
-TEST(OctomapView, measures_density_in_columns_of_fixed_size) {
+TEST(LayeredView, measures_density_in_columns_of_fixed_size) {
   for (const auto& stack : stacks) {
     const Rig rig{stack, {0.97, 0.002}};
     std::mt19937 generator{5};
@@ -188,21 +191,22 @@ TEST(OctomapView, measures_density_in_columns_of_fixed_size) {
   }
 }
 
-TEST(OctomapView, leaves_the_ground_out_of_density_and_distance) {
+TEST(LayeredView, leaves_the_ground_out_of_density_and_distance) {
   octomap::OcTree tree{0.15};
   for (int i = 0; i < 10000; ++i) {
     tree.updateNode(0.15 * (i % 100) - 7.5, 0.15 * (i / 100) - 7.5, 0.075, true);
   }
   tree.updateNode(3.0 + 0.075, 0.075, 2.0, true);
-  OctomapView view;
-  view.activate(tree);
+  kit::TreesInView maps;
+  maps.activate(tree);
+  LayeredView& view = maps.view;
   EXPECT_NEAR(view.obstacle_density({0, 0, 2.0}, 4.0, 1.0), 1.0 / 80, 0.001);
   EXPECT_GT(view.obstacle_density({0, 0, 0.5}, 4.0, 1.0), 0.99);
   EXPECT_NEAR(view.nearest_obstacle_m({0, 0, 2.0}, 20.0, 1.0), 3.0, 1e-9);
   EXPECT_NEAR(view.nearest_obstacle_m({0, 0, 2.0}, 20.0, 1.9), 1.85, 1e-9);
 }
 
-TEST(OctomapView, finds_the_nearest_obstacle_in_the_band) {
+TEST(LayeredView, finds_the_nearest_obstacle_in_the_band) {
   for (const auto& stack : stacks) {
     const Rig rig{stack, {0.97, 0.001}};
     std::mt19937 generator{6};

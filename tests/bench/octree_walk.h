@@ -2,15 +2,15 @@
 #pragma once
 
 /// @file
-/// Walks down an OctoMap tree, or a copy of one that stays as it is, only where a shape is, and
-/// shows what the tree says there. Own recursion, because OctoMap's iterators visit whole boxes and
-/// skip unknown space.
+/// Walks down an OctoMap tree only where a shape is, and shows what the tree says there: what
+/// questions to the brick map are compared with. Own recursion, because OctoMap's iterators visit
+/// whole boxes and skip unknown space.
 
-#include "maps/frozen_tree.h"
+#include "flyball/runtime/occupancy.h"
+
 #include "maps/octomap_tree.h"
 #include "visual/overlap.h"
 #include <array>
-#include <type_traits>
 
 namespace flyball {
 
@@ -33,21 +33,10 @@ class OctomapNodes {
   const octomap::OcTree& tree_;
 };
 
-template <class Tree>
-struct NodesOf {
-  using type = const Tree&;
-};
-template <>
-struct NodesOf<octomap::OcTree> {
-  using type = OctomapNodes;
-};
-
-/// @tparam Tree  `octomap::OcTree` or `FrozenTree`.
-template <class Tree>
 class OctreeWalk {
  public:
   /// The tree outlives the walk.
-  explicit OctreeWalk(const Tree& tree)
+  explicit OctreeWalk(const octomap::OcTree& tree)
       : tree_{tree}, resolution_m_{tree_.cell_m()}, cells_per_m_{1.0 / resolution_m_} {}
 
   /// Shows each occupied leaf's cube, cut to `region`, that overlaps the shape, near ones first.
@@ -70,8 +59,7 @@ class OctreeWalk {
   }
 
  private:
-  using Nodes = typename NodesOf<Tree>::type;
-  using Node = typename std::decay_t<Nodes>::Node;
+  using Node = OctomapNodes::Node;
   using Keys = std::array<int, 3>;
   static constexpr int all_keys = 1 << 16;
   static constexpr int half_keys = all_keys / 2;
@@ -207,9 +195,38 @@ class OctreeWalk {
            });
   }
 
-  Nodes tree_;
+  OctomapNodes tree_;
   double resolution_m_;
   double cells_per_m_;
+};
+
+/// Questions to a tree.
+class OctreeView {
+ public:
+  /// The tree outlives the view.
+  explicit OctreeView(const octomap::OcTree& tree) : tree_{tree}, walk_{tree} {}
+
+  [[nodiscard]] CellState state(const Vec3& p_W) const {
+    const octomap::OcTreeNode* node = tree_.search(p_W.x(), p_W.y(), p_W.z());
+    return node == nullptr              ? CellState::unknown
+           : tree_.isNodeOccupied(node) ? CellState::occupied
+                                        : CellState::free;
+  }
+  [[nodiscard]] CellState body_state(const Vec3& p_WB, const Cylinder& body) const {
+    const BodyShape shape{p_WB, body};
+    const auto any = [](const Aabb&) { return true; };
+    return walk_.any_occupied(shape.bounds(), shape, any)  ? CellState::occupied
+           : walk_.any_unknown(shape.bounds(), shape, any) ? CellState::unknown
+                                                           : CellState::free;
+  }
+  [[nodiscard]] bool segment_hits(const Vec3& from, const Vec3& to, const Cylinder& body) const {
+    const SweepShape shape{from, to, body};
+    return walk_.any_occupied(shape.bounds(), shape, [](const Aabb&) { return true; });
+  }
+
+ private:
+  const octomap::OcTree& tree_;
+  OctreeWalk walk_;
 };
 
 }  // namespace flyball
