@@ -48,8 +48,11 @@ Scenario mission(const Place& place, std::uint64_t seed) {
   scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
   scenario.mission.time_limit_s = 60.0;
   scenario.vehicle.physics_step_s = 0.004;
-  scenario.camera.width_px = 32;
-  scenario.camera.height_px = 18;
+  // The thinnest trunk, of .3 m, must be as wide as a pixel at 20 m, where the camera's range ends:
+  // maps of a camera that looks past it declare its place free, and two later hits do not undo
+  // that.
+  scenario.camera.width_px = 144;
+  scenario.camera.height_px = 81;
   return scenario;
 }
 
