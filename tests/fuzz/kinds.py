@@ -177,9 +177,23 @@ def recording(rng, place, seeds):
         files[name] = made_inputs.repaired_png(files[name])
     for file, content in files.items():
         _write(place, file, content)
+    poses = _damaged_one(rng, place, {"groundtruth.txt": seeds.recordings[0]["groundtruth.txt"]},
+                         True, "poses")
     return [["localize", ".", "--localizer", "visual_slam", "--out", "path.txt"],
             ["localize", ".", "--localizer", "visual_inertial"],
-            ["map", "from", ".", "--out", "map.bt"]]
+            ["map", "from", ".", "--out", "map.bt"],
+            ["map", "from", ".", "--poses", poses, "--out", "posed.bt"]]
+
+
+def board(rng, place, seeds):
+    name = _damaged_one(rng, place, seeds.shipped("boards", ".toml"), True)
+    files = made_inputs.board_tree()
+    for file in rng.sample(sorted(files), rng.choice([0, 1, 4])):
+        files[file] = damaged(rng, files[file], b"", True)
+    for file, content in files.items():
+        _write(place / "tree", file, content)
+    return [["board", "--root", "tree", "--board", "./" + name], ["board", "--root", "tree"],
+            ["board", "--root", "tree", "restore", "--run-folder", "tree/run"]]
 
 
 def record(rng, place, seeds):
@@ -222,5 +236,5 @@ def library(rng, place, seeds):
 
 
 KINDS = {maker.__name__: maker for maker in (
-    scenario, preset, platform, airframe, bt, ot, mesh, picture, recording, record, store, lua,
-    library)}
+    scenario, preset, platform, airframe, bt, ot, mesh, picture, recording, board, record,
+    store, lua, library)}

@@ -189,3 +189,28 @@ def euroc_recording():
     files["mav0/state_groundtruth_estimate0/data.csv"] = ("#timestamp,p,p,p,q,q,q,q\n" + "".join(
         f"{s},{0.01 * i},0,1,1,0,0,0\n" for i, s in enumerate(stamps))).encode()
     return files
+
+
+def board_tree():
+    """What a board of two cores shows below /sys, as far as `flyball board` looks at it, and the
+    journal of a session that was killed there."""
+    cpu = "sys/devices/system/cpu"
+    clocks = {"scaling_available_frequencies": "345600 960000 2035200 ", "related_cpus": "0 1",
+              "affected_cpus": "0 1", "cpuinfo_min_freq": "345600", "cpuinfo_max_freq": "2035200",
+              "scaling_min_freq": "345600", "scaling_max_freq": "2035200",
+              "scaling_cur_freq": "960000", "scaling_driver": "tegra_cpufreq",
+              "scaling_governor": "userspace", "scaling_setspeed": "960000",
+              "scaling_available_governors": "schedutil userspace performance "}
+    zone, rail = "sys/class/thermal/thermal_zone0", "sys/bus/i2c/drivers/ina3221x/0-0041"
+    governor = f"/{cpu}/cpufreq/policy0/scaling_governor"
+    files = {f"{cpu}/cpufreq/policy0/{name}": text + "\n" for name, text in clocks.items()}
+    files.update({
+        f"{cpu}/cpu0/topology/core_id": "0\n", f"{cpu}/cpu1/topology/core_id": "1\n",
+        f"{cpu}/cpu1/online": "1\n", f"{cpu}/present": "0-1\n", f"{cpu}/online": "0-1\n",
+        f"{zone}/type": "MCPU-therm\n", f"{zone}/temp": "43000\n",
+        f"{zone}/trip_point_0_type": "passive\n", f"{zone}/trip_point_0_temp": "95500\n",
+        f"{rail}/rail_name_0": "VDD_IN\n", f"{rail}/in_power0_input": "5100\n",
+        "proc/device-tree/model": "NVIDIA Jetson TX2 Developer Kit\0",
+        "proc/cmdline": "root=/dev/mmcblk0p1 isolcpus= \n", "proc/12/comm": "nvpmodel\n",
+        "run/board.journal": f"{len(governor)}\n{governor}\n10\nschedutil\n\n"})
+    return {name: text.encode() for name, text in files.items()}

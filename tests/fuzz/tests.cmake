@@ -1,5 +1,14 @@
 # Mutation fuzzing of the program (fuzz_inputs.py), and libFuzzer's targets for single parsers.
 set(fuzz ${CMAKE_CURRENT_LIST_DIR})
+# flyball_fuzz_settings(<target>): what targets/*_fuzzer.cpp include and know.
+function(flyball_fuzz_settings target)
+  set(folders governors/src kernels/src sim/src apps tests/kit)
+  list(TRANSFORM folders PREPEND ${PROJECT_SOURCE_DIR}/)
+  target_include_directories(${target} PRIVATE ${folders})
+  target_compile_definitions(${target} PRIVATE
+    FLYBALL_PLATFORMS="${PROJECT_SOURCE_DIR}/sim/platforms"
+    $<$<TARGET_EXISTS:flyball_lua>:FLYBALL_HAS_LUA>)
+endfunction()
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(TARGET flyball_cli AND Python3_FOUND)
   # A library that the driver damages further: its process sends packets of its own.
@@ -14,6 +23,16 @@ if(TARGET flyball_cli AND Python3_FOUND)
                    --flyball $<TARGET_FILE:flyball_cli> --packets $<TARGET_FILE:fuzz_packets>
                    --out ${PROJECT_BINARY_DIR}/fuzz/findings)
   set_tests_properties(fuzz_inputs PROPERTIES LABELS fuzz TIMEOUT 300)
+endif()
+
+# Every build compiles libFuzzer's targets, without libFuzzer: what only clang sees grows stale.
+if(FLYBALL_BUILD_SIM AND TARGET flyball_lua AND TARGET GTest::gtest)
+  file(GLOB fuzz_sources CONFIGURE_DEPENDS ${fuzz}/targets/*_fuzzer.cpp)
+  add_library(fuzz_sources OBJECT ${fuzz_sources})
+  target_link_libraries(fuzz_sources PRIVATE flyball::apps flyball_lua octomap octomath PNG::PNG
+                                             GTest::gtest)
+  flyball_fuzz_settings(fuzz_sources)
+  flyball_compile_options(fuzz_sources)
 endif()
 
 option(FLYBALL_BUILD_FUZZERS "Build libFuzzer's targets; needs clang (preset fuzz)" OFF)
@@ -35,9 +54,7 @@ function(flyball_fuzzer name)
   add_executable(${name}_fuzzer EXCLUDE_FROM_ALL ${fuzz}/targets/${name}_fuzzer.cpp)
   target_link_libraries(${name}_fuzzer PRIVATE ${arg_LIBRARIES})
   target_link_options(${name}_fuzzer PRIVATE -fsanitize=fuzzer)
-  set(folders governors/src kernels/src sim/src apps tests/kit)
-  list(TRANSFORM folders PREPEND ${PROJECT_SOURCE_DIR}/)
-  target_include_directories(${name}_fuzzer PRIVATE ${folders})
+  flyball_fuzz_settings(${name}_fuzzer)
   add_dependencies(fuzzers ${name}_fuzzer)
 endfunction()
 flyball_fuzzer(preset LIBRARIES flyball::governors)
@@ -45,13 +62,10 @@ flyball_fuzzer(packet LIBRARIES flyball::governors)
 if(TARGET flyball_lua)
   flyball_fuzzer(script LIBRARIES flyball::governors flyball_lua)
   flyball_fuzzer(format LIBRARIES flyball::governors flyball_lua)
-  target_compile_definitions(format_fuzzer PRIVATE FLYBALL_HAS_LUA)
 endif()
 if(FLYBALL_BUILD_SIM)
   flyball_fuzzer(scan LIBRARIES flyball::sim)
   flyball_fuzzer(platform LIBRARIES flyball::sim)
-  target_compile_definitions(platform_fuzzer PRIVATE
-    FLYBALL_PLATFORMS="${PROJECT_SOURCE_DIR}/sim/platforms")
   flyball_fuzzer(airframe LIBRARIES flyball::sim)
   flyball_fuzzer(map LIBRARIES flyball::kernels octomap octomath)
   flyball_fuzzer(scenario LIBRARIES flyball::scenario)

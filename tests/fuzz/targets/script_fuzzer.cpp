@@ -6,6 +6,7 @@
 #include "flyball/runtime/knob.h"
 
 #include "input_folder.h"
+#include "policy_start.h"
 #include "scripts/lua_policy.h"
 
 namespace {
