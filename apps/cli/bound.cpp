@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "flyball/records/text_table.h"
+#include "flyball/scenario/override.h"
 #include "flyball/studies/energy_bound.h"
 
 #include "commands.h"
@@ -19,11 +20,12 @@ struct BoundOptions {
 };
 
 int bound(const BoundOptions& options) {
-  std::vector<std::string> settings = options.flight.settings;
+  std::vector<Override> overrides = of_set(options.flight.settings);
   if (!options.seed.empty()) {
-    settings.push_back("seed=" + options.seed);
+    overrides.push_back({"seed=" + options.seed, "--seed"});
   }
-  const auto loaded = load_scenario(options.flight.scenario, settings, options.flight.plugins);
+  const auto loaded =
+      load_overridden_scenario(options.flight.scenario, overrides, options.flight.plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

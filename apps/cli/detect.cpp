@@ -121,6 +121,7 @@ void add_detect(CLI::App& program, int& exit_code) {
   refuse_empty(
       *command->add_option("--out", run.out, "writes pictures with boxes there")->type_name("DIR"));
   command->add_flag("--json", options->json, "one JSON object a line");
+  add_kernels(*command, run.plugins);
   command->callback([options, &exit_code] { exit_code = detect(*options); });
 }
 

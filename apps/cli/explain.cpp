@@ -9,6 +9,8 @@
 #include "console.h"
 #include "flight_options.h"
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +40,28 @@ std::string setting_text(const Decision& setting) {
   return listed(setting, [](const auto& one) {
     return std::string{one.knob} + " " + rounded(one.value, one.value > 1000.0 ? 0 : 2);
   });
+}
+
+/// A choice with its numbers in the fewest digits that stand for the same value: the record's own
+/// 17 make .15 of .14999999999999999.
+std::string readable(const std::string& choice) {
+  std::string text;
+  const char* at = choice.data();
+  const char* const end = at + choice.size();
+  while (at != end) {
+    const char* const number = std::find(at, end, '=');
+    const char* const begin = number == end ? end : number + 1;
+    text.append(at, begin);
+    double value = 0.0;
+    const auto read = std::from_chars(begin, end, value);
+    if (read.ec == std::errc{}) {
+      std::array<char, 32> digits{};
+      const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+      text.append(digits.data(), written.ptr);
+    }
+    at = read.ptr;
+  }
+  return text;
 }
 
 std::string options_text(const std::vector<PolicyOption>& options) {
@@ -76,7 +100,7 @@ int run_explain(const ExplainOptions& options) {
     return refuse({told.error()});
   }
   print("Policy " + flight->scenario.governor.policy + " at " + rounded(to_seconds(told->at), 3) +
-        " s saw\n" + seen_text(told->seen) + "It chose " + told->choice + "\n" +
+        " s saw\n" + seen_text(told->seen) + "It chose " + readable(told->choice) + "\n" +
         options_text(told->options) + worth_text(*told));
   return exit_success;
 }

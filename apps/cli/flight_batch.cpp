@@ -2,6 +2,8 @@
 
 #include "flight_batch.h"
 
+#include "flyball/scenario/override.h"
+
 #include "children.h"
 #include <algorithm>
 #include <optional>
@@ -59,9 +61,10 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
                                                             const std::string& policy,
                                                             std::uint64_t seed,
                                                             const std::string& folder) {
-  std::vector<std::string> settings = options.settings;
-  settings.insert(settings.end(), {"governor.policy=" + policy, "seed=" + std::to_string(seed)});
-  auto loaded = load_scenario(options.scenario, settings, options.plugins);
+  std::vector<Override> overrides = of_set(options.settings);
+  overrides.push_back({"governor.policy=" + policy, "--policies"});
+  overrides.push_back({"seed=" + std::to_string(seed), "--seeds"});
+  auto loaded = load_overridden_scenario(options.scenario, overrides, options.plugins);
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }

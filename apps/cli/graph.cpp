@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include <algorithm>
 #include <memory>
 
@@ -16,10 +17,11 @@ namespace {
 struct GraphOptions {
   std::string workload;
   std::string format{"text"};
+  Plugins plugins{};
 };
 
 int graph(const GraphOptions& options) {
-  const std::vector<std::string> known = workload_names(Plugins{});
+  const std::vector<std::string> known = workload_names(options.plugins);
   if (std::find(known.begin(), known.end(), options.workload) == known.end()) {
     return refuse({{ErrorCode::not_found,
                     "no workload \"" + options.workload + "\"; try: flyball list workloads"}});
@@ -30,6 +32,7 @@ int graph(const GraphOptions& options) {
   }
   Scenario scenario;  // The defaults: any kernels show the same dataflow.
   scenario.mission.workload = options.workload;
+  scenario.plugins = options.plugins;
   const Result<std::string> drawn = describe_graph(scenario, options.format == "dot");
   if (!drawn) {
     return refuse({drawn.error()});
@@ -48,6 +51,7 @@ void add_graph(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("--format", options->format, "text or dot (for Graphviz)")
       ->type_name("text|dot");
+  add_kernels(*command, options->plugins);
   command->callback([options, &exit_code] { exit_code = graph(*options); });
 }
 

@@ -21,6 +21,7 @@ struct LocalizeOptions {
   std::string localizer{"visual_slam"};
   std::string out;
   double uncertain_above_m{0.1};
+  Plugins plugins{};
   bool as_json{};
 };
 
@@ -71,7 +72,7 @@ std::string to_text(const LocalizationRun& run, double uncertain_above_m) {
 }
 
 int localize(const LocalizeOptions& options) {
-  auto localizer = make_seeing_localizer(options.localizer, Plugins{});
+  auto localizer = make_seeing_localizer(options.localizer, options.plugins);
   if (!localizer) {
     return refuse({localizer.error()});
   }
@@ -118,6 +119,7 @@ void add_localize(CLI::App& program, int& exit_code) {
   command->add_option("--out", options->out, "writes the path there, as TUM's tools read it")
       ->type_name("FILE");
   command->add_flag("--json", options->as_json, "prints JSON");
+  add_kernels(*command, options->plugins);
   command->callback([options, &exit_code] { exit_code = localize(*options); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include "recording_options.h"
 #include <filesystem>
 #include <memory>
@@ -30,6 +31,7 @@ struct MapFromOptions {
   std::string poses;
   std::string localizer;
   MappingSettings settings;
+  Plugins plugins{};
   bool as_json{};
 };
 
@@ -74,8 +76,10 @@ Pose level_camera() {
 
 /// The localizer's path, moved to where the true one begins. Without one, a localizer that feels
 /// gravity is upright already; another one begins as a level camera.
-Result<std::vector<TimedPose>> localized(const Recording& recording, const std::string& name) {
-  auto localizer = make_seeing_localizer(name, Plugins{});
+Result<std::vector<TimedPose>> localized(const Recording& recording,
+                                         const std::string& name,
+                                         const Plugins& plugins) {
+  auto localizer = make_seeing_localizer(name, plugins);
   if (!localizer) {
     return localizer.error();
   }
@@ -102,7 +106,7 @@ Result<std::vector<TimedPose>> localized(const Recording& recording, const std::
 Result<std::vector<TimedPose>> poses_for(const Recording& recording,
                                          const MapFromOptions& options) {
   if (!options.localizer.empty()) {
-    return localized(recording, options.localizer);
+    return localized(recording, options.localizer, options.plugins);
   }
   if (!options.poses.empty()) {
     return read_tum_trajectory(options.poses);
@@ -145,7 +149,7 @@ int map_from(MapFromOptions& options) {
   if (const Status usable = check(options); !usable) {
     return refuse({usable.error()});
   }
-  auto mapper = make_mapper(options.mapper, Plugins{});
+  auto mapper = make_mapper(options.mapper, options.plugins);
   if (!mapper) {
     return refuse({mapper.error()});
   }
@@ -204,6 +208,7 @@ void add_map_from(CLI::App& map, int& exit_code) {
       ->type_name("NAME");
   command->add_option("--every", options->settings.every, "uses every Nth frame")->type_name("N");
   command->add_flag("--json", options->as_json, "prints JSON");
+  add_kernels(*command, options->plugins);
   command->callback([options, &exit_code] { exit_code = map_from(*options); });
 }
 

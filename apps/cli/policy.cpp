@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -12,9 +13,15 @@
 namespace flyball {
 namespace {
 
-int check(const std::string& file) {
+struct CheckOptions {
+  std::string file{};
+  Plugins plugins{};
+};
+
+int check(const CheckOptions& options) {
+  const std::string& file = options.file;
   constexpr std::uint64_t seed = 1;
-  const Result<PolicyChoice> choice = choose_policy(file, Plugins{}, seed);
+  const Result<PolicyChoice> choice = choose_policy(file, options.plugins, seed);
   if (!choice) {
     return refuse({choice.error()});
   }
@@ -46,12 +53,13 @@ void add_policy(CLI::App& program, int& exit_code) {
   command->require_subcommand(1);
   CLI::App* check_command = command->add_subcommand(
       "check", "checks a policy against the contract of all policies, and lists what it breaks");
-  const auto file = std::make_shared<std::string>();  // Owners: the parser's callbacks.
+  const auto options = std::make_shared<CheckOptions>();  // Owners: the parser's callbacks.
   check_command
-      ->add_option("FILE", *file,
+      ->add_option("FILE", options->file,
                    "a preset (.toml), a script (.lua), a library (.so), or a policy's name")
       ->required();
-  check_command->callback([file, &exit_code] { exit_code = check(*file); });
+  add_kernels(*check_command, options->plugins);
+  check_command->callback([options, &exit_code] { exit_code = check(*options); });
 }
 
 }  // namespace flyball

@@ -2,6 +2,7 @@
 
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
+#include "flyball/scenario/override.h"
 #include "flyball/simulation/mission.h"
 
 #include "commands.h"
@@ -71,13 +72,13 @@ std::string result_text(const Summary& s, const std::string& folder) {
          aligned(lines);
 }
 
-std::vector<std::string> overrides_of(const RunOptions& options) {
-  std::vector<std::string> overrides = options.flight.settings;
+std::vector<Override> overrides_of(const RunOptions& options) {
+  std::vector<Override> overrides = of_set(options.flight.settings);
   if (!options.policy.empty()) {
-    overrides.push_back("governor.policy=" + options.policy);
+    overrides.push_back({"governor.policy=" + options.policy, "--policy"});
   }
   if (!options.seed.empty()) {
-    overrides.push_back("seed=" + options.seed);
+    overrides.push_back({"seed=" + options.seed, "--seed"});
   }
   return overrides;
 }
@@ -107,8 +108,8 @@ int exit_code_of(const Summary& summary) {
 }
 
 int run(const RunOptions& options) {
-  const auto loaded =
-      load_scenario(options.flight.scenario, overrides_of(options), options.flight.plugins);
+  const auto loaded = load_overridden_scenario(options.flight.scenario, overrides_of(options),
+                                               options.flight.plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

@@ -159,13 +159,29 @@ std::variant<LoadedScenario, std::vector<Error>> load_scenario(
     const std::string& name_or_path,
     const std::vector<std::string>& overrides,
     const Plugins& plugins) {
+  return load_overridden_scenario(name_or_path, of_set(overrides), plugins);
+}
+
+std::vector<Override> of_set(const std::vector<std::string>& keys_and_values) {
+  std::vector<Override> overrides;
+  overrides.reserve(keys_and_values.size());
+  for (const std::string& one : keys_and_values) {
+    overrides.push_back({one});
+  }
+  return overrides;
+}
+
+std::variant<LoadedScenario, std::vector<Error>> load_overridden_scenario(
+    const std::string& name_or_path,
+    const std::vector<Override>& overrides,
+    const Plugins& plugins) {
   const Result<std::string> file = find_shipped("scenarios", name_or_path);
   if (!file) {
     return std::vector<Error>{file.error()};
   }
   const ScenarioText filed = read_scenario_file(*file);
   ScenarioText read = filed;
-  for (const std::string& override : overrides) {
+  for (const Override& override : overrides) {
     read_override(override, read);
   }
   const Fields fields = scenario_fields();

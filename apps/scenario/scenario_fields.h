@@ -37,8 +37,8 @@ struct ScenarioField {
 /// The value that was given for a key, and where it was given.
 struct GivenValue {
   std::variant<double, std::int64_t, bool, std::string> value;
-  std::string origin;  ///< `mine.toml:12` or `--set`.
-  std::string text;    ///< As written, for messages and for texts given by `--set`.
+  std::string origin;  ///< `mine.toml:12` or an option: `--set`, `--policy`.
+  std::string text;    ///< As written, for messages and for texts given by options.
 };
 
 /// Sets the field. Returns one sentence when the value has the wrong type or is out of range.

@@ -132,7 +132,8 @@ ScenarioText read_scenario_file(const std::string& path) {
   return read;
 }
 
-void read_override(const std::string& key_and_value, ScenarioText& read) {
+void read_override(const Override& override, ScenarioText& read) {
+  const auto& [key_and_value, option] = override;
   const std::size_t equals = key_and_value.find('=');
   const std::string key = trimmed(key_and_value.substr(0, equals));
   const std::string text =
@@ -140,11 +141,12 @@ void read_override(const std::string& key_and_value, ScenarioText& read) {
   if (key.empty() || text.empty()) {
     read.errors.push_back(
         {ErrorCode::invalid_input,
-         "--set " + key_and_value + " is not KEY=VALUE; for example: --set map.range_m=5"});
+         option + " " + key_and_value + " is not KEY=VALUE; for example: --set map.range_m=5"});
     return;
   }
-  GivenValue given = toml_scalar(text).value_or(GivenValue{text, "--set", text});
+  GivenValue given = toml_scalar(text).value_or(GivenValue{text, option, text});
   given.text = text;
+  given.origin = option;
   read.values[key] = std::move(given);
 }
 

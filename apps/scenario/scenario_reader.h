@@ -4,6 +4,8 @@
 /// @file
 /// Turns text into keys and values. It knows TOML, but not what the keys mean.
 
+#include "flyball/scenario/override.h"
+
 #include "scenario/scenario_fields.h"
 #include <map>
 #include <string>
@@ -23,6 +25,6 @@ struct ScenarioText {
 /// `events.1.at_s`.
 [[nodiscard]] ScenarioText read_scenario_file(const std::string& path);
 /// Overrides one value by `KEY=VALUE`. A value that is not TOML counts as a text without quotes.
-void read_override(const std::string& key_and_value, ScenarioText& read);
+void read_override(const Override& override, ScenarioText& read);
 
 }  // namespace flyball

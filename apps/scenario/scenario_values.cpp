@@ -129,7 +129,8 @@ std::optional<std::string> as_text(const GivenValue& given) {
   if (const auto* text = std::get_if<std::string>(&given.value)) {
     return text->empty() ? std::nullopt : std::optional{*text};
   }
-  return given.origin == "--set" ? std::optional{given.text} : std::nullopt;
+  const bool is_of_option = given.origin.rfind("--", 0) == 0;
+  return is_of_option ? std::optional{given.text} : std::nullopt;
 }
 
 std::optional<Error> assign(Scenario& scenario,

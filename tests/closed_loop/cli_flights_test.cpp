@@ -54,6 +54,16 @@ TEST(CliFlights, a_result_that_cannot_be_printed_is_told_and_leaves_its_record) 
   EXPECT_TRUE(fs::exists(flyball.place.path("c/report.html")));
 }
 
+TEST(CliFlights, explains_a_choice_with_no_more_digits_than_it_has) {
+  const FlyballProgram flyball;
+  ASSERT_EQ(flyball.run(std::string{"run "} + short_flight + "--out r").exit_code, 0);
+  ASSERT_NE(flyball.place.content("r/trace.jsonl").find("=0.14999999999999999"), std::string::npos)
+      << "the record itself is exact";
+  const auto told = flyball.run("explain r --at 3");
+  EXPECT_NE(told.output.find("It chose fixed: map.resolution_m=0.15\n"), std::string::npos)
+      << told.output;
+}
+
 TEST(CliFlights, a_failed_mission_is_a_result) {
   const FlyballProgram flyball;
   const auto outcome =

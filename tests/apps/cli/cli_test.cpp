@@ -127,10 +127,35 @@ TEST_F(Cli, refuses_a_library_of_kernels_that_is_none) {
   for (const char* command :
        {"run delivery_forest", "compare delivery_forest --policies fixed_fine",
         "tournament --worlds delivery_forest --policies fixed_fine", "config delivery_forest",
-        "bound delivery_forest", "list kernels", "replay nowhere", "explain nowhere --at 1"}) {
+        "bound delivery_forest", "list kernels", "replay nowhere", "explain nowhere --at 1",
+        "detect nowhere.png", "localize nowhere", "map from nowhere --out map.bt",
+        "policy check fixed_fine", "graph package_delivery"}) {
     expect_refused(std::string{command} + " --kernels ./libmine.so",
                    "--kernels: library \"./libmine.so\" is not there");
   }
+}
+
+TEST_F(Cli, looks_for_people_with_a_detector_of_a_library) {
+  const std::string grey =
+      flyball.place.file("grey.pgm", "P5\n64 128\n255\n" + std::string(64 * 128, 'a'));
+  const auto unknown = flyball.run("detect " + grey + " --detector blind");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.errors.find("no detector \"blind\""), std::string::npos) << unknown.errors;
+  const auto seen = flyball.run("detect " + grey +
+                                " --detector blind --kernels " FLYBALL_TEST_KERNELS "/libblind.so");
+  EXPECT_EQ(seen.exit_code, 0) << seen.errors;
+  EXPECT_NE(seen.output.find("grey.pgm: 0 people"), std::string::npos) << seen.output;
+}
+
+TEST_F(Cli, names_the_option_that_a_wrong_value_came_from) {
+  expect_refused("run delivery_open --policy just", "no policy \"just\" (--policy);");
+  expect_refused("run delivery_open --seed one", "seed = one (--seed) must be a whole number");
+  expect_refused("bound delivery_open --seed one", "seed = one (--seed) must be a whole number");
+  expect_refused("compare delivery_open --policies just", "no policy \"just\" (--policies);");
+  expect_refused("run delivery_open --set governor.policy=just", "no policy \"just\" (--set);");
+  const std::string mine = flyball.place.file("mine.toml", "[governor]\npolicy = \"just\"\n");
+  const auto filed = flyball.run("run " + mine + " --seed 2");
+  EXPECT_NE(filed.errors.find("mine.toml:2);"), std::string::npos) << filed.errors;
 }
 
 TEST_F(Cli, lists_everything_that_can_be_named) {
