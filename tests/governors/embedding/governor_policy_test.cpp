@@ -20,8 +20,8 @@ std::string refusal(const char* policy, const char* parameters = nullptr) {
 
 TEST(EmbeddedPolicy, is_refused_with_the_names_that_there_are) {
   const std::string names =
-      "conservative, cycle, density, energy_clock, fixed, interactive, mission_energy, ondemand, "
-      "performance, powersave, schedutil";
+      "conservative, cycle, density, energy_clock, fixed, gap_switch, interactive, mission_energy, "
+      "ondemand, performance, powersave, schedutil";
   EXPECT_EQ("this library has no policy \"dense\"; it has " + names, refusal("dense"));
   EXPECT_EQ("settings need a policy: a file, or one of " + names, refusal(nullptr));
   EXPECT_EQ("settings need a policy: a file, or one of " + names, refusal(""));
