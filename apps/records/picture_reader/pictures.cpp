@@ -57,7 +57,8 @@ class Files final : public flyball::PictureReader {
 
 class Video final : public flyball::PictureReader {
  public:
-  explicit Video(const std::string& file) : file_{file}, video_{file} {}
+  /// With FFmpeg alone: the others that OpenCV could ask look for cameras on the USB bus.
+  explicit Video(const std::string& file) : file_{file}, video_{file, cv::CAP_FFMPEG} {}
 
   [[nodiscard]] bool is_open() const { return video_.isOpened(); }
 

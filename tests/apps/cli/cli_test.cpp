@@ -260,6 +260,17 @@ TEST_F(Cli, detect_of_a_folder_names_what_it_cannot_read_and_counts) {
       << json.output;
 }
 
+TEST_F(Cli, detect_looks_for_no_camera_where_a_file_is_no_video) {
+  (void)flyball.place.file("a.avi", "RIFFxxxxAVI LISTgarbage");
+  ASSERT_EQ(setenv("LD_DEBUG", "files", 1), 0);
+  const auto outcome = flyball.run("detect a.avi");
+  unsetenv("LD_DEBUG");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("libopencv_videoio"), std::string::npos);
+  EXPECT_EQ(outcome.errors.find("libgphoto2_port/"), std::string::npos)
+      << "libraries for cameras on the USB bus were loaded";
+}
+
 TEST_F(Cli, world_draws_a_plan_and_says_how_far_a_place_reaches) {
   (void)flyball.place.file("hall.obj",
                            "v -1 -4 0\nv 11 -4 0\nv 11 4 0\nv -1 4 0\nf 1 2 3 4\n"
