@@ -5,13 +5,13 @@
 /// The inside of the real-time executor. Jobs come and go in realtime_jobs.cpp; threads wait, work
 /// and keep time in realtime_threads.cpp; what the owner's thread does is in realtime_executor.cpp.
 
+#include "flyball/runtime/realtime/parking.h"
 #include "flyball/runtime/realtime/realtime_executor.h"
 
 #include "message_exchange.h"
 #include "node_job.h"
 #include "realtime/cpu_meter.h"
 #include "realtime/news.h"
-#include "realtime/parking.h"
 #include "realtime/priority_mutex.h"
 #include <atomic>
 #include <deque>
