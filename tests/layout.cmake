@@ -88,7 +88,8 @@ endforeach()
 
 # Timed condition variables follow the wall clock with older C libraries, and come tens of
 # milliseconds late where the kernel's timers do not: what flies waits by a futex (`Parking`).
-foreach(folder IN ITEMS runtime governors policies kernels apps/flight apps/workloads)
+foreach(folder IN ITEMS runtime governors policies kernels apps/flight apps/workloads
+        apps/mcap)
   file(GLOB_RECURSE files ${root}/${folder}/*.h ${root}/${folder}/*.cpp)
   foreach(file IN LISTS files)
     file(STRINGS ${file} lines REGEX "condition_variable|pthread_cond_timedwait|future.*wait_(for|until)")

@@ -30,6 +30,7 @@ void add_board(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program, int& exit_code);
 void add_world(CLI::App& program, int& exit_code);
 void add_map_from(CLI::App& map, int& exit_code);
+void add_log(CLI::App& program, int& exit_code);
 void add_localize(CLI::App& program, int& exit_code);
 void add_config(CLI::App& program, int& exit_code);
 void add_version(CLI::App& program, int& exit_code);

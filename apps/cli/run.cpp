@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "flyball/mcap/onboard_record.h"
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
+#include "flyball/records/version.h"
 #include "flyball/scenario/override.h"
 #include "flyball/simulation/mission.h"
 
@@ -9,6 +11,7 @@
 #include "console.h"
 #include "flight_options.h"
 #include "real_computer.h"
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +26,7 @@ struct RunOptions {
   std::string start_map{};
   std::string final_map{};
   std::string timeline{};
+  std::string mcap{};
   ExecutorOptions executor{};
 };
 
@@ -107,6 +111,94 @@ int exit_code_of(const Summary& summary) {
   return exit_mission_failed;
 }
 
+/// Null when no record is asked for. A simulated flight waits for its record, a real one does not.
+Result<std::unique_ptr<OnboardRecord>> open_record(const RunOptions& options,
+                                                   const Scenario& scenario) {
+  if (options.mcap.empty()) {
+    return std::unique_ptr<OnboardRecord>{};
+  }
+  const bool is_simulated = options.executor.executor == "virtual";
+  return OnboardRecord::open(options.mcap, is_simulated ? WhenFull::wait : WhenFull::drop,
+                             {{"flyball.mission",
+                               {{"scenario", mission_file(scenario)},
+                                {"policy", scenario.governor.policy},
+                                {"seed", std::to_string(scenario.seed)},
+                                {"version", version()}}}});
+}
+
+/// A record of a flight that never began is of no use. Leaves a device or a pipe where it is.
+void remove_record(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    std::filesystem::remove(path, ignored);
+  }
+}
+
+/// Ends the record, and says in the summary what is in it.
+Status close_record(OnboardRecord* record, Summary& summary) {
+  if (record == nullptr) {
+    return Done{};
+  }
+  Status closed = record->close();
+  const RecordCounts counts = record->counts();
+  summary.quality["record_rows"] = static_cast<double>(counts.written);
+  summary.quality["record_rows_dropped"] = static_cast<double>(counts.dropped);
+  return closed;
+}
+
+/// What the flight leaves, to every place that was asked for.
+Status write_all(const RunOptions& options,
+                 const std::string& folder,
+                 const Scenario& scenario,
+                 const MissionRecord& record,
+                 const Timeline& timeline) {
+  if (Status written = write_run(folder, scenario, record); !written) {
+    return written;
+  }
+  return options.timeline.empty() ? Done{} : timeline.write(options.timeline);
+}
+
+/// @param made  Folders that are of no use when nothing flies.
+int fly_into(const std::string& folder,
+             const std::vector<std::string>& made,
+             const RunOptions& options,
+             const Scenario& scenario,
+             RealComputer& computer) {
+  auto onboard_record = open_record(options, scenario);
+  if (!onboard_record) {
+    computer.close();
+    remove_empty(made);
+    return refuse({onboard_record.error()});
+  }
+  MissionHooks hooks = hooks_of(scenario);
+  hooks.start_map = options.start_map;
+  hooks.final_map = options.final_map;
+  Timeline timeline;
+  hooks.timeline = options.timeline.empty() ? nullptr : &timeline;
+  hooks.onboard_record = onboard_record->get();
+  computer.equip(hooks);
+  Result<MissionRecord> record = fly(scenario, hooks);
+  computer.close();
+  if (!record) {
+    remove_record(options.mcap);
+    remove_empty(made);
+    return refuse({record.error()});
+  }
+  const Status recorded = close_record(onboard_record->get(), record->summary);
+  const Status written = write_all(options, folder, scenario, *record, timeline);
+  for (const Status& one : {written, recorded}) {
+    if (!one) {
+      return refuse({one.error()});
+    }
+  }
+  print(options.flight.json ? to_json(record->summary) + "\n"
+                            : result_text(record->summary, folder));
+  if (was_interrupted()) {
+    note("interrupted; the record ends early: " + folder);
+  }
+  return exit_code_of(record->summary);
+}
+
 int run(const RunOptions& options) {
   const auto loaded = load_overridden_scenario(options.flight.scenario, overrides_of(options),
                                                options.flight.plugins);
@@ -128,31 +220,7 @@ int run(const RunOptions& options) {
   if (!prepared) {
     return refuse({prepared.error()});
   }
-  MissionHooks hooks = hooks_of(scenario);
-  hooks.start_map = options.start_map;
-  hooks.final_map = options.final_map;
-  Timeline timeline;
-  hooks.timeline = options.timeline.empty() ? nullptr : &timeline;
-  (*computer)->equip(hooks);
-  const Result<MissionRecord> record = fly(scenario, hooks);
-  (*computer)->close();
-  if (!record) {
-    remove_empty(*prepared);
-    return refuse({record.error()});
-  }
-  if (const Status written = write_run(folder, scenario, *record); !written) {
-    return refuse({written.error()});
-  }
-  if (const Status written = options.timeline.empty() ? Done{} : timeline.write(options.timeline);
-      !written) {
-    return refuse({written.error()});
-  }
-  print(options.flight.json ? to_json(record->summary) + "\n"
-                            : result_text(record->summary, folder));
-  if (was_interrupted()) {
-    note("interrupted; the record ends early: " + folder);
-  }
-  return exit_code_of(record->summary);
+  return fly_into(folder, *prepared, options, scenario, **computer);
 }
 
 }  // namespace
@@ -183,6 +251,11 @@ void add_run(CLI::App& program, int& exit_code) {
   refuse_empty(*command
                     ->add_option("--timeline", options->timeline,
                                  "writes when each job ran, for ui.perfetto.dev")
+                    ->type_name("FILE"));
+  refuse_empty(*command
+                    ->add_option("--mcap", options->mcap,
+                                 "writes poses, map, path, knobs, decisions, jobs and power while "
+                                 "it flies, for Foxglove")
                     ->type_name("FILE"));
   add_executor(*command, options->executor);
   add_output(*command, options->flight);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/records/timeline.h"
 
+#include "flyball/mcap/protobuf.h"
+
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <string_view>
@@ -49,43 +50,6 @@ std::uint64_t core_track(int core) {
 std::uint64_t node_track(int core, int node) {
   return 100'000 + static_cast<std::uint64_t>(core + 1) * 1'000 + static_cast<std::uint64_t>(node);
 }
-
-/// Protobuf's encoding: a base-128 number, and messages as a field's number and kind before each
-/// value.
-class Protobuf {
- public:
-  Protobuf& number(int field, std::uint64_t value) {
-    varint(static_cast<std::uint64_t>(field) << 3U);
-    varint(value);
-    return *this;
-  }
-  Protobuf& real(int field, double value) {
-    varint((static_cast<std::uint64_t>(field) << 3U) | 1U);
-    std::uint64_t bits{};
-    std::memcpy(&bits, &value, sizeof bits);
-    for (unsigned shift = 0; shift < 64; shift += 8) {
-      bytes_.push_back(static_cast<char>((bits >> shift) & 0xffU));
-    }
-    return *this;
-  }
-  Protobuf& text(int field, std::string_view value) {
-    varint((static_cast<std::uint64_t>(field) << 3U) | 2U);
-    varint(value.size());
-    bytes_.append(value);
-    return *this;
-  }
-  Protobuf& message(int field, const Protobuf& value) { return text(field, value.bytes_); }
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
- private:
-  void varint(std::uint64_t value) {
-    for (; value >= 0x80U; value >>= 7U) {
-      bytes_.push_back(static_cast<char>((value & 0x7fU) | 0x80U));
-    }
-    bytes_.push_back(static_cast<char>(value));
-  }
-  std::string bytes_{};
-};
 
 std::string packet(const Protobuf& content) {
   return Protobuf{}.message(field::packet, content).bytes();

@@ -142,6 +142,11 @@ void connect(Flight& flight, const MissionHooks& hooks) {
     timeline->begin(flight.graph);
     flight.executor->on_job([timeline](const JobRecord& job) { timeline->note(job); });
   }
+  if (hooks.onboard_record != nullptr) {
+    hooks.onboard_record->connect({flight.graph, *flight.executor,
+                                   [&flight] { return flight.queue.now(); },
+                                   flight.parts.brief->settings.camera});
+  }
   flight.executor->on_miss([&flight](int, OnMiss action) {
     if (action == OnMiss::brake && flight.link->phase() == MissionPhase::cruise) {
       flight.loop->emergency_hold();

@@ -2,7 +2,7 @@
 # for the same ones, each for the components that it stands before.
 foreach(line "kernels: OpenCV COMPONENTS core imgproc features2d calib3d video" "kernels: mrpt-graphslam"
         "kernels sim: octomap" "sim: embree 3" "sim: Simbody" "sim: assimp" "sim records recordings: PNG"
-        "studies: SQLite3")
+        "mcap: zstd" "studies: SQLite3")
   string(REGEX MATCH "^(.*): (.*)$" line "${line}")
   set(components ${CMAKE_MATCH_1})
   set(package ${CMAKE_MATCH_2})

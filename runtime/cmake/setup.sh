@@ -25,6 +25,7 @@ libmrpt-topography-dev  2.5.8
 libmrpt-poses-dev       2.5.8
 libmrpt-graphslam-dev   2.5.8
 libsqlite3-dev          3.40.1
+libzstd-dev             1.5.4
 libnlopt-dev            2.7.1
 libtomlplusplus-dev     3.3.0
 libcli11-dev            2.1.2

@@ -32,7 +32,7 @@ endif()
 
 # The policies alone, on a machine that lacks whatever the rest is built with.
 set(lacking "")
-foreach(package octomap embree Simbody assimp PNG SQLite3 OpenCV mrpt-graphslam mrpt-topography)
+foreach(package octomap embree Simbody assimp PNG SQLite3 zstd OpenCV mrpt-graphslam mrpt-topography)
   list(APPEND lacking -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 run(${CMAKE_COMMAND} -S ${source} -B ${folder}/policies ${toolchain} ${lacking}

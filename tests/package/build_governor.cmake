@@ -15,7 +15,7 @@ function(run)
 endfunction()
 
 set(lacking "")
-foreach(package octomap embree Simbody assimp PNG SQLite3 OpenCV mrpt-graphslam mrpt-topography NLopt
+foreach(package octomap embree Simbody assimp PNG SQLite3 zstd OpenCV mrpt-graphslam mrpt-topography NLopt
                 CLI11 nlohmann_json GTest benchmark)
   list(APPEND lacking -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()

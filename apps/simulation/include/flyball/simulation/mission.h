@@ -4,6 +4,7 @@
 /// @file
 /// Flies one scenario from take-off to its end.
 
+#include "flyball/mcap/onboard_record.h"
 #include "flyball/records/mission_record.h"
 #include "flyball/records/timeline.h"
 #include "flyball/runtime/event_queue.h"
@@ -31,6 +32,7 @@ struct MissionHooks {
   std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
   Timeline* timeline{};     ///< Is told of all jobs; null: nothing is.
+  OnboardRecord* onboard_record{};  ///< Is connected before the start; null: there is none.
   /// The real computer that the executor runs the nodes on: it is refreshed while the mission
   /// flies, and its watts and heat count. Null: the scenario's platform is modeled.
   RealtimeBoard* computer{};
