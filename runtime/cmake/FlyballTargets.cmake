@@ -24,12 +24,12 @@ else()
   set(FLYBALL_RUN_PREFIX ${PROJECT_BINARY_DIR})
 endif()
 
-# flyball_data(<name> <folder>): the program finds it in ../share/flyball/<name>, seen from its own
-# folder, in the build tree and installed.
-function(flyball_data name folder)
+# flyball_data(<name> <folder> <component>): the program finds it in ../share/flyball/<name>, seen from
+# its own folder, in the build tree and installed.
+function(flyball_data name folder component)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/flyball)
   file(CREATE_LINK ${folder} ${PROJECT_BINARY_DIR}/share/flyball/${name} SYMBOLIC)
-  install(DIRECTORY ${folder}/ DESTINATION share/flyball/${name})
+  install(DIRECTORY ${folder}/ DESTINATION share/flyball/${name} COMPONENT ${component})
 endfunction()
 
 # flyball_needs(<component> <line>): what an installed Flyball has to do before the component's target
@@ -82,7 +82,7 @@ function(flyball_loaded_module name)
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_link_libraries(${target} PRIVATE ${arg_LINKS})
   flyball_compile_options(${target})
-  install(TARGETS ${target} LIBRARY DESTINATION lib/flyball)
+  install(TARGETS ${target} LIBRARY DESTINATION lib/flyball COMPONENT tools)
 endfunction()
 
 # flyball_plugins(<target> <table> <file>...)

@@ -18,6 +18,12 @@ endforeach()
 add_test(NAME package.governor COMMAND ${CMAKE_COMMAND} ${consumer_settings}
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_governor.cmake)
 set_tests_properties(package.governor PROPERTIES LABELS package TIMEOUT 600)
+find_program(dpkg_shlibdeps dpkg-shlibdeps)
+if(dpkg_shlibdeps)
+  add_test(NAME package.debs COMMAND ${CMAKE_COMMAND} ${consumer_settings}
+                                     -P ${CMAKE_CURRENT_LIST_DIR}/build_debs.cmake)
+  set_tests_properties(package.debs PROPERTIES LABELS package TIMEOUT 600)
+endif()
 if(FLYBALL_BUILD_SIM)
   add_test(NAME package.policy COMMAND ${CMAKE_COMMAND} ${consumer_settings}
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_policy.cmake)

@@ -12,8 +12,8 @@ namespace {
 
 TEST(RealtimeFlight, flies_the_nodes_of_a_mission_on_threads_as_time_passes) {
   // A small camera, so that maps are made in time on a slow machine under a sanitizer as well.
-  auto found = load_scenario("delivery_forest", {"mission.time_limit_s=6", "camera.width_px=32",
-                                                 "camera.height_px=18"});
+  auto found = load_scenario(
+      "delivery_forest", {"mission.time_limit_s=6", "camera.width_px=32", "camera.height_px=18"});
   ASSERT_TRUE(std::holds_alternative<LoadedScenario>(found));
   MissionHooks hooks;
   hooks.executor = in_real_time({});

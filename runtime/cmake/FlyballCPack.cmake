@@ -1,0 +1,63 @@
+# Debian packages: `cmake --preset package`, build, `cpack --preset package`; for 64-bit Arm boards the
+# same with the preset `arm64`.
+#
+#   libflyball-governor0  the governor alone, for a program of any stack
+#   libflyball-dev        headers, libraries and CMake files
+#   flyball-data          boards, presets, platforms, airframes, scenarios
+#   flyball               the command; not without the simulator
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "Flyball")
+set(CPACK_PACKAGE_CONTACT "The Flyball maintainers <maintainers@flyball.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Runtime and governor for micro aerial vehicles")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL governor dev data)
+if(FLYBALL_BUILD_SIM)
+  list(APPEND CPACK_COMPONENTS_ALL tools)
+endif()
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(same_version "(= ${PROJECT_VERSION})")
+
+# What a program links stands in the program, and dpkg-shlibdeps finds the packages. Across
+# architectures it would need theirs installed here; the governor links nothing but these.
+set(CPACK_DEBIAN_GOVERNOR_PACKAGE_NAME libflyball-governor${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_GOVERNOR_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_GOVERNOR_DESCRIPTION "Governor of knobs and clocks, behind a header of C99")
+# A new shared library has to be looked for.
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_GOVERNOR_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME flyball)
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "Closed-loop simulator and tools of Flyball
+ Flies missions with any choice of knobs, compares governors, reads and sets the clocks of a board.")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "flyball-data ${same_version}")
+if(CMAKE_CROSSCOMPILING)
+  set(CPACK_DEBIAN_GOVERNOR_PACKAGE_DEPENDS "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12)")
+else()
+  set(CPACK_DEBIAN_GOVERNOR_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+endif()
+
+set(CPACK_DEBIAN_DATA_PACKAGE_NAME flyball-data)
+set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DATA_DESCRIPTION "Boards, presets, platforms, airframes and scenarios of Flyball")
+
+# A component is found where its packages are, so whoever wants the governors alone needs Eigen alone.
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libflyball-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers, libraries and CMake files of Flyball")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+    "${CPACK_DEBIAN_GOVERNOR_PACKAGE_NAME} ${same_version}, flyball-data ${same_version}, libeigen3-dev, liblua5.4-dev")
+if(FLYBALL_BUILD_SIM)
+  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
+      "libassimp-dev, libembree-dev, libmrpt-graphslam-dev, libmrpt-poses-dev, libmrpt-topography-dev, libnlopt-dev, liboctomap-dev, libompl-dev, libopencv-contrib-dev, libopencv-dev, libpng-dev, libsimbody-dev, libsqlite3-dev, nlohmann-json3-dev")
+endif()
+
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+endif()
+include(CPack)

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# arm64_sysroot.sh [FOLDER]: the headers and libraries of a Debian 12 for arm64, which the preset
+# `arm64` builds against. Takes some minutes and 2 GB; a folder that is complete is left alone.
+# Needs root, because it unpacks packages as their owners.
+set -euo pipefail
+top=$(dirname -- "$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")")
+source "$top/runtime/cmake/setup.sh"
+sysroot=${1:-$top/build/arm64-sysroot}
+
+cross_packages() {
+  cat << 'LIST'
+g++-aarch64-linux-gnu   12.2.0
+qemu-user-static        7.2
+mmdebstrap              1.3.5
+LIST
+}
+
+# What the build links: of the one list of packages the libraries, and those of the compiler.
+libraries() {
+  build_packages | awk '$1 ~ /-dev$/ && $1 != "libbenchmark-dev" { printf "%s,", $1 }'
+  printf 'libc6-dev,libstdc++-12-dev,opencv-data'
+}
+
+# Links from the root of the system point at this machine's own files: make them relative.
+make_links_relative() {
+  local link target
+  find "$1" -type l -lname '/*' -print0 |
+    while IFS= read -r -d '' link; do
+      target=$(readlink "$link")
+      if [[ -e $1$target ]]; then
+        ln -sfn "$(realpath -m --relative-to="$(dirname "$link")" "$1$target")" "$link"
+      fi
+    done
+}
+
+if [[ -e $sysroot/.complete ]]; then
+  printf '%s is complete; remove it to make it anew\n' "$sysroot"
+  exit 0
+fi
+ensure_packages cross_packages
+rm -rf "$sysroot"
+mkdir -p "$(dirname "$sysroot")"
+mmdebstrap --mode=root --architectures=arm64 --variant=extract --include="$(libraries)" \
+  --aptopt='APT::Install-Recommends "false"' bookworm "$sysroot" >&2
+make_links_relative "$sysroot"
+touch "$sysroot/.complete"
+printf '%s: %s\n' "$sysroot" "$(du -sh "$sysroot" | cut -f1)"

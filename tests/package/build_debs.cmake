@@ -1,0 +1,73 @@
+cmake_minimum_required(VERSION 3.25)
+# The Debian packages of this build: what is in them, on what they depend, and whether the command runs
+# from where they are unpacked.
+set(folder ${built}/package/debs)
+file(REMOVE_RECURSE ${folder})
+file(MAKE_DIRECTORY ${folder}/root)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text
+                  OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(failed)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\n${text}")
+  endif()
+  set(said "${text}" PARENT_SCOPE)
+endfunction()
+
+function(expect text pattern what)
+  if(NOT text MATCHES "${pattern}")
+    message(FATAL_ERROR "${what} has nothing like \"${pattern}\":\n${text}")
+  endif()
+endfunction()
+
+function(refuse text pattern what)
+  if(text MATCHES "${pattern}")
+    message(FATAL_ERROR "${what} has \"${CMAKE_MATCH_0}\":\n${text}")
+  endif()
+endfunction()
+
+# This build was not made for /usr; what lies where beneath it is the same.
+run(${CMAKE_CPACK_COMMAND} --config ${built}/CPackConfig.cmake -B ${folder}
+    -D CPACK_PACKAGING_INSTALL_PREFIX=/usr -D CPACK_DEBIAN_COMPRESSION_TYPE=zstd)
+
+# package(<name>): `depends` and `files` of its package, which is unpacked.
+function(package name)
+  file(GLOB deb ${folder}/${name}_*.deb)
+  list(LENGTH deb count)
+  if(NOT count EQUAL 1)
+    message(FATAL_ERROR "there are ${count} packages ${name}_*.deb in ${folder}")
+  endif()
+  run(dpkg-deb -f ${deb} Depends)
+  set(depends "${said}" PARENT_SCOPE)
+  run(dpkg-deb -c ${deb})
+  set(files "${said}" PARENT_SCOPE)
+  run(dpkg-deb -x ${deb} ${folder}/root)
+endfunction()
+
+package(libflyball-governor0)
+expect("${depends}" "libc6 .*libstdc\\+\\+6" "libflyball-governor0's Depends")
+refuse("${depends}" "opencv|octomap|ompl|lua" "libflyball-governor0's Depends")
+expect("${files}" "/libflyball_governor\\.so\\.0" "libflyball-governor0")
+refuse("${files}" "\\.h\n|/bin/" "libflyball-governor0")
+
+package(libflyball-dev)
+expect("${depends}" "libflyball-governor0 \\(= " "libflyball-dev's Depends")
+expect("${files}" "/include/flyball/governors/governor\\.h" "libflyball-dev")
+expect("${files}" "/libflyball_runtime\\.a" "libflyball-dev")
+expect("${files}" "/cmake/Flyball/FlyballConfig\\.cmake" "libflyball-dev")
+
+package(flyball-data)
+expect("${files}" "/share/flyball/boards/.*\\.toml" "flyball-data")
+expect("${files}" "/share/flyball/presets/.*\\.toml" "flyball-data")
+if(NOT sim)
+  return()
+endif()
+
+package(flyball)
+expect("${depends}" "flyball-data \\(= " "flyball's Depends")
+foreach(library liboctomap libompl libopencv-core libmrpt libsimtk|libsimbody libembree libassimp)
+  expect("${depends}" "${library}" "flyball's Depends")
+endforeach()
+run(${folder}/root/usr/bin/flyball list scenarios)
+expect("${said}" "delivery_forest" "what the unpacked command lists")
