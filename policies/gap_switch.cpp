@@ -29,8 +29,7 @@ class GapSwitch final : public flyball::Policy {
             {"range_2_m", 15.0, 2.0, 100.0, "Range at the second level."},
             {"range_3_m", 22.0, 2.0, 100.0, "Range at the third level."},
             {"range_4_m", 25.0, 2.0, 100.0, "Range at the fourth level."},
-            // .65 m of body (sim/airframes/matrice_100.toml) and the tube at a crawl on both sides.
-            {"body_m", 0.71, 0.1, 5.0, "Width of the vehicle with its tube at a crawl."},
+            {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
             {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit that means narrow gaps; 0: none does."},
             {"near_m", 8.0, 0.0, 100.0, "From farther on, gaps are looked at on the second level."},
             // As of density.
@@ -40,7 +39,7 @@ class GapSwitch final : public flyball::Policy {
 
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs,
-                        const flyball::BoardModel& /*board*/) override {
+                        const flyball::BoardModel& board) override {
     if (flyball::Status status = flyball::require_knobs(
             "policy \"gap_switch\"", knobs, {"map.resolution_m", "map.range_m", "planner.budget"});
         !status) {
@@ -52,7 +51,8 @@ class GapSwitch final : public flyball::Policy {
     ranges_m_ = {given.number("range_m"), given.number("range_2_m"), given.number("range_3_m"),
                  given.number("range_4_m")};
     top_ = static_cast<std::size_t>(given.number("levels")) - 1;
-    body_m_ = given.number("body_m");
+    const double given_m = given.number("body_m");
+    body_m_ = given_m > 0.0 ? given_m : board.vehicle.narrow_width_m;
     narrow_m_s_ = given.number("narrow_m_s");
     near_m_ = given.number("near_m");
     min_fine_ = flyball::from_seconds(given.number("min_fine_s"));

@@ -83,6 +83,16 @@ Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                           nullptr);
 }
 
+BoardModel known_on_board(const Scenario& scenario, const MissionSetup& setup) {
+  BoardModel board = board_model_of(setup.platform->model());
+  const Brief brief = brief_of(scenario, setup);
+  const Cylinder body = brief.narrow_body();
+  board.vehicle.narrow_width_m = 2.0 * body.radius_m;
+  board.vehicle.ground_clearance_m = brief.site.cruise_height_m - body.half_height_m;
+  board.vehicle.depth_camera = scenario.camera;
+  return board;
+}
+
 }  // namespace
 
 Site site_of(const World& world, const std::string& name) {
@@ -119,8 +129,7 @@ Result<MissionSetup> set_up(const Scenario& scenario) {
   if (!setup) {
     return setup;
   }
-  auto governor =
-      make_governor(scenario, setup->equipment.knobs, board_model_of(setup->platform->model()));
+  auto governor = make_governor(scenario, setup->equipment.knobs, known_on_board(scenario, *setup));
   if (!governor) {
     return governor.error();
   }

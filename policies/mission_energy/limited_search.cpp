@@ -23,7 +23,7 @@ Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
   if (!power) {
     return power.error();
   }
-  auto limits = MissionLimits::make(owner, given, knobs);
+  auto limits = MissionLimits::make(owner, given, knobs, board.vehicle);
   if (!limits) {
     return limits.error();
   }

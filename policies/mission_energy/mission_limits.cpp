@@ -16,19 +16,34 @@ constexpr double standing_m_s = 0.1;        // Chosen: slower than any cruise.
 constexpr double failed_plan_j = 750.0;     // Chosen: some 2.5 s of lost speed, at 300 W.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
-// The range at which an RGB-D camera's noise, .0657 d - .4193 beyond 6 m (MAVBench's code), is half
-// a cell. Beyond it, noise fills the cells beside an obstacle too, and closes gaps.
-double noise_free_m(double resolution_m, double least_m) {
-  return std::max(least_m, (0.5 * resolution_m + 0.4193) / 0.0657);
+// The range up to which the camera's noise stays below half a cell. Beyond it, noise fills the
+// cells beside an obstacle too, and closes gaps.
+double noise_free_m(const DepthCameraSpec& camera, double resolution_m) {
+  constexpr double step_m = 0.05;  // A fraction of the finest cells.
+  double free_m = camera.max_range_m;
+  while (free_m > 0.0 && camera.noise_m(free_m) > 0.5 * resolution_m) {
+    free_m -= step_m;
+  }
+  return free_m;
+}
+
+/// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
+/// plan would begin in an occupied cell.
+double above_ground_m(const std::vector<double>& cells_m, const VehicleModel& vehicle) {
+  const double clear_m = vehicle.ground_clearance_m.value_or(cells_m.back());
+  const auto too_large = std::upper_bound(cells_m.begin(), cells_m.end(), clear_m);
+  return too_large != cells_m.begin() ? *std::prev(too_large) : cells_m.front();
 }
 
 /// For a mapper with a lattice, all its cells between the finest and the coarsest one; for another,
 /// these two. A mapper may have certain cells only, and the search needs one of them.
-std::vector<double> levels_of(const Parameters& given, const KnobSpec& resolution) {
+std::vector<double> levels_of(const Parameters& given,
+                              const KnobSpec& resolution,
+                              const VehicleModel& vehicle) {
   constexpr double usual_coarse_m = 0.8;  // MAVBench's coarse cells.
   const bool is_lattice = !resolution.legal.empty();
   const double given_m = given.number("coarse_m");
-  const double coarsest_m = is_lattice ? resolution.legal.back() : usual_coarse_m;
+  const double coarsest_m = is_lattice ? above_ground_m(resolution.legal, vehicle) : usual_coarse_m;
   const double fine_m = resolution.nearest(given.number("fine_m"));
   const double coarse_m = resolution.nearest(given_m > 0.0 ? given_m : coarsest_m);
   if (!is_lattice || fine_m >= coarse_m) {
@@ -40,14 +55,19 @@ std::vector<double> levels_of(const Parameters& given, const KnobSpec& resolutio
   return levels_m;
 }
 
-double longest_m(const Parameters& given, const KnobSettings& knobs) {
-  constexpr double usual_m = 12.0;  // Chosen: where noise is half a cell of .7 m.
+// A camera that nobody knows is trusted as far as the mission trusts it.
+double longest_m(const Parameters& given,
+                 const KnobSettings& knobs,
+                 const VehicleModel& vehicle,
+                 double coarsest_m) {
+  constexpr double usual_m = 12.0;  // Chosen: where an RGB-D camera's noise is half a cell of .7 m.
   const double most_m = given.number("most_range_m");
   if (most_m > 0.0) {
     return most_m;
   }
-  return knobs.spec("map.range_m") == nullptr ? usual_m
+  const double shown_m = vehicle.depth_camera ? noise_free_m(*vehicle.depth_camera, coarsest_m)
                                               : std::max(usual_m, knobs.value("map.range_m"));
+  return knobs.spec("map.range_m")->nearest(shown_m);
 }
 
 }  // namespace
@@ -56,11 +76,11 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
   return {
       {"fine_m", 0.15, 0.05, 2.0, "Resolution that passes every gap of the mission."},
       {"coarse_m", 0.0, 0.0, 2.0,
-       "For open space; 0: the mapper's coarsest, .8 without a lattice."},
+       "For open space; 0: the mapper's coarsest clear of the ground, .8 without a lattice."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map."},
-      {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: the mission's own, 12 at least."},
+      {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
-      {"body_m", 0.71, 0.1, 5.0, "Width of the vehicle with its tube at a crawl."},
+      {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
       {"min_fine_s", 2.0, 0.0, 3600.0, "Finer cells last at least this long."},
       {"coarse_budget", 200.0, 100.0, 1e6, "Iterations of a plan in coarse cells."},
       {"rest_s", 1.0, 0.01, 3600.0, "While the vehicle waits, a map may take so long."},
@@ -69,7 +89,8 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
 
 Result<MissionLimits> MissionLimits::make(const std::string& owner,
                                           const Parameters& given,
-                                          const KnobSettings& knobs) {
+                                          const KnobSettings& knobs,
+                                          const VehicleModel& vehicle) {
   const auto refused = [&owner](const std::string& why) {
     return Error{ErrorCode::invalid_input, owner + ": " + why};
   };
@@ -78,12 +99,12 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
       !status) {
     return status.error();
   }
-  MissionLimits limits{given, knobs, !knobs.spec("map.resolution_m")->legal.empty()};
+  MissionLimits limits{given, knobs, vehicle};
   if (limits.levels_m_.front() >= limits.levels_m_.back()) {
     return refused("fine_m = " + std::to_string(limits.levels_m_.front()) +
                    " must be below coarse_m = " + std::to_string(limits.levels_m_.back()));
   }
-  const double most_m = longest_m(given, knobs);
+  const double most_m = longest_m(given, knobs, vehicle, limits.levels_m_.back());
   if (limits.least_range_m_ >= most_m) {
     return refused("least_range_m = " + std::to_string(limits.least_range_m_) +
                    " must be below most_range_m = " + std::to_string(most_m));
@@ -92,18 +113,21 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
   return limits;
 }
 
-MissionLimits::MissionLimits(const Parameters& given, const KnobSettings& knobs, bool is_lattice)
-    : is_lattice_{is_lattice},
+MissionLimits::MissionLimits(const Parameters& given,
+                             const KnobSettings& knobs,
+                             const VehicleModel& vehicle)
+    : is_lattice_{!knobs.spec("map.resolution_m")->legal.empty()},
       least_range_m_{given.number("least_range_m")},
       narrow_m_s_{given.number("narrow_m_s")},
       patience_s_{given.number("patience_s")},
-      body_m_{given.number("body_m")},
-      large_m_{is_lattice ? 0.5 * body_m_ : std::numeric_limits<double>::max()},
+      body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
+      large_m_{is_lattice_ ? 0.5 * body_m_ : std::numeric_limits<double>::max()},
       full_budget_{knobs.value("planner.budget")},
       coarse_budget_{std::min(knobs.spec("planner.budget")->nearest(given.number("coarse_budget")),
                               full_budget_)},
+      camera_{vehicle.depth_camera},
       home_{knobs.value("map.resolution_m"), knobs.value("map.range_m"), 0.0},
-      levels_m_{levels_of(given, *knobs.spec("map.resolution_m"))},
+      levels_m_{levels_of(given, *knobs.spec("map.resolution_m"), vehicle)},
       idle_{given.number("rest_s")},
       passability_{passability(given)},
       visibility_{least_range_m_} {}
@@ -133,12 +157,10 @@ double MissionLimits::spacing_m() const {
 
 std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) const {
   auto levels = levels_between(levels_m_, fine_s, coarse_s);
-  // A mission with a range beyond this is taken to have a camera with less noise.
-  constexpr double noisy_m = 12.0;
-  const double most_m = ranges_m_.back();
   for (SearchLevel& level : levels) {
-    level.most_range_m =
-        most_m <= noisy_m ? noise_free_m(level.resolution_m, least_range_m_) : most_m;
+    level.most_range_m = camera_
+                             ? std::max(least_range_m_, noise_free_m(*camera_, level.resolution_m))
+                             : ranges_m_.back();
   }
   return levels;
 }

@@ -6,6 +6,7 @@
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/idle.h"
+#include "flyball/runtime/board.h"
 #include "flyball/runtime/decision.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
@@ -25,6 +26,8 @@ namespace flyball {
 /// a
 ///   long search for it would keep the vehicle standing. So plans get a small budget there, and the
 ///   rate of failures is a price of such cells (`FailedPlans`).
+/// - The camera's noise: a level has no longer range than that up to which noise is below half a
+/// cell.
 /// - Visibility: where the world ends the view, a longer range gains nothing.
 /// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
 ///   makes the path shorter.
@@ -41,7 +44,8 @@ class MissionLimits {
   /// @error `invalid_input` when parameters contradict each other or the knobs.
   static Result<MissionLimits> make(const std::string& owner,
                                     const Parameters& given,
-                                    const KnobSettings& knobs);
+                                    const KnobSettings& knobs,
+                                    const VehicleModel& vehicle);
 
   /// The levels that the search compares.
   [[nodiscard]] std::vector<SearchLevel> levels(double fine_s, double coarse_s) const;
@@ -73,7 +77,7 @@ class MissionLimits {
   [[nodiscard]] double near_m() const;
 
  private:
-  MissionLimits(const Parameters& given, const KnobSettings& knobs, bool is_lattice);
+  MissionLimits(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle);
   void limit_lattice(const Observation& seen,
                      bool near,
                      const MapSetting& in_force,
@@ -94,6 +98,7 @@ class MissionLimits {
   double large_m_;
   double full_budget_;
   double coarse_budget_{};
+  std::optional<DepthCameraSpec> camera_;
   MapSetting home_;
   std::vector<double> levels_m_;  ///< Finest first.
   std::vector<double> ranges_m_{};

@@ -13,9 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 
 Result<MissionLimits> made(const std::map<std::string, ParameterValue>& given = {},
-                           const KnobSettings& knobs = conformance_knobs()) {
+                           const KnobSettings& knobs = conformance_knobs(),
+                           const VehicleModel& vehicle = {}) {
   const auto resolved = Parameters::resolve("policy", MissionLimits::parameters(), given);
-  return MissionLimits::make("policy \"mine\"", std::get<Parameters>(resolved), knobs);
+  return MissionLimits::make("policy \"mine\"", std::get<Parameters>(resolved), knobs, vehicle);
 }
 
 std::string refusal(const std::map<std::string, ParameterValue>& given,
@@ -33,6 +34,61 @@ TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
     cells_m.push_back(level.resolution_m);
   }
   EXPECT_EQ(cells_m, (std::vector<double>{0.30, 0.60, 0.80}));
+}
+
+/// The longest range of each level that the search may choose.
+std::vector<double> longest_ranges_m(const DepthCameraSpec& camera) {
+  VehicleModel vehicle;
+  vehicle.depth_camera = camera;
+  auto limits = made({{"coarse_m", 0.60}}, conformance_knobs(), vehicle);
+  std::vector<double> ranges_m;
+  for (const SearchLevel& level : limits->levels(0.5, 0.1)) {
+    ranges_m.push_back(std::min(level.most_range_m, limits->ranges_m().back()));
+  }
+  return ranges_m;
+}
+
+// Of its own: (r / 2 + .4193) / .0657 is 7.5, 8.7 and 10.9 m.
+TEST(MissionLimits, looks_no_farther_than_noise_is_below_half_a_cell) {
+  DepthCameraSpec camera;
+  camera.max_range_m = 20.0;
+  const auto ranges_m = longest_ranges_m(camera);
+  ASSERT_EQ(ranges_m.size(), 3U);
+  const std::vector<double> expected_m{7.52, 8.67, 10.95};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(ranges_m[i], expected_m[i], 0.051) << "found in steps of .05 m";
+  }
+}
+
+TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
+  DepthCameraSpec camera;
+  camera.max_range_m = 20.0;
+  camera.rgbd_noise = false;
+  for (const double range_m : longest_ranges_m(camera)) {
+    EXPECT_EQ(range_m, 20.0);
+  }
+  camera.extra_noise_m = 0.1;
+  const auto noisy_m = longest_ranges_m(camera);
+  EXPECT_EQ(noisy_m.front(), 7.0) << "no range suits cells of .15 m; the shortest is left";
+  EXPECT_EQ(noisy_m.back(), 20.0);
+}
+
+TEST(MissionLimits, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) {
+  VehicleModel low;
+  low.ground_clearance_m = 1.0;
+  EXPECT_EQ(made({}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m, 0.80);
+  low.ground_clearance_m = 1.2;
+  EXPECT_EQ(made({}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m, 1.20);
+  EXPECT_EQ(
+      made({{"coarse_m", 0.6}}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m,
+      0.60);
+}
+
+TEST(MissionLimits, takes_the_body_of_its_vehicle) {
+  VehicleModel small;
+  small.narrow_width_m = 0.35;
+  EXPECT_EQ(made({}, conformance_knobs(), small)->body_m(), 0.35);
+  EXPECT_EQ(made({{"body_m", 0.5}}, conformance_knobs(), small)->body_m(), 0.5);
 }
 
 TEST(MissionLimits, says_what_contradicts_what) {

@@ -26,5 +26,16 @@ TEST(DepthCameraSpec, has_the_lens_that_its_field_of_view_asks_for) {
   EXPECT_NEAR(camera.focal_px, 50.0, 1e-9);
 }
 
+TEST(DepthCameraSpec, has_the_noise_of_its_two_sources_together) {
+  DepthCameraSpec spec;
+  EXPECT_EQ(spec.noise_m(0.5), 0.0) << "never below";
+  EXPECT_NEAR(spec.noise_m(5.0), 0.0152, 1e-9);
+  EXPECT_NEAR(spec.noise_m(10.0), 0.2377, 1e-9);
+  spec.extra_noise_m = 0.1;
+  EXPECT_NEAR(spec.noise_m(10.0), std::sqrt(0.2377 * 0.2377 + 0.01), 1e-9);
+  spec.rgbd_noise = false;
+  EXPECT_NEAR(spec.noise_m(10.0), 0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace flyball

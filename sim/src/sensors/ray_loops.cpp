@@ -2,6 +2,7 @@
 // tested-in: solid_rays
 #include "sensors/ray_loops.h"
 
+#include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/random.h"
 
 #include <algorithm>
@@ -39,10 +40,9 @@ constexpr std::uint64_t low_half = 0xffffffff;
 constexpr double sum_mean = 8.0 * 0.5 * 65535.0;
 constexpr double sum_sigma = 53509.9;  // sqrt(8 (65536^2 - 1) / 12)
 
-// Standard deviation of MAVBench's RGB-D model (its code): nearer than `bend_m`, and farther.
-constexpr double bend_m = 6.0;
-constexpr std::array<double, 2> near_sigma{0.0035, -0.0023};  // a d + b, not negative
-constexpr std::array<double, 2> far_sigma{0.0657, -0.4193};
+constexpr double bend_m = RgbdNoise::bend_m;
+constexpr std::array<double, 2> near_sigma = RgbdNoise::near_sigma;
+constexpr std::array<double, 2> far_sigma = RgbdNoise::far_sigma;
 
 double sigma_m(const DepthNoise& noise, double d) {
   const double near = std::max(0.0, near_sigma[0] * d + near_sigma[1]);

@@ -5,6 +5,7 @@
 /// The companion computer as the governor meets it: what is known of it before it flies, what its
 /// meters say, and the operating point that is asked of it.
 
+#include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/units.h"
 
@@ -13,6 +14,17 @@
 #include <vector>
 
 namespace flyball {
+
+/// What is known on board of the vehicle that carries the computer.
+struct VehicleModel {
+  /// Of the body with its tracking tube at a crawl, both sides together. A Matrice 100's (MAVBench)
+  /// where nobody says.
+  double narrow_width_m{0.71};
+  /// From the ground up to the lowest point of the body with its tube, where it cruises; empty: not
+  /// known.
+  std::optional<double> ground_clearance_m{};
+  std::optional<DepthCameraSpec> depth_camera{};  ///< Empty: its noise is not known.
+};
 
 /// Operating points, power and heat of one computer, as its platform file or its maker's data sheet
 /// has them. What is left out is not known: a board that is all defaults is one of which nothing
@@ -23,6 +35,7 @@ struct BoardModel {
   Duration switching_time{};              ///< How long a change of the clock takes.
   std::optional<PowerCost> power{};       ///< Input power of the whole computer.
   std::optional<ThermalModel> thermal{};  ///< Empty: it is not known to get too hot.
+  VehicleModel vehicle{};
 };
 
 /// What a platform's file says of the board; what work costs in time is left to be learned in

@@ -6,10 +6,19 @@
 
 #include "flyball/runtime/messages.h"
 
+#include <array>
+
 namespace flyball {
 
 /// The ideal camera: square pixels, axis through the middle of the image.
 [[nodiscard]] Intrinsics pinhole(int width_px, int height_px, double horizontal_field_rad);
+
+/// MAVBench's RGB-D camera (its code): the standard deviation of a depth d is a d + b, at least 0.
+struct RgbdNoise {
+  static constexpr double bend_m = 6.0;  ///< From here on the second line holds.
+  static constexpr std::array<double, 2> near_sigma{0.0035, -0.0023};  ///< a, b [m]
+  static constexpr std::array<double, 2> far_sigma{0.0657, -0.4193};
+};
 
 struct DepthCameraSpec {
   int width_px{256};
@@ -17,8 +26,7 @@ struct DepthCameraSpec {
   double horizontal_field_rad{1.5707963267948966};  ///< 90 degrees: MAVBench.
   double rate_hz{20.0};
   double max_range_m{20.0};
-  /// sigma = max(0, .0035 d - .0023) for d < 6 m, .0657 d - .4193 beyond: MAVBench's code.
-  bool rgbd_noise{true};
+  bool rgbd_noise{true};   ///< As `RgbdNoise`.
   double extra_noise_m{};  ///< Standard deviation at every depth, independent of the other noise.
   int count{1};            ///< Cameras around one place, evenly; the first one looks ahead.
   double forward_m{};      ///< Of that place, from the body's centre; a mount keeps it level.
@@ -26,6 +34,8 @@ struct DepthCameraSpec {
   double pitch_down_rad{};  ///< Of each optical axis.
 
   [[nodiscard]] Intrinsics intrinsics() const;
+  /// Standard deviation of a depth [m]; it does not fall with the depth.
+  [[nodiscard]] double noise_m(double depth_m) const;
 };
 
 }  // namespace flyball
