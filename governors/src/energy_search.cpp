@@ -205,8 +205,10 @@ std::vector<LevelBounds> EnergySearch::bound_levels() const {
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
   const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
                                                         : settings_.deceleration_m_s2};
+  const std::size_t at_level = level(setting.resolution_m);
+  const double hover_w = rotors_.power(0.0).value();
   const double latency_s = predicted_s(setting);
-  const double bound_s = latency_s * bound_.tracker(level(setting.resolution_m)).factor();
+  const double bound_s = latency_s * bound_.tracker(at_level).factor();
   EnergyEstimate best;
   best.setting = setting;
   // The next map takes about as long as this one did, and begins with the next frame at the
@@ -222,8 +224,11 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   best.joules_per_m =
       path_over_line(settings_, setting.resolution_m, shows_m) *
           joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-      (switches ? settings_.switching_j / std::max(settings_.horizon_m, distance_m) : 0.0) +
-      (setting.resolution_m > around.large_m ? around.large_j_m : 0.0);
+      (switches ? settings_.switching_s * hover_w / std::max(settings_.horizon_m, distance_m)
+                : 0.0) +
+      (around.failed_plans_per_m != nullptr
+           ? (*around.failed_plans_per_m)[at_level] * settings_.failed_plan_s * hover_w
+           : 0.0);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));

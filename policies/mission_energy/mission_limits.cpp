@@ -13,7 +13,6 @@ namespace flyball {
 namespace {
 
 constexpr double standing_m_s = 0.1;        // Chosen: slower than any cruise.
-constexpr double failed_plan_j = 750.0;     // Chosen: some 2.5 s of lost speed, at 300 W.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
 // The range up to which the camera's noise stays below half a cell. Beyond it, noise fills the
@@ -130,7 +129,8 @@ MissionLimits::MissionLimits(const Parameters& given,
       levels_m_{levels_of(given, *knobs.spec("map.resolution_m"), vehicle)},
       idle_{given.number("rest_s")},
       passability_{passability(given)},
-      visibility_{least_range_m_} {}
+      visibility_{least_range_m_},
+      failed_{levels_m_, large_m_} {}
 
 Passability MissionLimits::passability(const Parameters& given) const {
   PassabilitySettings passable;
@@ -195,9 +195,8 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // find. So even on a computer for which they cost no time, the finest cells are only used where a
   // gap needs them.
   around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
-  failed_.note(seen, in_force.resolution_m > large_m_);
-  around.large_m = large_m_;
-  around.large_j_m = failed_.per_m() * failed_plan_j;
+  failed_.note(seen, in_force.resolution_m);
+  around.failed_plans_per_m = &failed_.per_m();
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();
   around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.

@@ -23,11 +23,10 @@ namespace flyball {
 
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
 /// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
-/// a
-///   long search for it would keep the vehicle standing. So plans get a small budget there, and the
-///   rate of failures is a price of such cells (`FailedPlans`).
-/// - The camera's noise: a level has no longer range than that up to which noise is below half a
-/// cell.
+///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
+///   the rate of failures at each level is a price of its cells (`FailedPlans`).
+/// - The camera's noise: no level has a longer range than that up to which noise is below half a
+///   cell.
 /// - Visibility: where the world ends the view, a longer range gains nothing.
 /// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
 ///   makes the path shorter.
@@ -105,7 +104,7 @@ class MissionLimits {
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
-  FailedPlans failed_{};
+  FailedPlans failed_;
   bool seeks_door_{};  ///< A plan has failed near a narrow place.
 };
 

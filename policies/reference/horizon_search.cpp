@@ -88,8 +88,10 @@ double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t
   const double shows_m =
       free_ahead_m(price_, one, around.visibility_m) - v_m_s * response_s(here.frame_s[point]);
   const double ratio = path_over_line(price_, one.resolution_m, shows_m);
-  const double large_j_m = one.resolution_m > around.large_m ? around.large_j_m : 0.0;
-  return here.length_m * (ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s + large_j_m);
+  const double failed_per_m =
+      around.failed_plans_per_m != nullptr ? (*around.failed_plans_per_m)[level_of_[point]] : 0.0;
+  return here.length_m * (ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s +
+                          failed_per_m * price_.failed_plan_s * rotor_w_.front());
 }
 
 /// The least over all speeds at the end of the stretch; `never` where none is within reach.
@@ -126,7 +128,8 @@ void HorizonSearch::switch_where_it_pays() {
       least_j = std::min(least_j, rest_j(level, v));
     }
     for (std::size_t level = 0; level < levels_; ++level) {
-      rest_j(level, v) = std::min(rest_j(level, v), least_j + price_.switching_j);
+      rest_j(level, v) =
+          std::min(rest_j(level, v), least_j + price_.switching_s * rotor_w_.front());
     }
   }
 }
@@ -178,7 +181,7 @@ void HorizonSearch::weigh_first(const EnergySearch& search, const Stretch& here,
       estimate.joules_per_m = onward_j(point, here, v);
     }
     const bool switches = points_[point].resolution_m != search.in_force().resolution_m;
-    estimate.joules_per_m += switches ? price_.switching_j : 0.0;
+    estimate.joules_per_m += switches ? price_.switching_s * rotor_w_.front() : 0.0;
   }
 }
 

@@ -48,7 +48,7 @@ TEST(EnergySearchDetour, a_path_around_obstacles_is_longer_by_cells_and_by_a_lat
   const double shows_m =
       12.0 - 0.80 - EnergySearchSettings{}.margin_m - dear.speed_m_s * dear.response_s;
   const double longer_m = 0.80 + std::hypot(shows_m, 5.0) - shows_m;
-  const double switch_j_m = 60.0 / (12.0 - 0.80 - 0.5);
+  const double switch_j_m = 0.2 * one.rotor_power(0.0).value() / (12.0 - 0.80 - 0.5);
   EXPECT_NEAR(dear.joules_per_m - switch_j_m,
               (1.0 + longer_m / 20.0) * (plain.estimate(setting, slow).joules_per_m - switch_j_m),
               1e-9);
@@ -92,10 +92,11 @@ TEST(EnergySearchDetour, large_cells_pay_for_the_plans_that_fail_in_them) {
   EXPECT_EQ(one.choose(open, {}).setting.resolution_m, 0.80);
   const MapSetting large = one.in_force();
   const double before_j_m = one.estimate(large, open).joules_per_m;
-  open.large_m = 0.35;
-  open.large_j_m = 15.0;
-  EXPECT_NEAR(one.estimate(large, open).joules_per_m, before_j_m + 15.0, 1e-9);
-  open.large_j_m = 500.0;
+  std::vector<double> per_m{0.0, 0.02};
+  open.failed_plans_per_m = &per_m;
+  EXPECT_NEAR(one.estimate(large, open).joules_per_m,
+              before_j_m + 0.02 * 2.5 * one.rotor_power(0.0).value(), 1e-9);
+  per_m.back() = 1.0;
   EXPECT_EQ(one.choose(open, at(1.0)).setting.resolution_m, 0.15);
 }
 

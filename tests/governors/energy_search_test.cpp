@@ -124,7 +124,9 @@ TEST(EnergySearch, a_switch_pays_over_what_is_seen_ahead_and_ten_metres_at_least
     one.put_in_force({0.15, 12.0, top_hz}, {});
     const double switching_j_m = one.estimate(coarse, around).joules_per_m;
     one.put_in_force(coarse, {});
-    EXPECT_NEAR(switching_j_m - one.estimate(coarse, around).joules_per_m, 60.0 / over_m, 1e-9);
+    const double switching_j = 0.2 * one.rotor_power(0.0).value();
+    EXPECT_NEAR(switching_j_m - one.estimate(coarse, around).joules_per_m, switching_j / over_m,
+                1e-9);
   }
 }
 

@@ -24,10 +24,11 @@ struct EnergySearchSettings {
   double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
   double margin_m{0.5};     ///< Body and tracking tube, subtracted from the distance. Chosen.
   double frame_s{0.05};     ///< Between two frames of the camera.
-  /// What a change of resolution costs, because the other map starts with one frame. Chosen: as
-  /// much as .2 s of flight at 300 W.
-  double switching_j{60.0};
-  double horizon_m{10.0};  ///< A switch must pay for itself within this distance. Chosen.
+  /// A change of resolution costs as much as so long a hover, because the other map starts with one
+  /// frame. Chosen.
+  double switching_s{0.2};
+  double failed_plan_s{2.5};  ///< A failed plan costs as much as so long a hover. Chosen.
+  double horizon_m{10.0};     ///< A switch must pay for itself within this distance. Chosen.
   /// Mean length of path from obstacle to obstacle; 0: there are none.
   double spacing_m{};
   double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of
@@ -59,11 +60,12 @@ struct Surroundings {
   /// Both the learned response and the one that was expected before the flight count, because walls
   /// end most rays in a room, but not in the open space behind the next door.
   double most_response_s{1e9};
-  double coarsest_m{};   ///< The largest cells with which the path ahead is passable.
-  double large_m{1e9};   ///< Cells larger than this may close a gap that nobody has seen yet, ...
-  double large_j_m{};    ///< ... and have this price: failed plans per metre times what one costs.
-  double finest_m{};     ///< The smallest cells that may be chosen; 0: any.
-  WaitingShare waits{};  ///< Raises the price of lower clocks.
+  double coarsest_m{};  ///< The largest cells with which the path ahead is passable.
+  /// For each level, finest first: how many plans fail in its cells per metre of path, because they
+  /// close gaps that nobody has seen yet; null: none. It stays the owner's.
+  const std::vector<double>* failed_plans_per_m{};
+  double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
+  WaitingShare waits{};    ///< Raises the price of lower clocks.
   bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
 };
 
@@ -78,7 +80,7 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least energy per metre of progress
 ///
-///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) [+ price of large cells]
+///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
 /// Here v is the speed of MAVBench's eq. 2 for the calibrated bound on latency, and d is the
