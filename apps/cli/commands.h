@@ -20,6 +20,7 @@ void add_drift(CLI::App& program, int& exit_code);
 void add_tune(CLI::App& program, int& exit_code);
 void add_list(CLI::App& program, int& exit_code);
 void add_fit(CLI::App& program, int& exit_code);
+void add_calibrate(CLI::App& program, int& exit_code);
 void add_graph(CLI::App& program, int& exit_code);
 void add_policy(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);

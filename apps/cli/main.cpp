@@ -42,6 +42,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_models(program, exit_code);
   flyball::add_board(program, exit_code);
   flyball::add_fit(program, exit_code);
+  flyball::add_calibrate(program, exit_code);
   flyball::add_log(program, exit_code);
   flyball::add_localize(program, exit_code);
   flyball::add_version(program, exit_code);

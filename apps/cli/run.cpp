@@ -7,10 +7,10 @@
 #include "flyball/scenario/override.h"
 #include "flyball/simulation/mission.h"
 
+#include "cli/computer/real_computer.h"
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
-#include "real_computer.h"
 #include <filesystem>
 #include <memory>
 

@@ -166,11 +166,19 @@ void ClosedLoop::publish_depth() {
   const Pose X_WC = camera_pose(X_WB, scenario_.camera);
   const std::uint64_t number = frame_count_++;
   const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
+  if (renders_at_once_) {
+    (void)depth.image.value();
+    for (const SideView& side : depth.sides) {
+      (void)side.image.value();
+    }
+  }
   if (topics_.view) {
     const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
-    executor_.publish(*topics_.view,
-                      View{depth, cameras_.forward->frame({X_WC, X_LC}, queue_.now(), number),
-                           X_WB.inverse() * X_WC});
+    const ColourFrame colour = cameras_.forward->frame({X_WC, X_LC}, queue_.now(), number);
+    if (renders_at_once_) {
+      (void)colour.image.value();
+    }
+    executor_.publish(*topics_.view, View{depth, colour, X_WB.inverse() * X_WC});
   }
   executor_.publish(topics_.depth, depth);
 }
@@ -179,6 +187,9 @@ void ClosedLoop::publish_colour() {
   const Pose X_WC = vehicle_.camera_pose();
   const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
   const ColourFrame frame = cameras_.gimbal->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
+  if (renders_at_once_) {
+    (void)frame.image.value();
+  }
   if (on_picture_) {
     on_picture_(frame.sequence, X_WC);
   }

@@ -66,6 +66,9 @@ class ClosedLoop {
   /// platform's model is asked as ever.
   void measure_computer(std::function<Watts()> meter) { computer_meter_ = std::move(meter); }
 
+  /// See `MissionHooks::renders_at_once`.
+  void render_at_once(bool at_once) { renders_at_once_ = at_once; }
+
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
   [[nodiscard]] const FlightLog& log() const { return log_; }
@@ -108,6 +111,7 @@ class ClosedLoop {
   std::function<void()> on_energy_{};
   std::function<void(std::uint64_t, const Pose&)> on_picture_{};
   std::function<Watts()> computer_meter_{};
+  bool renders_at_once_{};
   FlightLog log_{};
   double last_busy_core_s_{};
   std::uint64_t navigation_count_{};

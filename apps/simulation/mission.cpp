@@ -142,6 +142,12 @@ void connect(Flight& flight, const MissionHooks& hooks) {
     timeline->begin(flight.graph);
     flight.executor->on_job([timeline](const JobRecord& job) { timeline->note(job); });
   }
+  if (hooks.job) {
+    flight.executor->on_job([&flight, &hooks](const JobRecord& job) {
+      hooks.job(flight.graph.nodes()[static_cast<std::size_t>(job.node)].spec, job);
+    });
+  }
+  flight.loop->render_at_once(hooks.renders_at_once);
   if (hooks.onboard_record != nullptr) {
     hooks.onboard_record->connect({flight.graph, *flight.executor,
                                    [&flight] { return flight.queue.now(); },

@@ -7,9 +7,9 @@
 #include "flyball/runtime/assert.h"
 
 #include "core_shares.h"
+#include "realtime/cpu_meter.h"
 #include "virtual_computer.h"
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace flyball {
@@ -73,10 +73,9 @@ void VirtualComputer::compute(int node) {
   context.record.released = job.record.released;
   context.record.started = job.record.started;
   exchange.open(node, context);
-  const auto begin = std::chrono::steady_clock::now();
+  const Duration begin = thread_cpu_time();
   job.record.work = graph.nodes()[index(node)].body(context);
-  const std::chrono::duration<double> host = std::chrono::steady_clock::now() - begin;
-  job.record.host_s = host.count();
+  job.record.host_s = to_seconds(thread_cpu_time() - begin);
   exchange.close(node, context);
   context.note_questions();
   job.record.reads = context.record.reads;

@@ -14,8 +14,8 @@
 #include "flyball/scenario/plugins.h"
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/platform_file.h"
+#include "flyball/studies/cost_fit.h"
 
-#include "cost_fit.h"
 #include "maps/octomap_tree.h"
 #include "scenario/kernel_choice.h"
 #include "simulation/mission_setup.h"
@@ -23,11 +23,38 @@
 #include "studies/fit_scenes.h"
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <map>
 
 namespace {
 
 using namespace flyball;
+
+/// CPU time: other programs on the host do not count.
+template <class Run>
+double seconds(Run&& run) {
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  run();
+  return now() - start;
+}
+
+void print_fit(const std::string& kernel,
+               const std::vector<std::string>& names,
+               const std::vector<CostSample>& samples,
+               double factor = 1.0) {
+  const CostFit fit = non_negative_fit(samples);
+  std::printf("%s: root mean square error %.1f %% of %zu samples\n%s:", kernel.c_str(),
+              100.0 * fit.error, samples.size(), kernel.c_str());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::printf(" %s %.3g", names[k].c_str(), 1e9 * factor * fit.seconds_per[k]);
+  }
+  std::printf(" ns\n");
+}
 
 struct Look {
   PointCloud cloud;
@@ -87,7 +114,7 @@ std::vector<Look> look_around(const Scenario& scenario, const World& world) {
 }
 
 void measure_octomap(const std::vector<Look>& views, double range_m) {
-  std::vector<Sample> samples;
+  std::vector<CostSample> samples;
   for (const double resolution_m : {0.15, 0.2, 0.3, 0.5, 0.8, 0.98}) {
     const auto counter = Plugins{}.make<Mapper>("octomap");
     octomap::OcTree full{resolution_m};
@@ -146,7 +173,7 @@ void measure_flyball(const std::vector<Look>& views, double range_m, const Platf
   const std::vector<std::string> names{"frame", "rays", "traversals", "blocks", "updates"};
   StockTime stock;
   stock.prices = model.kernels.at("octomap").seconds_per;
-  std::vector<Sample> samples;
+  std::vector<CostSample> samples;
   for (const double resolution_m : {0.15, 0.3, 0.6, 1.2}) {
     octomap::OcTree tree{resolution_m};
     const auto counter = Plugins{}.make<Mapper>("octomap");
@@ -157,16 +184,16 @@ void measure_flyball(const std::vector<Look>& views, double range_m, const Platf
       const auto mapper = std::move(make_kernel<Mapper>(Plugins{}, chosen).value());
       double total_s = 0.0;
       for (const Look& view : views) {
-        Sample sample;
+        CostSample sample;
         Work work;
-        sample.host_s = seconds([&] {
+        sample.time_s = seconds([&] {
           work = mapper->prepare(view.cloud, view.X_WC, {resolution_m, range_m}).value();
           mapper->commit();
         });
         for (const std::string& name : names) {
           sample.counts.push_back(work.count(name));
         }
-        total_s += sample.host_s;
+        total_s += sample.time_s;
         samples.push_back(std::move(sample));
         if (front_end == std::string{"pyramid"}) {
           stock.insert(view, range_m, *counter, tree);
@@ -208,7 +235,7 @@ void see_and_time(const std::vector<VisualFrame>& frames,
                   const Pose& X_WB,
                   double weak_corner,
                   const std::vector<std::string>& names,
-                  std::vector<Sample>& samples) {
+                  std::vector<CostSample>& samples) {
   KernelSettings kernels;
   kernels.localizer = "visual_slam";
   kernels.localizer_parameters = {{"weak_corner", weak_corner}};
@@ -217,8 +244,8 @@ void see_and_time(const std::vector<VisualFrame>& frames,
   localizer->place(X_WB);
   for (const VisualFrame& frame : frames) {
     Work work;
-    Sample sample;
-    sample.host_s = seconds([&] { (void)localizer->see(frame, work); });
+    CostSample sample;
+    sample.time_s = seconds([&] { (void)localizer->see(frame, work); });
     for (const std::string& name : names) {
       sample.counts.push_back(work.count(name));
     }
@@ -230,7 +257,7 @@ void see_and_time(const std::vector<VisualFrame>& frames,
 void measure_slam(const Scenario& scenario, const World& world) {
   const std::vector<std::string> names{"pixels", "features", "matches", "patches",
                                        "ransac_iterations"};
-  std::vector<Sample> samples;
+  std::vector<CostSample> samples;
   for (int i = 0; i < 20; ++i) {
     const bool is_outdoors = i < 10;
     Pose X_WB = Pose::Identity();

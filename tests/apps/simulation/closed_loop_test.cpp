@@ -44,5 +44,19 @@ TEST(ClosedLoop, battery_loses_about_what_rotors_and_computer_took) {
   EXPECT_NEAR(used_j / summary.energy_total_j(), 22.2 / 24.2, 0.04);
 }
 
+TEST(ClosedLoop, flies_the_same_whenever_its_pictures_are_rendered) {
+  MissionHooks hooks;
+  std::size_t jobs = 0;
+  hooks.job = [&](const NodeSpec& node, const JobRecord& job) {
+    jobs += node.name.empty() || job.ended < job.started ? 0U : 1U;
+  };
+  const auto later = fly(kit::short_delivery(), hooks);
+  EXPECT_GT(jobs, 100U);
+  hooks.renders_at_once = true;
+  const auto at_once = fly(kit::short_delivery(), hooks);
+  ASSERT_TRUE(later && at_once);
+  EXPECT_EQ(later->summary.trace_hash, at_once->summary.trace_hash);
+}
+
 }  // namespace
 }  // namespace flyball

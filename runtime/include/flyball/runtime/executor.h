@@ -34,7 +34,9 @@ struct JobRecord {
   Work work{};
   bool killed{};    ///< By `OnMiss::skip`.
   bool missed{};    ///< Its deadline.
-  double host_s{};  ///< Host time of the computation: never part of the trace hash.
+  /// Host time of the computation, never part of the trace hash: CPU time of its thread on a
+  /// modeled computer, and as time passes in real time.
+  double host_s{};
   int core{-1};     ///< On which it began; -1: not known, as on a modeled computer.
   Hertz clock{};    ///< That was granted when it began.
   std::vector<MessageVersion> reads{};  ///< In the order in which the body asked.

@@ -32,6 +32,11 @@ struct MissionHooks {
   std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
   Timeline* timeline{};     ///< Is told of all jobs; null: nothing is.
+  /// Called with each job that has ended, after it, on the caller's thread.
+  std::function<void(const NodeSpec&, const JobRecord&)> job{};
+  /// Cameras compute a picture when it is taken, so that no job pays for it; else it is computed
+  /// when somebody first looks at it, if ever. The pictures are the same.
+  bool renders_at_once{};
   OnboardRecord* onboard_record{};  ///< Is connected before the start; null: there is none.
   /// The real computer that the executor runs the nodes on: it is refreshed while the mission
   /// flies, and its watts and heat count. Null: the scenario's platform is modeled.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "real_computer.h"
+#include "cli/computer/real_computer.h"
 
 #include "flyball/scenario/files.h"
 #include "flyball/simulation/realtime_flight.h"
 
-#include "console.h"
+#include "cli/console.h"
 #include <utility>
 #include <vector>
 
@@ -111,6 +111,7 @@ void RealComputer::equip(MissionHooks& hooks) {
     hooks.computer = shared_board_.get();
   }
   hooks.executor = in_real_time(settings);
+  hooks.renders_at_once = true;  // As a camera does it, and not a job on the computer.
 }
 
 void RealComputer::close() {

@@ -3,9 +3,9 @@
 #include "flyball/runtime/board/board_report.h"
 #include "flyball/runtime/board/settings_keeper.h"
 
-#include "commands.h"
-#include "console.h"
-#include "real_computer.h"
+#include "cli/commands.h"
+#include "cli/computer/real_computer.h"
+#include "cli/console.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>

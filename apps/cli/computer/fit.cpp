@@ -2,8 +2,8 @@
 
 #include "flyball/studies/platform_fit.h"
 
-#include "commands.h"
-#include "console.h"
+#include "cli/commands.h"
+#include "cli/console.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
