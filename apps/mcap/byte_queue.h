@@ -38,7 +38,9 @@ class ByteQueue {
       return false;
     }
     put(at, &head, sizeof head);
-    put(at + sizeof head, row.data(), row.size());
+    if (!row.empty()) {  // A row that is still to be made has no bytes, and no place either.
+      put(at + sizeof head, row.data(), row.size());
+    }
     pushed_.store(at + sizeof head + row.size(), std::memory_order_release);
     return true;
   }

@@ -4,9 +4,11 @@
 // Whole missions whose nodes run on threads in arbitrary order, fed by the simulator through the
 // same topics as ever. Under the thread sanitizer they prove that nodes share nothing but messages.
 
+#include "flyball/mcap/mcap_recovery.h"
 #include "flyball/simulation/mission.h"
 
 #include "pool_executor.h"
+#include "scratch_folder.h"
 #include <algorithm>
 #include <cstdlib>
 #include <string>
@@ -40,8 +42,11 @@ Scenario loaded(const std::string& name, const std::vector<std::string>& setting
   return std::get<LoadedScenario>(found).scenario;
 }
 
-Result<MissionRecord> fly_on_threads(const Scenario& scenario, Overlaps& overlaps) {
+Result<MissionRecord> fly_on_threads(const Scenario& scenario,
+                                     Overlaps& overlaps,
+                                     OnboardRecord* record = nullptr) {
   MissionHooks hooks;
+  hooks.onboard_record = record;
   hooks.executor = [&](const Graph& graph, const Platform& platform, EventQueue& queue,
                        const OperatingPoint& start) {
     kit::PoolSettings settings;
@@ -103,6 +108,26 @@ TEST(PoolFlight, delivers_with_stock_octomap) {
   const Flown flown = fly_long_enough(
       loaded("delivery_forest", {"kernels.mapper=octomap", "governor.policy=two_level"}));
   EXPECT_EQ(flown.overlaps.count({"follow", "map"}), 1U);
+}
+
+/// The thread that writes asks maps for their cells while mappers make the next ones.
+TEST(PoolFlight, is_recorded_by_one_more_thread) {
+  for (const std::string mapper : {"flyball", "octomap"}) {
+    const ScratchFolder folder;
+    const std::string path = folder.path("a.mcap");
+    auto record = OnboardRecord::open(path, WhenFull::drop, {});
+    ASSERT_TRUE(record) << record.error().message;
+    Scenario scenario = loaded("delivery_forest", {"kernels.mapper=" + mapper});
+    scenario.mission.time_limit_s = flight_time_s();
+    Overlaps overlaps;
+    const auto flown = fly_on_threads(scenario, overlaps, record->get());
+    ASSERT_TRUE(flown) << flown.error().message;
+    ASSERT_TRUE((*record)->close());
+    const auto read = recover_mcap(path, folder.path("b.mcap"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->messages, (*record)->counts().written);
+    EXPECT_GT(read->messages, 100U) << mapper;
+  }
 }
 
 TEST(PoolFlight, maps_rooms) {
