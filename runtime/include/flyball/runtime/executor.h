@@ -32,13 +32,13 @@ struct JobRecord {
   MissionTime ended{};
   Duration busy{};  ///< Core time that it got.
   Work work{};
-  bool killed{};    ///< By `OnMiss::skip`.
-  bool missed{};    ///< Its deadline.
+  bool killed{};  ///< By `OnMiss::skip`.
+  bool missed{};  ///< Its deadline.
   /// Host time of the computation, never part of the trace hash: CPU time of its thread on a
   /// modeled computer, and as time passes in real time.
   double host_s{};
-  int core{-1};     ///< On which it began; -1: not known, as on a modeled computer.
-  Hertz clock{};    ///< That was granted when it began.
+  int core{-1};   ///< On which it began; -1: not known, as on a modeled computer.
+  Hertz clock{};  ///< That was granted when it began.
   std::vector<MessageVersion> reads{};  ///< In the order in which the body asked.
   /// How often it asked whether to stop before it was told so; all its questions if it never was.
   std::uint64_t questions_before_stop{};
