@@ -2,6 +2,8 @@
 
 #include "children.h"
 
+#include "flyball/runtime/program.h"
+
 #include "console.h"
 #include <array>
 #include <csignal>
@@ -53,7 +55,7 @@ sigset_t awaited_signals() {
 
 /// Runs the mission in the child and does not return. Nothing here may allocate memory, because
 /// this is a copy of a process that may have had threads.
-[[noreturn]] void become_mission(pid_t parent, int errors, char* const* argv) {
+[[noreturn]] void become_mission(pid_t parent, int errors, const char* program, char* const* argv) {
   // Whatever ends the parent, SIGKILL too, ends the mission.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) {  // It ended before that line.
@@ -67,7 +69,7 @@ sigset_t awaited_signals() {
   pthread_sigmask(SIG_SETMASK, &none, nullptr);
   dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-  execv("/proc/self/exe", argv);
+  execv(program, argv);
   _exit(cannot_start);
 }
 
@@ -81,10 +83,11 @@ pid_t start(const std::vector<std::string>& arguments, int errors) {
     argv.push_back(word.data());
   }
   argv.push_back(nullptr);
+  const std::string program = program_to_start();
   const pid_t parent = getpid();
   const pid_t child = fork();  // Not posix_spawn: it cannot tie the child's life to ours.
   if (child == 0) {
-    become_mission(parent, errors, argv.data());
+    become_mission(parent, errors, program.c_str(), argv.data());
   }
   return child;
 }

@@ -2,6 +2,8 @@
 
 #include "flyball/scenario/files.h"
 
+#include "flyball/runtime/program.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -25,8 +27,7 @@ std::vector<fs::path> data_folders() {
   if (given != nullptr && *given != '\0') {
     return {fs::path{given}};  // A path that is given excludes any other file.
   }
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path program = program_file();
   return {program.parent_path().parent_path() / "share" / "flyball", fs::path{FLYBALL_DATA_FOLDER}};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/kernels/module.h"
 
+#include "flyball/runtime/program.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -15,8 +17,7 @@ namespace fs = std::filesystem;
 
 /// Those that may hold modules, in the order in which they are asked.
 std::vector<fs::path> module_folders() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path program = program_file();
   std::vector<fs::path> folders{program.parent_path().parent_path() / "lib" / "flyball",
                                 fs::path{FLYBALL_MODULE_FOLDER}};
   // Read before any thread is started.

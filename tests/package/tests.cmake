@@ -27,5 +27,11 @@ endif()
 if(FLYBALL_BUILD_SIM)
   add_test(NAME package.policy COMMAND ${CMAKE_COMMAND} ${consumer_settings}
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_policy.cmake)
+  if(TARGET flyball_launcher)
+    add_test(NAME package.bundle COMMAND ${CMAKE_COMMAND} ${consumer_settings}
+                                         -P ${CMAKE_CURRENT_LIST_DIR}/start_bundle.cmake)
+    set_tests_properties(package.bundle PROPERTIES LABELS package TIMEOUT 600
+                                                   SKIP_REGULAR_EXPRESSION "unshare: ")
+  endif()
   set_tests_properties(package.policy PROPERTIES LABELS package TIMEOUT 600)
 endif()
