@@ -15,17 +15,6 @@ namespace {
 constexpr double standing_m_s = 0.1;        // Chosen: slower than any cruise.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
-// The range up to which the camera's noise stays below half a cell. Beyond it, noise fills the
-// cells beside an obstacle too, and closes gaps.
-double noise_free_m(const DepthCameraSpec& camera, double resolution_m) {
-  constexpr double step_m = 0.05;  // A fraction of the finest cells.
-  double free_m = camera.max_range_m;
-  while (free_m > 0.0 && camera.noise_m(free_m) > 0.5 * resolution_m) {
-    free_m -= step_m;
-  }
-  return free_m;
-}
-
 /// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
 /// plan would begin in an occupied cell.
 double above_ground_m(const std::vector<double>& cells_m, const VehicleModel& vehicle) {
@@ -52,21 +41,6 @@ std::vector<double> levels_of(const Parameters& given,
   std::copy_if(resolution.legal.begin(), resolution.legal.end(), std::back_inserter(levels_m),
                [&](double r_m) { return r_m >= fine_m && r_m <= coarse_m; });
   return levels_m;
-}
-
-// A camera that nobody knows is trusted as far as the mission trusts it.
-double longest_m(const Parameters& given,
-                 const KnobSettings& knobs,
-                 const VehicleModel& vehicle,
-                 double coarsest_m) {
-  constexpr double usual_m = 12.0;  // Chosen: where an RGB-D camera's noise is half a cell of .7 m.
-  const double most_m = given.number("most_range_m");
-  if (most_m > 0.0) {
-    return most_m;
-  }
-  const double shown_m = vehicle.depth_camera ? noise_free_m(*vehicle.depth_camera, coarsest_m)
-                                              : std::max(usual_m, knobs.value("map.range_m"));
-  return knobs.spec("map.range_m")->nearest(shown_m);
 }
 
 }  // namespace
@@ -103,12 +77,14 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
     return refused("fine_m = " + std::to_string(limits.levels_m_.front()) +
                    " must be below coarse_m = " + std::to_string(limits.levels_m_.back()));
   }
-  const double most_m = longest_m(given, knobs, vehicle, limits.levels_m_.back());
-  if (limits.least_range_m_ >= most_m) {
+  const double given_m = given.number("most_range_m");
+  if (given_m > 0.0 && limits.least_range_m_ >= given_m) {
     return refused("least_range_m = " + std::to_string(limits.least_range_m_) +
-                   " must be below most_range_m = " + std::to_string(most_m));
+                   " must be below most_range_m = " + std::to_string(given_m));
   }
-  limits.ranges_m_ = ranges_between(limits.least_range_m_, most_m);
+  const double most_m = given_m > 0.0 ? given_m : limits.longest_m(knobs);
+  limits.ranges_m_ = most_m > limits.least_range_m_ ? ranges_between(limits.least_range_m_, most_m)
+                                                    : std::vector<double>{limits.least_range_m_};
   return limits;
 }
 
@@ -147,6 +123,28 @@ Passability MissionLimits::passability(const Parameters& given) const {
   return {passable, std::move(levels_m)};
 }
 
+// Beyond half a cell, noise fills the cells beside an obstacle too. A lattice keeps all hits in its
+// finest cells, where they still are when the vehicle comes to a gap, whatever cells it had before.
+// So with a lattice noise also stays below a quarter of the body's width on each side: a gap of one
+// and a half bodies stays passable.
+double MissionLimits::noise_free_m(double resolution_m) const {
+  constexpr double step_m = 0.05;  // A fraction of the finest cells.
+  const double most_m = std::min(0.5 * resolution_m, is_lattice_ ? 0.25 * body_m_ : 1e9);
+  double free_m = camera_->max_range_m;
+  while (free_m > 0.0 && camera_->noise_m(free_m) > most_m) {
+    free_m -= step_m;
+  }
+  return free_m;
+}
+
+// A camera that nobody knows is trusted as far as the mission trusts it.
+double MissionLimits::longest_m(const KnobSettings& knobs) const {
+  constexpr double usual_m = 12.0;  // Chosen: where an RGB-D camera's noise is half a cell of .7 m.
+  return knobs.spec("map.range_m")
+      ->nearest(camera_ ? noise_free_m(levels_m_.back())
+                        : std::max(usual_m, knobs.value("map.range_m")));
+}
+
 double MissionLimits::near_m() const {
   return least_range_m_ + 1.0;
 }
@@ -158,9 +156,8 @@ double MissionLimits::spacing_m() const {
 std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) const {
   auto levels = levels_between(levels_m_, fine_s, coarse_s);
   for (SearchLevel& level : levels) {
-    level.most_range_m = camera_
-                             ? std::max(least_range_m_, noise_free_m(*camera_, level.resolution_m))
-                             : ranges_m_.back();
+    level.most_range_m =
+        camera_ ? std::max(least_range_m_, noise_free_m(level.resolution_m)) : ranges_m_.back();
   }
   return levels;
 }

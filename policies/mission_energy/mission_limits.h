@@ -25,8 +25,8 @@ namespace flyball {
 /// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
 ///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
 ///   the rate of failures at each level is a price of its cells (`FailedPlans`).
-/// - The camera's noise: no level has a longer range than that up to which noise is below half a
-///   cell.
+/// - The camera's noise: a level ends where noise is half a cell or, with a lattice, a quarter of
+///   the body's width.
 /// - Visibility: where the world ends the view, a longer range gains nothing.
 /// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
 ///   makes the path shorter.
@@ -87,6 +87,8 @@ class MissionLimits {
                         const MapSetting& in_force,
                         Surroundings& around) const;
   [[nodiscard]] Passability passability(const Parameters& given) const;
+  [[nodiscard]] double noise_free_m(double resolution_m) const;
+  [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
   [[nodiscard]] double fine_budget(const Observation& seen) const;
 
   bool is_lattice_;

@@ -36,11 +36,19 @@ TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
   EXPECT_EQ(cells_m, (std::vector<double>{0.30, 0.60, 0.80}));
 }
 
+/// Of a mapper that takes any cells.
+KnobSettings any_resolution() {
+  std::vector<KnobSpec> specs = conformance_knobs().specs();
+  specs.front().legal.clear();
+  return KnobSettings{specs};
+}
+
 /// The longest range of each level that the search may choose.
-std::vector<double> longest_ranges_m(const DepthCameraSpec& camera) {
+std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
+                                     const KnobSettings& knobs = conformance_knobs()) {
   VehicleModel vehicle;
   vehicle.depth_camera = camera;
-  auto limits = made({{"coarse_m", 0.60}}, conformance_knobs(), vehicle);
+  auto limits = made({}, knobs, vehicle);
   std::vector<double> ranges_m;
   for (const SearchLevel& level : limits->levels(0.5, 0.1)) {
     ranges_m.push_back(std::min(level.most_range_m, limits->ranges_m().back()));
@@ -48,29 +56,41 @@ std::vector<double> longest_ranges_m(const DepthCameraSpec& camera) {
   return ranges_m;
 }
 
-// Of its own: (r / 2 + .4193) / .0657 is 7.5, 8.7 and 10.9 m.
-TEST(MissionLimits, looks_no_farther_than_noise_is_below_half_a_cell) {
-  DepthCameraSpec camera;
-  camera.max_range_m = 20.0;
-  const auto ranges_m = longest_ranges_m(camera);
-  ASSERT_EQ(ranges_m.size(), 3U);
-  const std::vector<double> expected_m{7.52, 8.67, 10.95};
-  for (std::size_t i = 0; i < 3; ++i) {
+// By hand: (r / 2 + .4193) / .0657 is 7.5 and 8.7 m; (.71 / 4 + .4193) / .0657 is 9.1 m.
+TEST(MissionLimits, looks_no_farther_than_noise_leaves_gaps_in_a_lattice) {
+  const auto ranges_m = longest_ranges_m(DepthCameraSpec{});
+  const std::vector<double> expected_m{7.52, 8.67, 9.08, 9.08, 9.08};
+  ASSERT_EQ(ranges_m.size(), expected_m.size());
+  for (std::size_t i = 0; i < expected_m.size(); ++i) {
     EXPECT_NEAR(ranges_m[i], expected_m[i], 0.051) << "found in steps of .05 m";
   }
 }
 
+// By hand: (.8 / 2 + .4193) / .0657 is 12.5 m.
+TEST(MissionLimits, looks_as_far_as_noise_is_half_a_cell_without_a_lattice) {
+  const auto ranges_m = longest_ranges_m(DepthCameraSpec{}, any_resolution());
+  EXPECT_NEAR(ranges_m.front(), 7.52, 0.051);
+  EXPECT_NEAR(ranges_m.back(), 12.47, 0.051);
+}
+
 TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
   DepthCameraSpec camera;
-  camera.max_range_m = 20.0;
   camera.rgbd_noise = false;
   for (const double range_m : longest_ranges_m(camera)) {
     EXPECT_EQ(range_m, 20.0);
   }
-  camera.extra_noise_m = 0.1;
-  const auto noisy_m = longest_ranges_m(camera);
-  EXPECT_EQ(noisy_m.front(), 7.0) << "no range suits cells of .15 m; the shortest is left";
-  EXPECT_EQ(noisy_m.back(), 20.0);
+}
+
+TEST(MissionLimits, keeps_the_shortest_range_with_a_camera_that_cannot_tell_a_cell) {
+  DepthCameraSpec noisy;
+  noisy.extra_noise_m = 0.5;
+  DepthCameraSpec short_sighted;
+  short_sighted.max_range_m = 5.0;
+  for (const DepthCameraSpec& camera : {noisy, short_sighted}) {
+    for (const double range_m : longest_ranges_m(camera)) {
+      EXPECT_EQ(range_m, 7.0);
+    }
+  }
 }
 
 TEST(MissionLimits, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) {
