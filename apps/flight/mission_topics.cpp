@@ -72,7 +72,7 @@ void add_finish(Graph& graph, const MissionTopics& topics) {
   });
 }
 
-void add_record(Graph& graph, const MissionTopics& topics, Recorder& recorder) {
+int add_record(Graph& graph, const MissionTopics& topics, Recorder& recorder) {
   NodeSpec spec;
   spec.name = "record";
   spec.trigger = OnMessage{topics.log.index};
@@ -83,6 +83,7 @@ void add_record(Graph& graph, const MissionTopics& topics, Recorder& recorder) {
     }
     return Work{};
   });
+  return static_cast<int>(graph.nodes().size()) - 1;
 }
 
 void declare_log(NodeSpec& spec, const MissionTopics& topics) {

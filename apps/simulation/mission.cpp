@@ -72,7 +72,7 @@ struct Flight {
     parts.kernels = setup.equipment.kernels;
     workload->build(graph, parts);
     add_finish(graph, parts.mission);
-    add_record(graph, parts.mission, trace);
+    record_node = add_record(graph, parts.mission, trace);
     add_governing(scenario, setup);
     executor = on.make_executor(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
@@ -114,6 +114,7 @@ struct Flight {
   DriftingPlatform computer;  ///< The true one: what is known of it on board is in the brief.
   SimulatedBoard board;
   FlightParts parts;
+  int record_node{};
   std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
   std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
   Duration period{};                       ///< Between decisions.
@@ -190,6 +191,7 @@ void run(Flight& flight, const MissionHooks& hooks) {
     (void)queue.step();
   }
   flight.executor->stop();
+  flight.executor->run_last(flight.record_node);
 }
 
 void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {

@@ -123,7 +123,8 @@ void GovernorLoop::decide(JobContext& job) {
     note_event(job, "policy says: " + std::string{said});
   }
   apply(job, decision);
-  ++decisions_;
+  // A job that is killed when the flight ends publishes nothing, so no record has its decision.
+  job.at_end([this](MissionTime) { ++decisions_; });
 }
 
 void GovernorLoop::publish_knobs(JobContext& job) {

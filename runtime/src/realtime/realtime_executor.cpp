@@ -232,6 +232,16 @@ void RealtimeExecutor::stop() {
   }
 }
 
+void RealtimeExecutor::run_last(int node) {
+  FLYBALL_ASSERT(engine_->is_stopped, "node %d is to run last, but the executor runs", node);
+  if (engine_->exchange.owed_since(node)) {
+    NodeJob& job = engine_->nodes[RealtimeEngine::index(node)].job;
+    engine_->exchange.open(node, job);
+    (void)engine_->graph.nodes()[RealtimeEngine::index(node)].body(job);
+    engine_->exchange.close(node, job);
+  }
+}
+
 Duration RealtimeExecutor::longest_delay() const {
   return engine_->longest_delay;
 }

@@ -46,7 +46,17 @@ TEST(Replay, repeats_every_decision_bit_for_bit) {
 TEST(Replay, repeats_a_flight_in_real_time_with_decisions_that_were_dropped) {
   Scenario scenario = kit::short_delivery(200.0);
   scenario.mission.time_limit_s = 3.0;
-  scenario.governor.policy = "schedutil_10ms";
+  scenario.governor.period_s = 0.01;
+  // Each decision is another one, so that a decision too many or too few shows.
+  const ScratchFolder scripts;
+  scenario.governor.policy = scripts.file("to_and_fro.lua", R"(
+    description = "One clock, then the other"
+    local count = 0
+    function decide(seen)
+      count = count + 1
+      return {["cpu.frequency_hz"] = count % 2 == 0 and 345.6e6 or 2035.2e6}, "fixed"
+    end
+  )");
   RealtimeSettings settings;
   settings.grant = [](const OperatingPoint& wanted) {
     std::this_thread::sleep_for(std::chrono::milliseconds{25});  // A slow board.

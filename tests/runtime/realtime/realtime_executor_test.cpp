@@ -236,25 +236,6 @@ TEST(RealtimeExecutor, a_thread_runs_the_successor_of_its_job_itself) {
   EXPECT_EQ(ran_on[0], ran_on[1]);
 }
 
-TEST(RealtimeExecutor, stop_waits_for_jobs_that_run_and_tells_them) {
-  RealtimeRig rig;
-  std::atomic<bool> runs{};
-  bool was_told{};
-  const auto in = rig.add("long", 0, [&](JobContext& context) {
-    runs = true;
-    was_told = comes_true([&] { return context.should_stop(); });
-  });
-  rig.start();
-  rig.executor->publish(in, 1);
-  ASSERT_TRUE(rig.serve([&] { return runs.load(); }));
-  rig.executor->publish(in, 2);
-  rig.executor->stop();
-  EXPECT_TRUE(was_told);
-  rig.executor->serve_until(rig.executor->now() + 10s);  // Returns at once.
-  EXPECT_TRUE(rig.records.empty());
-  EXPECT_GE(rig.executor->busy_core_s(), 0.0);
-}
-
 TEST(RealtimeExecutor, the_operating_point_binds_its_threads_to_so_many_cores) {
   RealtimeRig rig;
   std::atomic<int> cores{};

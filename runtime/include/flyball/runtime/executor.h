@@ -98,6 +98,10 @@ class Executor {
   /// No job starts from now on; one that runs is waited for. Afterwards the caller may look at what
   /// the nodes own.
   virtual void stop() = 0;
+  /// After `stop`: one more job of this node, on the caller's thread, if messages wait that it has
+  /// not read, so that a record has its last rows. Its publications are lost. On modeled time
+  /// nothing waits then.
+  virtual void run_last(int /*node*/) {}
 
  protected:
   virtual void inject(int topic, Message message) = 0;

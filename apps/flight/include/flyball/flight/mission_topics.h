@@ -75,8 +75,9 @@ struct MissionTopics {
 
 /// Adds the node `finish`, from `end` to `outcome`.
 void add_finish(Graph& graph, const MissionTopics& topics);
-/// Adds the node `record`, from `log` to `recorder`, which outlives the graph's jobs.
-void add_record(Graph& graph, const MissionTopics& topics, Recorder& recorder);
+/// Adds the node `record`, from `log` to `recorder`, which outlives the graph's jobs. Returns its
+/// number: see `Executor::run_last`.
+int add_record(Graph& graph, const MissionTopics& topics, Recorder& recorder);
 
 /// Declares that a node writes rows of the log.
 void declare_log(NodeSpec& spec, const MissionTopics& topics);

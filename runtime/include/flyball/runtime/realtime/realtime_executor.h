@@ -83,6 +83,7 @@ class RealtimeExecutor final : public Executor {
   [[nodiscard]] std::uint64_t drops() const override;
   /// Jobs that run are told to stop.
   void stop() override;
+  void run_last(int node) override;
 
  protected:
   void inject(int topic, Message message) override;
