@@ -37,8 +37,8 @@ if(DEFINED sysroot)
   file(REAL_PATH "${sysroot}" sysroot)
   set(CMAKE_GET_RUNTIME_DEPENDENCIES_PLATFORM linux+elf)
   set(CMAKE_GET_RUNTIME_DEPENDENCIES_TOOL objdump)
-  file(GLOB folders LIST_DIRECTORIES true ${sysroot}/usr/lib/*-linux-gnu ${sysroot}/usr/lib/*-linux-gnu/blas
-       ${sysroot}/usr/lib/*-linux-gnu/lapack)
+  file(GLOB folders LIST_DIRECTORIES true ${sysroot}/lib/*-linux-gnu ${sysroot}/usr/lib ${sysroot}/usr/lib/*-linux-gnu
+       ${sysroot}/usr/lib/*-linux-gnu/blas ${sysroot}/usr/lib/*-linux-gnu/lapack)
 endif()
 file(GLOB modules ${root}/lib/flyball/*.so)
 file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${root}/bin/flyball MODULES ${modules}
