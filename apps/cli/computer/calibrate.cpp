@@ -157,6 +157,41 @@ CalibrationOptions options_of(const CalibrateArguments& given, const ClockChoice
   return options;
 }
 
+/// The file, and for a person what is in it.
+Status write_platform(const std::string& out, Bench& bench, Calibration& calibration) {
+  PlatformModel& model = calibration.model;
+  bench.remarks.insert(bench.remarks.begin(),
+                       "Made by flyball calibrate, like " + model.name + ".");
+  model.name = std::filesystem::path{out}.stem().string();
+  if (const Status written = write_file(out, to_toml(model, bench.remarks)); !written) {
+    return written;
+  }
+  print(to_text(calibration));
+  for (const std::string& remark : bench.remarks) {
+    print(remark + "\n");
+  }
+  print("\nFly with it: flyball run delivery_forest --set platform.name=" + out +
+        " --set platform.cores=" + std::to_string(model.max_cores) +
+        " --set platform.frequency_hz=" + rounded(model.frequencies.back().value(), 0) + "\n");
+  return Done{};
+}
+
+/// Kernels first, then power; the board is as it was afterwards.
+Result<Calibration> measure(const CalibrateArguments& given, Bench& bench) {
+  const ClockChoice clock = clocks_of(bench, given);
+  auto calibration = calibrate(options_of(given, clock));
+  if (!calibration) {
+    return calibration;
+  }
+  if (const Status power = calibrate_power(bench, clock, calibration->model); !power) {
+    return power.error();
+  }
+  for (const Error& not_restored : bench.board ? bench.board->close() : std::vector<Error>{}) {
+    note(not_restored.message);
+  }
+  return calibration;
+}
+
 int calibrate_into(const CalibrateArguments& given) {
   if (std::filesystem::exists(given.out)) {
     return refuse({{ErrorCode::invalid_input,
@@ -166,8 +201,7 @@ int calibrate_into(const CalibrateArguments& given) {
   if (!bench) {
     return refuse({bench.error()});
   }
-  const ClockChoice clock = clocks_of(*bench, given);
-  auto calibration = calibrate(options_of(given, clock));
+  auto calibration = measure(given, *bench);
   if (was_interrupted()) {
     note("interrupted; nothing is written");
     return interrupted_exit_code();
@@ -175,24 +209,8 @@ int calibrate_into(const CalibrateArguments& given) {
   if (!calibration) {
     return refuse({calibration.error()});
   }
-  PlatformModel& model = calibration->model;
-  if (const Status power = calibrate_power(*bench, clock, model); !power) {
-    return refuse({power.error()});
-  }
-  bench->remarks.insert(bench->remarks.begin(),
-                        "Made by flyball calibrate, like " + model.name + ".");
-  model.name = std::filesystem::path{given.out}.stem().string();
-  if (const Status written = write_file(given.out, to_toml(model, bench->remarks)); !written) {
-    return refuse({written.error()});
-  }
-  print(to_text(*calibration));
-  for (const std::string& remark : bench->remarks) {
-    print(remark + "\n");
-  }
-  print("\nFly with it: flyball run delivery_forest --set platform.name=" + given.out +
-        " --set platform.cores=" + std::to_string(model.max_cores) +
-        " --set platform.frequency_hz=" + rounded(model.frequencies.back().value(), 0) + "\n");
-  return exit_success;
+  const Status written = write_platform(given.out, *bench, *calibration);
+  return written ? exit_success : refuse({written.error()});
 }
 
 }  // namespace
