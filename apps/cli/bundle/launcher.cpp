@@ -22,7 +22,7 @@ std::string own_file(const std::string& called) {
   if (length > 0) {
     return {path.data(), static_cast<std::size_t>(length)};
   }
-  const char* told = std::getenv("FLYBALL_PROGRAM");
+  const char* told = std::getenv("FLYBALL_PROGRAM");  // NOLINT(concurrency-mt-unsafe): one thread
   return called.find('/') == std::string::npos && told != nullptr ? told : called;
 }
 
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
       (slash == std::string::npos ? "." : file.substr(0, slash)) + "/../lib/bundle";
   const std::string loader = libraries + "/loader";
   const std::string program = libraries + "/flyball";
-  setenv("FLYBALL_PROGRAM", file.c_str(), 1);
+  setenv("FLYBALL_PROGRAM", file.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
   std::vector<const char*> words{"flyball", "--library-path", libraries.c_str(), program.c_str()};
   words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
   words.push_back(nullptr);

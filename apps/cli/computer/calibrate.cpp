@@ -163,7 +163,7 @@ Status write_platform(const std::string& out, Bench& bench, Calibration& calibra
   bench.remarks.insert(bench.remarks.begin(),
                        "Made by flyball calibrate, like " + model.name + ".");
   model.name = std::filesystem::path{out}.stem().string();
-  if (const Status written = write_file(out, to_toml(model, bench.remarks)); !written) {
+  if (Status written = write_file(out, to_toml(model, bench.remarks)); !written) {
     return written;
   }
   print(to_text(calibration));
