@@ -2,8 +2,6 @@
 
 #include "flight_batch.h"
 
-#include "flyball/scenario/override.h"
-
 #include "children.h"
 #include <algorithm>
 #include <optional>
@@ -60,8 +58,10 @@ std::optional<std::string> comparison_step(const LoadedScenario& loaded) {
 std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions& options,
                                                             const std::string& policy,
                                                             std::uint64_t seed,
-                                                            const std::string& folder) {
+                                                            const std::string& folder,
+                                                            const std::vector<Override>& varied) {
   std::vector<Override> overrides = of_set(options.settings);
+  overrides.insert(overrides.end(), varied.begin(), varied.end());
   overrides.push_back({"governor.policy=" + policy, "--policies"});
   overrides.push_back({"seed=" + std::to_string(seed), "--seeds"});
   auto loaded = load_overridden_scenario(options.scenario, overrides, options.plugins);
@@ -79,6 +79,9 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
       flight.folder};
   for (const std::string& setting : options.settings) {
     flight.arguments.insert(flight.arguments.end(), {"--set", setting});
+  }
+  for (const Override& setting : varied) {
+    flight.arguments.insert(flight.arguments.end(), {"--set", setting.key_and_value});
   }
   for (const std::string& library : options.plugins.libraries()) {
     flight.arguments.insert(flight.arguments.end(), {"--kernels", library});

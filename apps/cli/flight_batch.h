@@ -5,7 +5,7 @@
 /// Many missions, each a process of its own: planned before the first one flies, flown a few at a
 /// time, and what went wrong said once.
 
-#include "flyball/scenario/scenario.h"
+#include "flyball/scenario/override.h"
 
 #include "console.h"
 #include "flight_options.h"
@@ -26,11 +26,13 @@ struct PlannedFlight {
 };
 
 /// Reads and checks the scenario with this policy and seed; nothing flies yet.
+/// @param varied  Settings that only this flight has, on top of those of `options`.
 [[nodiscard]] std::variant<PlannedFlight, std::vector<Error>> plan_flight(
     const FlightOptions& options,
     const std::string& policy,
     std::uint64_t seed,
-    const std::string& folder);
+    const std::string& folder,
+    const std::vector<Override>& varied = {});
 
 /// `two_level seed 7`
 [[nodiscard]] std::string name_of(const PlannedFlight& flight);

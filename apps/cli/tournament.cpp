@@ -4,12 +4,11 @@
 
 #include "flyball/records/report.h"
 #include "flyball/studies/energy_bound.h"
-#include "flyball/studies/tournament_store.h"
 
 #include "claimed_folder.h"
 #include "commands.h"
-#include "flight_batch.h"
 #include "seed_list.h"
+#include "stored_flights.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -33,11 +32,7 @@ struct TournamentOptions {
   bool shows_bound{};
 };
 
-/// One mission of the tournament.
-struct Entry : PlannedFlight {
-  std::optional<Summary> summary{};  ///< Empty until it has flown.
-};
-using Entries = std::vector<Entry>;
+using Entries = std::vector<StoredFlight>;
 
 std::string out_folder(const TournamentOptions& options) {
   return options.flight.out.empty() ? "flights/tournament" : options.flight.out;
@@ -59,7 +54,7 @@ std::variant<Entries, std::vector<Error>> plan(const TournamentOptions& options,
       if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
         return std::move(*errors);
       }
-      entries.push_back({std::move(std::get<PlannedFlight>(planned)), std::nullopt});
+      entries.push_back({std::move(std::get<PlannedFlight>(planned)), "", std::nullopt});
     }
     if (!names.insert(entries.back().scenario.name).second) {
       return std::vector{Error{ErrorCode::invalid_input,
@@ -70,68 +65,11 @@ std::variant<Entries, std::vector<Error>> plan(const TournamentOptions& options,
   return entries;
 }
 
-/// Keeps the summary; the rest of the record is large, and goes unless it was asked for.
-Status keep(const TournamentOptions& options, TournamentStore& store, Entry& entry) {
-  if (Status added = store.add(entry.scenario, *entry.summary); !added) {
-    return added;
-  }
-  std::error_code ignored;  // A folder that stays behind is no harm.
-  if (!options.keeps_records) {
-    std::filesystem::remove_all(entry.folder, ignored);
-    const std::filesystem::path of_policy = std::filesystem::path{entry.folder}.parent_path();
-    remove_empty({of_policy.parent_path().parent_path().string(), of_policy.parent_path().string(),
-                  of_policy.string()});
-  }
-  return Done{};
-}
-
-void show_progress(const Entry& entry, std::size_t done, std::size_t all) {
-  const Summary& s = *entry.summary;
-  const bool failed = s.failure != MissionFailure::none;
-  note("[" + std::to_string(done) + "/" + std::to_string(all) + "] " + s.scenario + " " +
-       name_of(entry) + ": " + (failed ? to_string(s.failure) : to_string(s.status)) + " after " +
-       std::to_string(static_cast<long>(s.mission_time_s)) + " s, " +
-       std::to_string(static_cast<long>(s.energy_total_j() * 1e-3)) + " kJ");
-}
-
-Flown fly_missing(const TournamentOptions& options, TournamentStore& store, Entries& entries) {
-  std::vector<Entry*> missing;
-  std::vector<const PlannedFlight*> flights;
-  for (Entry& entry : entries) {
-    if (!entry.summary) {
-      missing.push_back(&entry);
-      flights.push_back(&entry);
-    }
-  }
-  std::size_t done = entries.size() - missing.size();
-  std::vector<Error> unwritten;
-  Flown flown = fly_all(flights, options.jobs, [&](std::size_t index) {
-    Entry& entry = *missing[index];
-    const auto run = finished_run(entry.folder, entry.scenario);
-    if (!run) {
-      return false;
-    }
-    entry.summary = run->summary;
-    if (const Status kept = keep(options, store, entry); !kept) {
-      unwritten.push_back(kept.error());
-    }
-    if (++done; has_watcher()) {
-      show_progress(entry, done, entries.size());
-    }
-    return true;
-  });
-  if (!unwritten.empty()) {
-    flown.errors.push_back(unwritten.front());
-    flown.exit_code = exit_bad_input;
-  }
-  return flown;
-}
-
 /// Of each world and seed once; where none is known, of none.
 KnownBounds bounds_of(const Entries& entries) {
   KnownBounds bounds;
   std::set<std::string> told;
-  for (const Entry& entry : entries) {
+  for (const StoredFlight& entry : entries) {
     const Scenario& scenario = entry.scenario;
     if (bounds.count({scenario.name, scenario.seed}) > 0) {
       continue;
@@ -167,7 +105,7 @@ Result<std::vector<PolicyPair>> read_pairs(const TournamentOptions& options) {
 
 int show(const TournamentOptions& options, const Entries& entries) {
   std::vector<Summary> flights;
-  for (const Entry& entry : entries) {
+  for (const StoredFlight& entry : entries) {
     flights.push_back(*entry.summary);
   }
   const std::vector<WorldResult> worlds = tournament_of(
@@ -185,18 +123,13 @@ int show(const TournamentOptions& options, const Entries& entries) {
   return exit_success;
 }
 
-int fly_and_show(const TournamentOptions& options, TournamentStore& store, Entries& entries) {
-  std::size_t reused = 0;
-  for (Entry& entry : entries) {
-    entry.summary = store.find(entry.scenario);
-    reused += entry.summary ? 1 : 0;
+int fly_and_show(const TournamentOptions& options, FlightStore& store, Entries& entries) {
+  std::vector<StoredFlight*> flights;
+  for (StoredFlight& entry : entries) {
+    flights.push_back(&entry);
   }
-  if (reused > 0) {
-    note(std::to_string(reused) + " of " + std::to_string(entries.size()) +
-         " flights are known from before");
-  }
-  const Flown flown = fly_missing(options, store, entries);
-  if (const std::optional<int> code = unfinished(flown)) {
+  const StoredBatch batch{out_folder(options), options.jobs, options.keeps_records, true};
+  if (const std::optional<int> code = unfinished(fly_stored(batch, store, flights))) {
     return *code;
   }
   return show(options, entries);
@@ -223,7 +156,7 @@ int hold_tournament(TournamentOptions options) {
   if (!claimed) {
     return refuse({claimed.error()});
   }
-  auto store = TournamentStore::open(out_folder(options) + "/tournament.db");
+  auto store = FlightStore::open(out_folder(options) + "/tournament.db");
   if (!store) {
     remove_empty(claimed->made());
     return refuse({store.error()});

@@ -2,13 +2,12 @@
 
 #include "flyball/records/report.h"
 #include "flyball/studies/comparison.h"
-#include "flyball/studies/tournament_store.h"
 #include "flyball/studies/tuning.h"
 
 #include "claimed_folder.h"
 #include "commands.h"
-#include "flight_batch.h"
 #include "seed_list.h"
+#include "stored_flights.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -30,7 +29,7 @@ struct TuneOptions {
 };
 
 /// One candidate with one seed.
-struct Heat : PlannedFlight {
+struct Heat : StoredFlight {
   std::size_t candidate{};
 };
 
@@ -39,7 +38,7 @@ struct Race {
   const TuneOptions& options;
   std::vector<std::uint64_t> seeds;
   std::string folder;
-  TournamentStore& store;
+  FlightStore& store;
   std::vector<Candidate> candidates;
 };
 
@@ -70,32 +69,21 @@ std::variant<std::vector<Heat>, std::vector<Error>> plan_round(Race& race,
       if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
         return std::move(*errors);
       }
-      heats.push_back({std::move(std::get<PlannedFlight>(planned)), i});
+      heats.push_back({{std::move(std::get<PlannedFlight>(planned)), "", std::nullopt}, i});
     }
   }
   return heats;
 }
 
-Flown fly_round(Race& race, const std::vector<Heat>& heats) {
-  std::vector<const PlannedFlight*> missing;
-  for (const Heat& heat : heats) {
-    if (!race.store.find(heat.scenario)) {
-      missing.push_back(&heat);
-    }
+Flown fly_round(Race& race, std::vector<Heat>& heats) {
+  std::vector<StoredFlight*> flights;
+  for (Heat& heat : heats) {
+    flights.push_back(&heat);
   }
-  Flown flown = fly_all(missing, race.options.jobs, [&](std::size_t index) {
-    const PlannedFlight& flight = *missing[index];
-    const auto run = finished_run(flight.folder, flight.scenario);
-    if (!run || !race.store.add(flight.scenario, run->summary)) {
-      return false;
-    }
-    std::error_code ignored;  // A folder that stays behind is no harm.
-    std::filesystem::remove_all(flight.folder, ignored);
-    return true;
-  });
+  Flown flown = fly_stored({race.folder, race.options.jobs}, race.store, flights);
   if (flown.signal == 0 && flown.errors.empty()) {
     for (const Heat& heat : heats) {
-      race.candidates[heat.candidate].flights.push_back(*race.store.find(heat.scenario));
+      race.candidates[heat.candidate].flights.push_back(*heat.summary);
     }
   }
   return flown;
@@ -208,7 +196,7 @@ int tune(const TuneOptions& options) {
   if (!claimed) {
     return refuse({claimed.error()});
   }
-  auto store = TournamentStore::open(folder + "/tune.db");
+  auto store = FlightStore::open(folder + "/tune.db");
   if (!store) {
     return refuse({store.error()});
   }

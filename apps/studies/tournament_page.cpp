@@ -4,37 +4,12 @@
 #include "flyball/records/text_table.h"
 #include "flyball/studies/tournament.h"
 
-#include "studies/dot_plot.h"
+#include "studies/plots/dot_plot.h"
+#include "studies/plots/page.h"
 #include <algorithm>
 
 namespace flyball {
 namespace {
-
-// The look of viewer/report.html.
-constexpr const char* page_head = R"(<!doctype html>
-<!-- SPDX-License-Identifier: BSD-3-Clause -->
-<html lang="en"><head><meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<style>
-  body { font: 14px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #22303c;
-         background: #f5f7f9; margin: 0 auto; padding: 28px 24px 40px; max-width: 1120px; }
-  h1 { font-size: 22px; font-weight: 600; } h2 { font-size: 18px; font-weight: 600; }
-  h3 { font-size: 14px; font-weight: 600; margin: 14px 0 2px; }
-  .panel { background: #fff; border: 1px solid #dfe5ea; border-radius: 8px; padding: 14px 18px;
-           margin: 0 0 16px; }
-  .table { overflow-x: auto; padding-bottom: 4px; }
-  .plots { display: flex; flex-wrap: wrap; gap: 18px 28px; }
-  .panel > svg, .plots > svg { max-width: 100%; }
-  svg text { font-size: 12px; fill: #22303c; }
-  table { border-collapse: collapse; white-space: nowrap; width: 100%; }
-  th, td { text-align: right; padding: 5px 10px; border-bottom: 1px solid #dfe5ea;
-           vertical-align: top; font-variant-numeric: tabular-nums; }
-  td small { display: block; color: #6b7a88; font-size: 12px; }
-  th { color: #6b7a88; font-weight: 500; white-space: normal; vertical-align: bottom; }
-  th:first-child, td:first-child { text-align: left; padding-left: 0; }
-  .note, footer { color: #6b7a88; font-size: 12.5px; margin: 10px 0 0; }
-</style>
-)";
 
 std::optional<MedianInterval> scaled(const std::optional<MedianInterval>& value, double by) {
   if (!value) {
@@ -227,17 +202,15 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
 }  // namespace
 
 std::string tournament_page(const std::string& title, const std::vector<WorldResult>& worlds) {
-  std::string page = page_head + std::string{"<title>"} + html_text(title) +
-                     " - Flyball</title></head><body>\n<h1>" + html_text(title) + "</h1>\n" +
-                     pairs_over_worlds(worlds);
+  std::string page = page_begin(title) + pairs_over_worlds(worlds);
   for (const WorldResult& world : worlds) {
     page += world_html(world);
   }
-  return page +
-         "<footer>Medians with 95 % bootstrap intervals over succeeded flights. Flights are "
-         "simulated in closed loop on a modeled computer. The guard prevents collisions as "
-         "long as obstacles stand still, the map is sound and the brake model holds.</footer>\n"
-         "</body></html>\n";
+  return page + page_end(
+                    "Medians with 95 % bootstrap intervals over succeeded flights. Flights are "
+                    "simulated in closed loop on a modeled computer. The guard prevents collisions "
+                    "as long as obstacles stand still, the map is sound and the brake model "
+                    "holds.");
 }
 
 }  // namespace flyball

@@ -9,9 +9,9 @@ if(TARGET test_closed_loop AND TARGET flyball_cli)
     FLYBALL_CLOSED_LOOP_TESTS="${PROJECT_SOURCE_DIR}/tests/closed_loop"
     $<$<TARGET_EXISTS:flyball_lua>:FLYBALL_HAS_LUA>)
 endif()
-# Recordings are written with the library that reads them.
+# Recordings are written with the library that reads them, and stores are asked with theirs.
 if(TARGET test_apps)
-  target_link_libraries(test_apps PRIVATE PNG::PNG)
+  target_link_libraries(test_apps PRIVATE PNG::PNG SQLite::SQLite3)
 endif()
 # Libraries of kernels for `--kernels`, most of them with a fault.
 function(flyball_test_kernels name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/dot_plot.h"
+#include "studies/plots/dot_plot.h"
 
 #include <algorithm>
 

@@ -1,98 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "studies/dot_plot.h"
+#include "studies/plots/dot_plot.h"
 
 #include "flyball/records/text_table.h"
 
+#include "studies/plots/svg.h"
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 
 namespace flyball {
 namespace {
 
-constexpr std::array<const char*, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                             "#e69f00", "#56b4e9", "#7a5cad", "#444444"};
-
-std::string colour(std::size_t i) {
-  return palette[i % palette.size()];
-}
-
-std::string px(double value) {
-  return rounded(value, 1);
-}
-
-std::string text(double x, double y, const std::string& anchor, const std::string& content) {
-  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\">" +
-         html_text(content) + "</text>";
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& look) {
-  return "<line x1=\"" + px(x1) + "\" y1=\"" + px(y1) + "\" x2=\"" + px(x2) + "\" y2=\"" + px(y2) +
-         "\" " + look + "/>";
-}
-
-std::string dot(double x, double y, const std::string& fill, const std::string& title) {
-  return "<circle cx=\"" + px(x) + "\" cy=\"" + px(y) + "\" r=\"4.5\" fill=\"" + fill +
-         "\"><title>" + html_text(title) + "</title></circle>";
-}
-
-std::string svg(double width, double height, const std::string& content) {
-  return "<svg viewBox=\"0 0 " + px(width) + " " + px(height) + "\" width=\"" + px(width) +
-         "\" height=\"" + px(height) + "\" role=\"img\">" + content + "</svg>\n";
-}
-
-/// Ticks at 1, 2 or 5 times a power of ten, about four of them.
-double tick_step(double span) {
-  const double rough = std::max(span, 1e-9) / 4.0;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) {
-      return factor * power;
-    }
-  }
-  return 10.0 * power;
-}
-
-std::string number(double value, double step) {
-  const int digits = static_cast<int>(std::max(0.0, std::ceil(-std::log10(step) - 1e-9)));
-  return rounded(value, digits);
-}
-
-/// From values to places along one axis.
-struct Scale {
-  double low{};
-  double high{1.0};
-  double from_px{};
-  double to_px{};
-  [[nodiscard]] double at(double value) const {
-    return from_px + (to_px - from_px) * (value - low) / (high - low);
-  }
-};
-
-Scale around(double low, double high, double from_px, double to_px) {
-  const double margin = 0.08 * std::max(high - low, 0.02 * std::max(std::abs(high), 1e-9));
-  return {std::max(0.0, low - margin), high + margin, from_px, to_px};
-}
-
-constexpr const char* grid = "stroke=\"#dfe5ea\"";
-
-std::string interval_text(const std::string& name, const MedianInterval& value) {
-  return name + ": " + rounded(value.median, 2) + " [" + rounded(value.lo, 2) + ", " +
-         rounded(value.hi, 2) + "]";
-}
+using svg::around;
+using svg::axes;
+using svg::colour;
+using svg::dot;
+using svg::Frame;
+using svg::grid;
+using svg::interval_text;
+using svg::line;
+using svg::number;
+using svg::Scale;
+using svg::text;
+using svg::tick_step;
 
 constexpr double left_px = 60.0;
 constexpr double right_px = 640.0;
 constexpr double top_px = 20.0;
 constexpr double bottom_px = 330.0;
 constexpr double name_row_px = 15.0;
-
-struct Frame {
-  Scale x{};
-  Scale y{};
-};
 
 Frame frame_around(const std::vector<PlottedPoint>& points) {
   MedianInterval x = points[0].x;
@@ -102,22 +38,6 @@ Frame frame_around(const std::vector<PlottedPoint>& points) {
     y = {0.0, std::min(y.lo, point.y.lo), std::max(y.hi, point.y.hi)};
   }
   return {around(x.lo, x.hi, left_px, right_px), around(y.lo, y.hi, bottom_px, top_px)};
-}
-
-std::string axes(const Frame& frame) {
-  const auto& [x, y] = frame;
-  std::string content;
-  const double step_x = tick_step(x.high - x.low);
-  for (double tick = std::ceil(x.low / step_x) * step_x; tick <= x.high; tick += step_x) {
-    content += line(x.at(tick), top_px, x.at(tick), bottom_px, grid) +
-               text(x.at(tick), bottom_px + 16.0, "middle", number(tick, step_x));
-  }
-  const double step_y = tick_step(y.high - y.low);
-  for (double tick = std::ceil(y.low / step_y) * step_y; tick <= y.high; tick += step_y) {
-    content += line(left_px, y.at(tick), right_px, y.at(tick), grid) +
-               text(left_px - 6.0, y.at(tick) + 4.0, "end", number(tick, step_y));
-  }
-  return content;
 }
 
 /// The best points, joined.
@@ -173,15 +93,14 @@ std::string names_of(const Frame& frame, const std::vector<PlottedPoint>& points
   return content;
 }
 
-/// Width of the longest name, in the page's type.
+/// Width of the longest name.
 template <class Named>
 double longest_px(const std::vector<Named>& all) {
-  constexpr double letter_px = 6.8;
-  std::size_t most = 0;
+  double most_px = 0.0;
   for (const Named& one : all) {
-    most = std::max(most, one.name.size());
+    most_px = std::max(most_px, svg::width_of(one.name));
   }
-  return letter_px * static_cast<double>(most);
+  return most_px;
 }
 
 }  // namespace
@@ -214,7 +133,7 @@ std::string dot_plot_svg(const std::string& title, const std::vector<PlottedValu
       content += text(x.at(0.0) + 4.0, y + 4.0, "start", "no flight succeeded");
     }
   }
-  return svg(width_px, foot_px + 20.0, content);
+  return svg::picture(width_px, foot_px + 20.0, content);
 }
 
 void mark_best(std::vector<PlottedPoint>& points) {
@@ -242,8 +161,8 @@ std::string pareto_plot_svg(const std::string& x_title,
     content += cross(frame, points[i], colour(i), x_title);
   }
   const double names_end_px = top_px + name_row_px * static_cast<double>(points.size());
-  return svg(right_px + 24.0 + longest_px(points), std::max(bottom_px + 42.0, names_end_px),
-             content);
+  return svg::picture(right_px + 24.0 + longest_px(points),
+                      std::max(bottom_px + 42.0, names_end_px), content);
 }
 
 }  // namespace flyball

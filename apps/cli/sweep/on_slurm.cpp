@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/sweep/on_slurm.h"
+
+#include "flyball/records/report.h"
+#include "flyball/runtime/program.h"
+#include "flyball/studies/comparison.h"
+
+#include "cli/claimed_folder.h"
+#include "cli/sweep/slurm.h"
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace flyball {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where tasks and the waiting command meet.
+struct Meeting {
+  explicit Meeting(const SweepRequest& request) : folder{request.batch.folder + "/slurm"} {}
+  std::string folder;
+  [[nodiscard]] std::string missing() const { return folder + "/missing.txt"; }
+  /// Holds the number of the array that was started last, until it has been awaited.
+  [[nodiscard]] std::string array() const { return folder + "/array.txt"; }
+  [[nodiscard]] std::string part(std::size_t number) const {
+    return folder + "/part_" + std::to_string(number);
+  }
+};
+
+constexpr const char* part_store = "/flights.db";
+
+/// Numbers, a line each; empty when there is no such file.
+std::vector<std::size_t> read_numbers(const std::string& path) {
+  std::ifstream file{path};
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 0; file >> number;) {
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// Of the missing flights those that this task is to fly.
+std::vector<std::size_t> share_of(const std::vector<std::size_t>& missing,
+                                  std::size_t task,
+                                  std::size_t tasks) {
+  std::vector<std::size_t> share;
+  for (std::size_t i = task - 1; i < missing.size(); i += tasks) {
+    share.push_back(missing[i]);
+  }
+  return share;
+}
+
+/// Everything but where and in which part, as it was asked for.
+std::vector<std::string> part_command(const SweepRequest& request) {
+  std::string seeds = seeds_text(request.plan.seeds);
+  seeds.erase(std::remove(seeds.begin(), seeds.end(), ' '), seeds.end());
+  std::string policies;
+  for (const std::string& policy : request.plan.policies) {
+    policies += (policies.empty() ? "" : ",") + policy;
+  }
+  std::vector<std::string> words{program_file(), "sweep",  request.flight.scenario,
+                                 "--policies",   policies, "--seeds",
+                                 seeds,          "--out",  request.batch.folder};
+  for (const SweepAxis& axis : request.plan.axes) {
+    std::string values;
+    for (const std::string& value : axis.values) {
+      values += (values.empty() ? "" : ",") + value;
+    }
+    words.insert(words.end(), {"--over", axis.key + "=" + values});
+  }
+  for (const std::string& setting : request.flight.settings) {
+    words.insert(words.end(), {"--set", setting});
+  }
+  for (const std::string& library : request.flight.plugins.libraries()) {
+    words.insert(words.end(), {"--kernels", library});
+  }
+  if (request.batch.keeps_records) {
+    words.emplace_back("--keep-records");
+  }
+  words.emplace_back("--part");
+  return words;
+}
+
+/// False when a signal came meanwhile.
+bool sleep_a_moment() {
+  constexpr int slices = 20;
+  for (int i = 0; i < slices && !was_interrupted(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{100});
+  }
+  return !was_interrupted();
+}
+
+/// Until the array has ended. @return The code to end with, where that cannot be awaited.
+std::optional<int> await(const std::string& array, std::size_t tasks) {
+  std::size_t shown = 0;
+  int failures = 0;
+  constexpr int most_failures = 30;  // A minute without an answer: not just a busy controller.
+  do {
+    const Result<std::size_t> left = tasks_left(array);
+    if (was_interrupted()) {
+      break;
+    }
+    if (!left && ++failures > most_failures) {
+      return refuse({left.error()});
+    }
+    if (!left) {
+      continue;
+    }
+    failures = 0;
+    if (*left == 0) {
+      return std::nullopt;
+    }
+    const std::size_t ended = tasks > *left ? tasks - *left : 0;
+    if (has_watcher() && ended > shown) {
+      note("array " + array + ": " + std::to_string(ended) + " of " + std::to_string(tasks) +
+           " tasks have ended");
+      shown = ended;
+    }
+  } while (sleep_a_moment());
+  note("interrupted; array " + array +
+       " goes on, and the same command waits for it again; scancel " + array + " ends it");
+  return interrupted_exit_code();
+}
+
+/// Adds what the tasks have flown to the sweep's store.
+Status collect(const Meeting& meeting, FlightStore& store) {
+  std::error_code ignored;
+  std::vector<fs::path> parts;
+  for (const fs::directory_entry& entry : fs::directory_iterator{meeting.folder, ignored}) {
+    if (fs::exists(entry.path().string() + part_store, ignored)) {
+      parts.push_back(entry.path());
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  for (const fs::path& part : parts) {
+    if (Status added = store.add_all_of(part.string() + part_store); !added) {
+      return added;
+    }
+    fs::remove_all(part, ignored);  // A part that stays would only be added twice.
+  }
+  fs::remove(meeting.array(), ignored);
+  return Done{};
+}
+
+/// Starts an array for these flights. @return Its number.
+Result<std::string> start_array(const SweepRequest& request,
+                                const Meeting& meeting,
+                                const std::vector<std::size_t>& missing,
+                                std::size_t tasks) {
+  std::string lines;
+  for (const std::size_t number : missing) {
+    lines += std::to_string(number) + "\n";
+  }
+  if (const Status written = write_file(meeting.missing(), lines); !written) {
+    return written.error();
+  }
+  Result<std::string> array =
+      submit({"flyball-sweep", part_command(request), tasks, meeting.folder});
+  if (array) {
+    const Status written =
+        write_file(meeting.array(), *array + "\n" + std::to_string(tasks) + "\n");
+    if (!written) {
+      return written.error();
+    }
+    note("Slurm has " + std::to_string(missing.size()) + " flights as array " + *array + " of " +
+         std::to_string(tasks) + " tasks");
+  }
+  return array;
+}
+
+std::vector<std::size_t> numbers_missing(const FlightStore& store,
+                                         const std::vector<StoredFlight*>& flights) {
+  (void)missing_of(store, flights);
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (!flights[i]->summary) {
+      numbers.push_back(i);
+    }
+  }
+  return numbers;
+}
+
+Error still_missing(const Meeting& meeting, std::size_t count) {
+  return {ErrorCode::failed, std::to_string(count) +
+                                 " flights are missing, and the last array brought none; " +
+                                 meeting.folder + "/task_*.log says why"};
+}
+
+}  // namespace
+
+std::optional<int> fly_on_slurm(const SweepRequest& request,
+                                std::size_t processors,
+                                FlightStore& store,
+                                const std::vector<StoredFlight*>& flights) {
+  const Meeting meeting{request};
+  if (const auto prepared = prepare_folder(meeting.folder); !prepared) {
+    return refuse({prepared.error()});
+  }
+  catch_interrupt();
+  std::optional<std::size_t> missing_before;
+  while (true) {
+    if (const auto array = read_numbers(meeting.array()); array.size() == 2) {
+      if (const auto code = await(std::to_string(array[0]), array[1])) {
+        return code;
+      }
+    }
+    if (const Status collected = collect(meeting, store); !collected) {
+      return refuse({collected.error()});
+    }
+    const std::vector<std::size_t> missing = numbers_missing(store, flights);
+    if (missing.empty()) {
+      return std::nullopt;
+    }
+    if (missing_before && *missing_before == missing.size()) {
+      (void)refuse({still_missing(meeting, missing.size())});
+      return exit_mission_failed;
+    }
+    missing_before = missing.size();
+    // A few for each processor: a task that is killed loses little, and starting one costs seconds.
+    constexpr std::size_t tasks_for_each = 4;
+    constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize unless set otherwise.
+    const std::size_t tasks = std::min({missing.size(), tasks_for_each * processors, most_tasks});
+    if (const auto array = start_array(request, meeting, missing, tasks); !array) {
+      return refuse({array.error()});
+    }
+  }
+}
+
+int fly_part(const SweepRequest& request, const std::string& part) {
+  unsigned long task = 0;
+  unsigned long tasks = 0;
+  int end = 0;
+  const bool is_read =
+      std::sscanf(part.c_str(), "%6lu/%6lu%n", &task, &tasks, &end) == 2 &&  // NOLINT(cert-err34-c)
+      static_cast<std::size_t>(end) == part.size() && task >= 1 && task <= tasks;
+  if (!is_read) {
+    return refuse(
+        {{ErrorCode::invalid_input, "--part " + part + " is no part; give for example 2/8"}});
+  }
+  const Meeting meeting{request};
+  SweepRequest own = request;
+  own.batch.jobs = 1;
+  // Tasks that removed each other's empty folders would get in each other's way.
+  own.batch.folder = request.batch.keeps_records ? request.batch.folder : meeting.part(task);
+  std::vector<StoredFlight> flights;
+  for (const std::size_t number : share_of(read_numbers(meeting.missing()), task, tasks)) {
+    auto planned = number < flight_count(own)
+                       ? plan_sweep_flight(own, number)
+                       : std::vector<Error>{{ErrorCode::invalid_input,
+                                             meeting.missing() + " is of another sweep"}};
+    if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      return refuse(*errors);
+    }
+    flights.push_back(std::move(std::get<StoredFlight>(planned)));
+  }
+  const auto claimed = ClaimedFolder::claim(meeting.part(task));  // Slurm may run a task twice.
+  if (!claimed) {
+    return refuse({claimed.error()});
+  }
+  auto store = FlightStore::open(meeting.part(task) + part_store);
+  if (!store) {
+    return refuse({store.error()});
+  }
+  std::vector<StoredFlight*> all;
+  for (StoredFlight& flight : flights) {
+    all.push_back(&flight);
+  }
+  return unfinished(fly_stored(own.batch, *store, all)).value_or(exit_success);
+}
+
+}  // namespace flyball

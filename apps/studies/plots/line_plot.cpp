@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "studies/plots/line_plot.h"
+
+#include "studies/plots/svg.h"
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+namespace flyball {
+namespace {
+
+constexpr double left_px = 60.0;
+constexpr double right_px = 470.0;
+constexpr double top_px = 30.0;
+constexpr double bottom_px = 260.0;
+constexpr double legend_row_px = 16.0;
+
+/// Where each place stands along the axis, in units of the axis; empty when not all are different
+/// numbers.
+std::vector<double> numbers_of(const std::vector<std::string>& places) {
+  std::vector<double> numbers;
+  for (const std::string& place : places) {
+    char* end = nullptr;
+    const double number = std::strtod(place.c_str(), &end);
+    if (end == place.c_str() || *end != '\0') {
+      return {};
+    }
+    numbers.push_back(number);
+  }
+  const bool differ = std::set<double>(numbers.begin(), numbers.end()).size() == numbers.size();
+  return differ ? numbers : std::vector<double>{};
+}
+
+svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {
+  double low = 0.0;
+  double high = 0.0;
+  bool has_value = false;
+  for (const PlottedLine& line : plot.lines) {
+    for (const auto& value : line.values) {
+      if (value) {
+        low = has_value ? std::min(low, value->lo) : value->lo;
+        high = has_value ? std::max(high, value->hi) : value->hi;
+        has_value = true;
+      }
+    }
+  }
+  svg::Frame frame{{}, svg::around(low, high, bottom_px, top_px)};
+  if (numbers.empty()) {
+    frame.x = {-0.5, static_cast<double>(plot.places.size()) - 0.5, left_px, right_px};
+    return frame;
+  }
+  const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+  const double margin = *most > *least ? 0.05 * (*most - *least) : 1.0;
+  frame.x = {*least - margin, *most + margin, left_px, right_px};
+  return frame;
+}
+
+/// Lines at the places themselves: these were flown, and nothing between them.
+std::string axes_of(const LinePlot& plot, const svg::Frame& frame, const std::vector<double>& at) {
+  std::string content = svg::y_axis(frame);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double x = frame.x.at(at[i]);
+    content += svg::line(x, top_px, x, bottom_px, svg::grid) +
+               svg::text(x, bottom_px + 16.0, "middle", plot.places[i]);
+  }
+  return content;
+}
+
+std::string line_of(const PlottedLine& line,
+                    const svg::Frame& frame,
+                    const std::vector<double>& at,
+                    std::size_t index) {
+  const std::string ink = "stroke=\"" + svg::colour(index) + "\"";
+  std::string content;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto& value = line.values[i];
+    if (!value) {
+      continue;
+    }
+    const double x = frame.x.at(at[i]);
+    if (i > 0 && line.values[i - 1]) {
+      content += svg::line(frame.x.at(at[i - 1]), frame.y.at(line.values[i - 1]->median), x,
+                           frame.y.at(value->median), ink + " stroke-width=\"1.5\"");
+    }
+    content += svg::line(x, frame.y.at(value->lo), x, frame.y.at(value->hi),
+                         ink + " stroke-width=\"2.5\" stroke-opacity=\"0.6\"") +
+               svg::dot(x, frame.y.at(value->median), svg::colour(index),
+                        svg::interval_text(line.name, *value));
+  }
+  return content;
+}
+
+std::string legend_of(const LinePlot& plot) {
+  std::string content;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    const double y = top_px + 8.0 + legend_row_px * static_cast<double>(i);
+    content += svg::dot(right_px + 14.0, y, svg::colour(i), plot.lines[i].name) +
+               svg::text(right_px + 24.0, y + 4.0, "start", plot.lines[i].name);
+  }
+  return content;
+}
+
+}  // namespace
+
+std::string line_plot_svg(const LinePlot& plot) {
+  std::vector<double> at = numbers_of(plot.places);
+  const svg::Frame frame = frame_of(plot, at);
+  for (std::size_t i = at.size(); i < plot.places.size(); ++i) {
+    at.push_back(static_cast<double>(i));
+  }
+  std::string content = svg::text(0.0, 14.0, "start", plot.title, "font-weight=\"600\"") +
+                        axes_of(plot, frame, at) +
+                        svg::text(right_px, bottom_px + 34.0, "end", plot.x_title);
+  double legend_px = 0.0;
+  const bool has_legend = plot.lines.size() > 1;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    content += line_of(plot.lines[i], frame, at, i);
+    legend_px = has_legend ? std::max(legend_px, svg::width_of(plot.lines[i].name)) : 0.0;
+  }
+  const double rows_px = legend_row_px * static_cast<double>(plot.lines.size()) + top_px;
+  return svg::picture(right_px + 30.0 + legend_px, std::max(bottom_px + 42.0, rows_px),
+                      content + (has_legend ? legend_of(plot) : ""));
+}
+
+}  // namespace flyball

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// One figure over one setting: a line for each policy, with the interval at each value.
+
+#include "flyball/studies/statistics.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flyball {
+
+struct PlottedLine {
+  std::string name{};
+  std::vector<std::optional<MedianInterval>> values{};  ///< One for each place; empty: a gap.
+};
+
+struct LinePlot {
+  std::string title{};
+  std::string x_title{};
+  std::vector<std::string> places{};  ///< Numbers stand where they belong, anything else in a row.
+  std::vector<PlottedLine> lines{};
+};
+
+/// The plot's vertical axis need not begin at zero.
+[[nodiscard]] std::string line_plot_svg(const LinePlot& plot);
+
+}  // namespace flyball

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "flyball/studies/sweep.h"
+
+#include "studies/sweep/flight_figures.h"
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace flyball {
+namespace {
+
+Error wrong(const std::string& text, const std::string& why) {
+  return {ErrorCode::invalid_input,
+          "--over " + text + " " + why + "; give for example map.range_m=5,10,20"};
+}
+
+/// Cuts at the commas outside brackets, braces and quotes.
+std::vector<std::string> split_values(const std::string& text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote != '\0') {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+    if (c == ',' && depth == 0 && quote == '\0') {
+      values.emplace_back();
+    } else {
+      values.back().push_back(c);
+    }
+  }
+  return values;
+}
+
+/// The flights of one point, and what they have in common.
+SweepCell cell_of(const Sweep& sweep,
+                  const SweepPoint& point,
+                  const std::string& command,
+                  const std::vector<const Summary*>& flights) {
+  SweepCell cell;
+  cell.point = point;
+  cell.command = command;
+  cell.n = static_cast<int>(flights.size());
+  std::map<std::string, std::vector<double>> values;
+  for (const Summary* flight : flights) {
+    if (flight->status != MissionStatus::succeeded) {
+      const bool has_reason = flight->failure != MissionFailure::none;
+      ++cell.failures[std::string{has_reason ? to_string(flight->failure)
+                                             : to_string(flight->status)}];
+      continue;
+    }
+    ++cell.succeeded;
+    for (const auto& [name, value] : figures_of(*flight)) {
+      values[name].push_back(value);
+    }
+  }
+  for (const std::string& name : sweep.figures) {
+    cell.figures.push_back(bootstrap_median(values[name]));
+  }
+  return cell;
+}
+
+}  // namespace
+
+Result<SweepAxis> read_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return wrong(text, "names no setting");
+  }
+  SweepAxis axis{text.substr(0, equals), split_values(text.substr(equals + 1))};
+  std::set<std::string> seen;
+  for (const std::string& value : axis.values) {
+    if (value.empty()) {
+      return wrong(text, "has an empty value");
+    }
+    if (!seen.insert(value).second) {
+      return wrong(text, "has the value " + value + " twice");
+    }
+  }
+  return axis;
+}
+
+std::string SweepPoint::settings(const std::vector<SweepAxis>& axes) const {
+  std::string text;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    text += (text.empty() ? "" : " ") + axes[i].key + "=" + values[i];
+  }
+  return text;
+}
+
+std::vector<SweepPoint> points_of(const std::vector<SweepAxis>& axes,
+                                  const std::vector<std::string>& policies) {
+  std::vector<SweepPoint> points;
+  for (const std::string& policy : policies) {
+    std::vector<SweepPoint> of_policy{{policy, {}}};
+    for (const SweepAxis& axis : axes) {
+      std::vector<SweepPoint> longer;
+      for (const SweepPoint& point : of_policy) {
+        for (const std::string& value : axis.values) {
+          longer.push_back(point);
+          longer.back().values.push_back(value);
+        }
+      }
+      of_policy = std::move(longer);
+    }
+    points.insert(points.end(), of_policy.begin(), of_policy.end());
+  }
+  return points;
+}
+
+Sweep sweep_of(const SweepPlan& plan,
+               const std::vector<std::string>& commands,
+               std::vector<SweepFlight> flights) {
+  Sweep sweep;
+  sweep.plan = plan;
+  sweep.flights = std::move(flights);
+  const std::vector<SweepPoint> points = points_of(plan.axes, plan.policies);
+  std::vector<const Summary*> all;
+  std::vector<std::vector<const Summary*>> by_point(points.size());
+  for (const SweepFlight& flight : sweep.flights) {
+    all.push_back(&flight.summary);
+    by_point[flight.point].push_back(&flight.summary);
+  }
+  sweep.figures = figure_names(all);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sweep.cells.push_back(cell_of(sweep, points[i], commands[i], by_point[i]));
+  }
+  return sweep;
+}
+
+}  // namespace flyball

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "studies/plots/line_plot.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+LinePlot made_plot(const std::vector<std::string>& places) {
+  return {"time, s",
+          "range",
+          places,
+          {{"a", {MedianInterval{3.0, 2.0, 4.0}, MedianInterval{5.0, 4.0, 6.0}, std::nullopt}},
+           {"b", {std::nullopt, MedianInterval{7.0, 7.0, 7.0}, MedianInterval{9.0, 8.0, 9.5}}}}};
+}
+
+/// The x of the text that says so.
+double place_of(const std::string& svg, const std::string& text) {
+  const std::size_t at = svg.rfind("<text x=\"", svg.find(">" + text + "<"));
+  return at == std::string::npos ? -1.0 : std::stod(svg.substr(at + 9));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+TEST(LinePlot, puts_numbers_where_they_belong) {
+  const std::string svg = line_plot_svg(made_plot({"110", "120", "200"}));
+  const double near = place_of(svg, "120") - place_of(svg, "110");
+  const double far = place_of(svg, "200") - place_of(svg, "120");
+  EXPECT_NEAR(far / near, 8.0, 0.1);
+}
+
+TEST(LinePlot, puts_names_in_a_row) {
+  for (const std::vector<std::string>& places :
+       {std::vector<std::string>{"low", "middle", "high"}, {"1", "2", "many"}, {"1", "1.0", "2"}}) {
+    const std::string svg = line_plot_svg(made_plot(places));
+    const double near = place_of(svg, places[1]) - place_of(svg, places[0]);
+    EXPECT_NEAR(place_of(svg, places[2]) - place_of(svg, places[1]), near, 0.2) << places[2];
+    EXPECT_GT(near, 50.0);
+  }
+}
+
+TEST(LinePlot, leaves_a_gap_where_nothing_is_known) {
+  const std::string svg = line_plot_svg(made_plot({"1", "2", "3"}));
+  EXPECT_EQ(count(svg, "stroke-width=\"1.5\""), 2U) << "from 1 to 2 for a, from 2 to 3 for b";
+  EXPECT_EQ(count(svg, "stroke-width=\"2.5\""), 4U);
+  EXPECT_EQ(count(svg, ">a</text>"), 1U) << "in the legend";
+}
+
+TEST(LinePlot, needs_no_legend_for_one_line) {
+  LinePlot plot = made_plot({"1", "2", "3"});
+  plot.lines.pop_back();
+  EXPECT_EQ(count(line_plot_svg(plot), "<circle"), 2U);
+  plot.lines[0].values = {std::nullopt, std::nullopt, std::nullopt};
+  EXPECT_EQ(line_plot_svg(plot).find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flyball
