@@ -19,6 +19,17 @@ struct StoredFlight : PlannedFlight {
   std::optional<Summary> summary{};  ///< Empty until it has flown.
 };
 
+/// Those of a list whose elements are stored flights.
+template <class Flight>
+[[nodiscard]] std::vector<StoredFlight*> pointers_to(std::vector<Flight>& flights) {
+  std::vector<StoredFlight*> pointers;
+  pointers.reserve(flights.size());
+  for (Flight& flight : flights) {
+    pointers.push_back(&flight);
+  }
+  return pointers;
+}
+
 struct StoredBatch {
   std::string folder{};   ///< All flights' folders are in it.
   std::size_t jobs{1};    ///< At a time.

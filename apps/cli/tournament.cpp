@@ -124,12 +124,8 @@ int show(const TournamentOptions& options, const Entries& entries) {
 }
 
 int fly_and_show(const TournamentOptions& options, FlightStore& store, Entries& entries) {
-  std::vector<StoredFlight*> flights;
-  for (StoredFlight& entry : entries) {
-    flights.push_back(&entry);
-  }
   const StoredBatch batch{out_folder(options), options.jobs, options.keeps_records, true};
-  if (const std::optional<int> code = unfinished(fly_stored(batch, store, flights))) {
+  if (const std::optional<int> code = unfinished(fly_stored(batch, store, pointers_to(entries)))) {
     return *code;
   }
   return show(options, entries);

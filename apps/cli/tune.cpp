@@ -76,11 +76,7 @@ std::variant<std::vector<Heat>, std::vector<Error>> plan_round(Race& race,
 }
 
 Flown fly_round(Race& race, std::vector<Heat>& heats) {
-  std::vector<StoredFlight*> flights;
-  for (Heat& heat : heats) {
-    flights.push_back(&heat);
-  }
-  Flown flown = fly_stored({race.folder, race.options.jobs}, race.store, flights);
+  Flown flown = fly_stored({race.folder, race.options.jobs}, race.store, pointers_to(heats));
   if (flown.signal == 0 && flown.errors.empty()) {
     for (const Heat& heat : heats) {
       race.candidates[heat.candidate].flights.push_back(*heat.summary);

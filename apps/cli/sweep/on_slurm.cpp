@@ -147,11 +147,28 @@ Status collect(const Meeting& meeting, FlightStore& store) {
   return Done{};
 }
 
+/// The array that was started last, if there is one. @return As `await`.
+std::optional<int> await_and_collect(const Meeting& meeting, FlightStore& store) {
+  if (const auto array = read_numbers(meeting.array()); array.size() == 2) {
+    if (const auto code = await(std::to_string(array[0]), array[1])) {
+      return code;
+    }
+  }
+  if (const Status collected = collect(meeting, store); !collected) {
+    return refuse({collected.error()});
+  }
+  return std::nullopt;
+}
+
 /// Starts an array for these flights. @return Its number.
 Result<std::string> start_array(const SweepRequest& request,
                                 const Meeting& meeting,
                                 const std::vector<std::size_t>& missing,
-                                std::size_t tasks) {
+                                std::size_t processors) {
+  // A few for each processor: a task that is killed loses little, and starting one costs seconds.
+  constexpr std::size_t tasks_for_each = 4;
+  constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize unless set otherwise.
+  const std::size_t tasks = std::min({missing.size(), tasks_for_each * processors, most_tasks});
   std::string lines;
   for (const std::size_t number : missing) {
     lines += std::to_string(number) + "\n";
@@ -202,30 +219,21 @@ std::optional<int> fly_on_slurm(const SweepRequest& request,
     return refuse({prepared.error()});
   }
   catch_interrupt();
-  std::optional<std::size_t> missing_before;
+  std::size_t missing_before = flights.size() + 1;
   while (true) {
-    if (const auto array = read_numbers(meeting.array()); array.size() == 2) {
-      if (const auto code = await(std::to_string(array[0]), array[1])) {
-        return code;
-      }
-    }
-    if (const Status collected = collect(meeting, store); !collected) {
-      return refuse({collected.error()});
+    if (const auto code = await_and_collect(meeting, store)) {
+      return code;
     }
     const std::vector<std::size_t> missing = numbers_missing(store, flights);
     if (missing.empty()) {
       return std::nullopt;
     }
-    if (missing_before && *missing_before == missing.size()) {
+    if (missing.size() == missing_before) {
       (void)refuse({still_missing(meeting, missing.size())});
       return exit_mission_failed;
     }
     missing_before = missing.size();
-    // A few for each processor: a task that is killed loses little, and starting one costs seconds.
-    constexpr std::size_t tasks_for_each = 4;
-    constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize unless set otherwise.
-    const std::size_t tasks = std::min({missing.size(), tasks_for_each * processors, most_tasks});
-    if (const auto array = start_array(request, meeting, missing, tasks); !array) {
+    if (const auto array = start_array(request, meeting, missing, processors); !array) {
       return refuse({array.error()});
     }
   }
@@ -266,11 +274,7 @@ int fly_part(const SweepRequest& request, const std::string& part) {
   if (!store) {
     return refuse({store.error()});
   }
-  std::vector<StoredFlight*> all;
-  for (StoredFlight& flight : flights) {
-    all.push_back(&flight);
-  }
-  return unfinished(fly_stored(own.batch, *store, all)).value_or(exit_success);
+  return unfinished(fly_stored(own.batch, *store, pointers_to(flights))).value_or(exit_success);
 }
 
 }  // namespace flyball

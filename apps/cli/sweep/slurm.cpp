@@ -9,7 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <system_error>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -41,7 +41,8 @@ std::string read_all(int file) {
 Result<Answer> ask(std::vector<std::string> words) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return Error{ErrorCode::unavailable, std::string{"no pipe: "} + std::strerror(errno)};
+    return Error{ErrorCode::unavailable,
+                 std::string{"no pipe: "} + std::system_category().message(errno)};
   }
   posix_spawn_file_actions_t actions{};
   posix_spawn_file_actions_init(&actions);
@@ -63,7 +64,8 @@ Result<Answer> ask(std::vector<std::string> words) {
   }
   close(ends[0]);
   if (failed != 0) {
-    return Error{ErrorCode::unavailable, "cannot start " + words[0] + ": " + std::strerror(failed) +
+    return Error{ErrorCode::unavailable, "cannot start " + words[0] + ": " +
+                                             std::system_category().message(failed) +
                                              "; install slurm-client, or leave --on out"};
   }
   int status = 0;

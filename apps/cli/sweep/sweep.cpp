@@ -127,10 +127,7 @@ int fly_and_show(const SweepRequest& request,
                  FlightStore& store,
                  std::vector<StoredFlight>& flights,
                  std::optional<std::size_t> slurm_processors) {
-  std::vector<StoredFlight*> all;
-  for (StoredFlight& flight : flights) {
-    all.push_back(&flight);
-  }
+  const std::vector<StoredFlight*> all = pointers_to(flights);
   if (slurm_processors) {
     if (const auto code = fly_on_slurm(request, *slurm_processors, store, all)) {
       return *code;

@@ -35,6 +35,18 @@ std::string folder_name(const std::string& settings) {
   return name.substr(0, longest) + "-" + hash.hex().substr(0, 8);
 }
 
+/// Those that say something new: most mistakes concern many flights.
+void add_new(const std::vector<Error>& errors, std::vector<Error>& all) {
+  for (const Error& error : errors) {
+    const bool is_known = std::any_of(all.begin(), all.end(), [&error](const Error& other) {
+      return other.message == error.message;
+    });
+    if (!is_known) {
+      all.push_back(error);
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t flight_count(const SweepRequest& request) {
@@ -64,15 +76,8 @@ std::variant<std::vector<StoredFlight>, std::vector<Error>> plan_sweep(
   const std::size_t count = flight_count(request);
   for (std::size_t number = 0; number < count; ++number) {
     auto planned = plan_sweep_flight(request, number);
-    if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-      for (Error& error : *errors) {
-        const auto is_same = [&error](const Error& other) {
-          return other.message == error.message;
-        };
-        if (std::none_of(all.begin(), all.end(), is_same)) {
-          all.push_back(std::move(error));
-        }
-      }
+    if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      add_new(*errors, all);
     } else {
       flights.push_back(std::move(std::get<StoredFlight>(planned)));
     }

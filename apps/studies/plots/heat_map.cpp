@@ -51,7 +51,7 @@ double share_of(const HeatMap& map, double value) {
 std::string cell_svg(const HeatMap& map, const HeatCell& cell, double x, double y) {
   const double middle = x + 0.5 * cell_width_px;
   if (!cell.value) {
-    return svg::rectangle(x, y, cell_width_px, cell_height_px, "fill=\"#eef1f4\" stroke=\"#fff\"",
+    return svg::rectangle({x, y, cell_width_px, cell_height_px}, "fill=\"#eef1f4\" stroke=\"#fff\"",
                           cell.under) +
            svg::text(middle, y + 22.0, "middle", "none") +
            svg::text(middle, y + 38.0, "middle", cell.under);
@@ -63,7 +63,7 @@ std::string cell_svg(const HeatMap& map, const HeatCell& cell, double x, double 
                                               : "style=\"fill:#111;font-size:10px\"";
   const std::string interval =
       "[" + rounded(cell.value->lo, digits) + ", " + rounded(cell.value->hi, digits) + "]";
-  return svg::rectangle(x, y, cell_width_px, cell_height_px,
+  return svg::rectangle({x, y, cell_width_px, cell_height_px},
                         "fill=\"" + fill_of(share) + "\" stroke=\"#fff\"",
                         svg::interval_text(map.title, *cell.value) + ", " + cell.under) +
          svg::text(middle, y + 18.0, "middle", rounded(cell.value->median, digits), ink) +
@@ -79,7 +79,7 @@ std::string legend(const HeatMap& map, double x, double height) {
   std::string content;
   for (int i = 0; i < steps; ++i) {
     const double share = (static_cast<double>(i) + 0.5) / steps;
-    content += svg::rectangle(x, top_px + height - (i + 1) * step_px, 12.0, step_px + 0.3,
+    content += svg::rectangle({x, top_px + height - (i + 1) * step_px, 12.0, step_px + 0.3},
                               "fill=\"" + fill_of(share) + "\"", "");
   }
   return content + svg::text(x + 18.0, top_px + 10.0, "start", rounded(map.high, digits)) +

@@ -32,20 +32,25 @@ std::vector<double> numbers_of(const std::vector<std::string>& places) {
   return differ ? numbers : std::vector<double>{};
 }
 
-svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {
-  double low = 0.0;
-  double high = 0.0;
-  bool has_value = false;
+/// From the lowest end of an interval to the highest one.
+svg::Scale heights_of(const LinePlot& plot) {
+  std::vector<double> ends;
   for (const PlottedLine& line : plot.lines) {
     for (const auto& value : line.values) {
       if (value) {
-        low = has_value ? std::min(low, value->lo) : value->lo;
-        high = has_value ? std::max(high, value->hi) : value->hi;
-        has_value = true;
+        ends.insert(ends.end(), {value->lo, value->hi});
       }
     }
   }
-  svg::Frame frame{{}, svg::around(low, high, bottom_px, top_px)};
+  if (ends.empty()) {
+    return svg::around(0.0, 1.0, bottom_px, top_px);
+  }
+  const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
+  return svg::around(*low, *high, bottom_px, top_px);
+}
+
+svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {
+  svg::Frame frame{{}, heights_of(plot)};
   if (numbers.empty()) {
     frame.x = {-0.5, static_cast<double>(plot.places.size()) - 0.5, left_px, right_px};
     return frame;

@@ -44,14 +44,10 @@ std::string dot(double x, double y, const std::string& fill, const std::string& 
          "\"><title>" + html_text(title) + "</title></circle>";
 }
 
-std::string rectangle(double x,
-                      double y,
-                      double width,
-                      double height,
-                      const std::string& look,
-                      const std::string& title) {
-  return "<rect x=\"" + px(x) + "\" y=\"" + px(y) + "\" width=\"" + px(width) + "\" height=\"" +
-         px(height) + "\" " + look + "><title>" + html_text(title) + "</title></rect>";
+std::string rectangle(const Box& box, const std::string& look, const std::string& title) {
+  return "<rect x=\"" + px(box.x) + "\" y=\"" + px(box.y) + "\" width=\"" + px(box.width) +
+         "\" height=\"" + px(box.height) + "\" " + look + "><title>" + html_text(title) +
+         "</title></rect>";
 }
 
 std::string picture(double width, double height, const std::string& content) {

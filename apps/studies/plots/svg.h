@@ -28,10 +28,13 @@ constexpr const char* grid = "stroke=\"#dfe5ea\"";
                               double y,
                               const std::string& fill,
                               const std::string& title);
-[[nodiscard]] std::string rectangle(double x,
-                                    double y,
-                                    double width,
-                                    double height,
+struct Box {
+  double x{};
+  double y{};
+  double width{};
+  double height{};
+};
+[[nodiscard]] std::string rectangle(const Box& box,
                                     const std::string& look,
                                     const std::string& title);
 [[nodiscard]] std::string picture(double width, double height, const std::string& content);

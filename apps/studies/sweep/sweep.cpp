@@ -15,28 +15,50 @@ Error wrong(const std::string& text, const std::string& why) {
           "--over " + text + " " + why + "; give for example map.range_m=5,10,20"};
 }
 
-/// Cuts at the commas outside brackets, braces and quotes.
+/// Knows, character by character, whether it stands outside brackets, braces and quotes.
+class Nesting {
+ public:
+  void pass(char c) {
+    if (quote_ != '\0') {
+      quote_ = c == quote_ ? '\0' : quote_;
+    } else if (c == '"' || c == '\'') {
+      quote_ = c;
+    } else {
+      depth_ += c == '[' || c == '{' ? 1 : 0;
+      depth_ -= c == ']' || c == '}' ? 1 : 0;
+    }
+  }
+  [[nodiscard]] bool is_outside() const { return depth_ == 0 && quote_ == '\0'; }
+
+ private:
+  int depth_{};
+  char quote_{'\0'};
+};
+
 std::vector<std::string> split_values(const std::string& text) {
   std::vector<std::string> values(1);
-  int depth = 0;
-  char quote = '\0';
+  Nesting nesting;
   for (const char c : text) {
-    if (quote != '\0') {
-      quote = c == quote ? '\0' : quote;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '[' || c == '{') {
-      ++depth;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-    if (c == ',' && depth == 0 && quote == '\0') {
+    nesting.pass(c);
+    if (c == ',' && nesting.is_outside()) {
       values.emplace_back();
     } else {
       values.back().push_back(c);
     }
   }
   return values;
+}
+
+/// Each point once with each of the axis's values.
+std::vector<SweepPoint> along(const SweepAxis& axis, const std::vector<SweepPoint>& points) {
+  std::vector<SweepPoint> longer;
+  for (const SweepPoint& point : points) {
+    for (const std::string& value : axis.values) {
+      longer.push_back(point);
+      longer.back().values.push_back(value);
+    }
+  }
+  return longer;
 }
 
 /// The flights of one point, and what they have in common.
@@ -101,14 +123,7 @@ std::vector<SweepPoint> points_of(const std::vector<SweepAxis>& axes,
   for (const std::string& policy : policies) {
     std::vector<SweepPoint> of_policy{{policy, {}}};
     for (const SweepAxis& axis : axes) {
-      std::vector<SweepPoint> longer;
-      for (const SweepPoint& point : of_policy) {
-        for (const std::string& value : axis.values) {
-          longer.push_back(point);
-          longer.back().values.push_back(value);
-        }
-      }
-      of_policy = std::move(longer);
+      of_policy = along(axis, of_policy);
     }
     points.insert(points.end(), of_policy.begin(), of_policy.end());
   }

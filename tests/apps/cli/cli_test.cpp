@@ -198,9 +198,9 @@ TEST_F(Cli, lists_its_commands_when_it_is_given_none) {
   const FlyballProgram::Outcome outcome = flyball.run("");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.errors, "");
-  for (const char* command :
-       {"run", "compare", "tournament", "tune", "drift", "bound", "list", "graph", "config",
-        "policy", "replay", "explain", "map", "detect", "models", "fit", "localize", "version"}) {
+  for (const char* command : {"run", "compare", "tournament", "sweep", "tune", "drift", "bound",
+                              "list", "graph", "config", "policy", "replay", "explain", "map",
+                              "detect", "models", "fit", "localize", "version"}) {
     EXPECT_NE(outcome.output.find(std::string{"\n  "} + command + " "), std::string::npos)
         << command << " is not in\n"
         << outcome.output;
