@@ -89,12 +89,16 @@ std::string legend(const HeatMap& map, double x, double height) {
 }  // namespace
 
 int digits_for(double low, double high) {
-  constexpr double told_apart = 50.0;  // So many values of one span are told apart.
-  const double span = high > low ? high - low : std::abs(high);
+  constexpr double told_apart = 200.0;  // So many values of one span are told apart.
+  constexpr int most_that_count = 4;
+  const double size = std::max(std::abs(low), std::abs(high));
+  const double span = high > low ? high - low : size;
   if (!(span > 0.0)) {
     return 0;
   }
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(span / told_apart))), 0, 6);
+  const int before_point = 1 + static_cast<int>(std::floor(std::log10(size)));
+  const int wanted = static_cast<int>(std::ceil(-std::log10(span / told_apart)));
+  return std::clamp(wanted, 0, std::max(0, most_that_count - before_point));
 }
 
 std::string heat_map_svg(const HeatMap& map) {

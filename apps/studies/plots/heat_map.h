@@ -32,7 +32,7 @@ struct HeatMap {
 /// @pre `cells` has one for each pair of values.
 [[nodiscard]] std::string heat_map_svg(const HeatMap& map);
 
-/// As many digits after the point as tell values of this span apart.
+/// As many digits after the point as tell values of this span apart, but at most four that count.
 [[nodiscard]] int digits_for(double low, double high);
 
 }  // namespace flyball

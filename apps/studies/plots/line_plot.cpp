@@ -4,6 +4,7 @@
 
 #include "studies/plots/svg.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -11,7 +12,7 @@ namespace flyball {
 namespace {
 
 constexpr double left_px = 60.0;
-constexpr double right_px = 470.0;
+constexpr double right_px = 390.0;
 constexpr double top_px = 30.0;
 constexpr double bottom_px = 260.0;
 constexpr double legend_row_px = 16.0;
@@ -46,7 +47,9 @@ svg::Scale heights_of(const LinePlot& plot) {
     return svg::around(0.0, 1.0, bottom_px, top_px);
   }
   const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
-  return svg::around(*low, *high, bottom_px, top_px);
+  // At least a twentieth from end to end, so that what hardly differs looks level.
+  const double missing = std::max(0.0, 0.05 * std::abs(*high) - (*high - *low));
+  return svg::around(*low - 0.5 * missing, *high + 0.5 * missing, bottom_px, top_px);
 }
 
 svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {

@@ -9,6 +9,7 @@
 #include "studies/plots/line_plot.h"
 #include "studies/plots/page.h"
 #include <algorithm>
+#include <cmath>
 
 namespace flyball {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 /// What a plot shows of a cell.
 struct Shown {
   std::string title;
+  bool is_percentage{};                               ///< Then the colours reach from 0 to 100.
   std::vector<std::optional<MedianInterval>> values;  ///< One for each cell of the sweep.
 };
 
@@ -39,7 +41,7 @@ std::optional<std::pair<double, double>> range_of(const Shown& shown) {
 }
 
 Shown success_of(const Sweep& sweep) {
-  Shown shown{"flights that succeed, %", {}};
+  Shown shown{"flights that succeed, %", true, {}};
   for (const SweepCell& cell : sweep.cells) {
     const double share = cell.n == 0 ? 0.0 : 100.0 * cell.succeeded / cell.n;
     shown.values.push_back(MedianInterval{share, share, share});
@@ -48,7 +50,7 @@ Shown success_of(const Sweep& sweep) {
 }
 
 Shown figure_of(const Sweep& sweep, std::size_t figure) {
-  Shown shown{sweep.figures[figure], {}};
+  Shown shown{sweep.figures[figure], false, {}};
   for (const SweepCell& cell : sweep.cells) {
     shown.values.push_back(cell.figures[figure]);
   }
@@ -82,10 +84,19 @@ std::string lines_of(const Sweep& sweep, const Shown& shown) {
   return line_plot_svg(plot);
 }
 
+/// The ends of the colours: at least a twentieth apart, so that what hardly differs looks alike.
+std::pair<double, double> colours_of(const std::pair<double, double>& range) {
+  constexpr double least_share = 0.05;
+  const double least = least_share * std::max(std::abs(range.first), std::abs(range.second));
+  const double missing = std::max(0.0, least - (range.second - range.first));
+  return {range.first - 0.5 * missing, range.second + 0.5 * missing};
+}
+
 std::string heat_maps_of(const Sweep& sweep, const Shown& shown) {
   const SweepAxis& y = sweep.plan.axes[sweep.plan.axes.size() - 2];
   const SweepAxis& x = sweep.plan.axes.back();
-  const auto range = range_of(shown);
+  const auto [low, high] =
+      shown.is_percentage ? std::pair{0.0, 100.0} : colours_of(*range_of(shown));
   std::string content;
   for (std::size_t from = 0; from < sweep.cells.size(); from += group_size(sweep)) {
     HeatMap map{shown.title + ": " + group_name(sweep, sweep.cells[from].point),
@@ -94,8 +105,8 @@ std::string heat_maps_of(const Sweep& sweep, const Shown& shown) {
                 x.values,
                 y.values,
                 {},
-                range->first,
-                range->second};
+                low,
+                high};
     for (std::size_t i = from; i < from + group_size(sweep); ++i) {
       map.cells.push_back({shown.values[i], count_text(sweep.cells[i])});
     }
@@ -104,10 +115,8 @@ std::string heat_maps_of(const Sweep& sweep, const Shown& shown) {
   return content;
 }
 
-std::string panel_of(const Sweep& sweep, const Shown& shown) {
-  return "<div class=\"panel plots\">" +
-         (sweep.plan.axes.size() == 1 ? lines_of(sweep, shown) : heat_maps_of(sweep, shown)) +
-         "</div>\n";
+std::string plots_of(const Sweep& sweep, const Shown& shown) {
+  return sweep.plan.axes.size() == 1 ? lines_of(sweep, shown) : heat_maps_of(sweep, shown);
 }
 
 std::string commands_html(const Sweep& sweep) {
@@ -140,18 +149,19 @@ std::string sweep_page(const Sweep& sweep) {
                      html_text(seeds) +
                      ". Each cell shows the median over its succeeded flights, its 95 % interval "
                      "and how many there are.</p>\n" +
-                     panel_of(sweep, success_of(sweep));
+                     "<div class=\"panel plots\">" + plots_of(sweep, success_of(sweep));
   std::string same;
   for (std::size_t i = 0; i < sweep.figures.size(); ++i) {
     const Shown shown = figure_of(sweep, i);
     const auto range = range_of(shown);
     if (range && range->first < range->second) {
-      page += panel_of(sweep, shown);
+      page += plots_of(sweep, shown);
     } else if (range) {
       same += (same.empty() ? "" : ", ") + sweep.figures[i] + " " +
               rounded(range->first, digits_for(0.0, range->first));
     }
   }
+  page += "</div>\n";
   if (!same.empty()) {
     page +=
         "<p class=\"note\">Medians that are the same in every cell: " + html_text(same) + ".</p>\n";

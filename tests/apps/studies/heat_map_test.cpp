@@ -48,9 +48,12 @@ TEST(HeatMap, shows_cells_that_are_all_the_same) {
 TEST(HeatMap, needs_no_more_digits_than_tell_values_apart) {
   EXPECT_EQ(digits_for(0.0, 500.0), 0);
   EXPECT_EQ(digits_for(10.0, 40.0), 1);
-  EXPECT_EQ(digits_for(1.0, 2.0), 2);
+  EXPECT_EQ(digits_for(1.0, 2.0), 3);
   EXPECT_EQ(digits_for(0.0, 0.0), 0);
   EXPECT_EQ(digits_for(3.0, 3.0), 2);
+  EXPECT_EQ(digits_for(153.0, 153.2), 1) << "four digits that count";
+  EXPECT_EQ(digits_for(0.81107, 0.81109), 4);
+  EXPECT_EQ(digits_for(12345.0, 12346.0), 0);
 }
 
 }  // namespace
