@@ -32,7 +32,7 @@ struct DriftOptions {
   std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
 };
 
-struct Entry : PlannedFlight {
+struct DriftEntry : PlannedFlight {
   std::size_t drift{};   ///< Of the cases.
   std::size_t policy{};  ///< Of the policies.
 };
@@ -46,14 +46,14 @@ struct Outcome {
   double energy_j{};  ///< Sum.
 };
 
-using Entries = std::vector<Entry>;
+using DriftEntries = std::vector<DriftEntry>;
 
 /// Adds the flights of one event, which is `cases[drift]`. Returns why one cannot be flown.
 std::vector<Error> add_event(const DriftOptions& options,
                              const std::vector<DriftCase>& cases,
                              std::size_t drift,
                              const std::vector<std::uint64_t>& seeds,
-                             Entries& entries) {
+                             DriftEntries& entries) {
   FlightOptions flight = options.flight;
   flight.settings.insert(flight.settings.end(), cases[drift].settings.begin(),
                          cases[drift].settings.end());
@@ -74,10 +74,10 @@ std::vector<Error> add_event(const DriftOptions& options,
   return {};
 }
 
-std::variant<Entries, std::vector<Error>> plan(const DriftOptions& options,
-                                               const std::vector<DriftCase>& cases,
-                                               const std::vector<std::uint64_t>& seeds) {
-  Entries entries;
+std::variant<DriftEntries, std::vector<Error>> plan(const DriftOptions& options,
+                                                    const std::vector<DriftCase>& cases,
+                                                    const std::vector<std::uint64_t>& seeds) {
+  DriftEntries entries;
   for (std::size_t drift = 0; drift < cases.size(); ++drift) {
     auto errors = add_event(options, cases, drift, seeds, entries);
     if (!errors.empty()) {
@@ -87,7 +87,7 @@ std::variant<Entries, std::vector<Error>> plan(const DriftOptions& options,
   return entries;
 }
 
-Status add(const Entry& entry, double at_s, Outcome& outcome) {
+Status add(const DriftEntry& entry, double at_s, Outcome& outcome) {
   const auto picture = finished_run(entry.folder, entry.scenario);
   const Result<DriftRecord> record = read_drift_record(entry.folder);
   if (!picture || !record) {
@@ -154,9 +154,11 @@ std::string to_json(const DriftOptions& options,
   return all.dump(2) + "\n";
 }
 
-int show(const DriftOptions& options, const std::vector<DriftCase>& cases, const Entries& entries) {
+int show(const DriftOptions& options,
+         const std::vector<DriftCase>& cases,
+         const DriftEntries& entries) {
   std::vector<Outcome> outcomes(cases.size() * options.policies.size());
-  for (const Entry& entry : entries) {
+  for (const DriftEntry& entry : entries) {
     Outcome& outcome = outcomes[entry.drift * options.policies.size() + entry.policy];
     if (const Status added = add(entry, options.at_s, outcome); !added) {
       return refuse({added.error()});
@@ -180,14 +182,14 @@ int drift(const DriftOptions& options) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
-  const Entries& entries = std::get<Entries>(planned);
+  const DriftEntries& entries = std::get<DriftEntries>(planned);
   const auto claimed =
       ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
   if (!claimed) {
     return refuse({claimed.error()});
   }
   std::vector<const PlannedFlight*> flights;
-  for (const Entry& entry : entries) {
+  for (const DriftEntry& entry : entries) {
     if (!finished_run(entry.folder, entry.scenario)) {
       flights.push_back(&entry);
     }

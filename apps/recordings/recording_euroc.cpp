@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string in(const std::string& folder, const std::string& name) {
+std::string in_mav0(const std::string& folder, const std::string& name) {
   return (fs::path{folder} / "mav0" / name).string();
 }
 
@@ -122,7 +122,7 @@ Status read_camera(const std::string& file, Recording& recording) {
 }
 
 Status read_images(const std::string& folder, Recording& recording) {
-  const std::string file = in(folder, "cam0/data.csv");
+  const std::string file = in_mav0(folder, "cam0/data.csv");
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -136,7 +136,7 @@ Status read_images(const std::string& folder, Recording& recording) {
     if (Status ordered = check_order(file, line, last, *stamp); !ordered) {
       return ordered;
     }
-    recording.frames.push_back({*stamp, in(folder, "cam0/data/" + line.words[1]), ""});
+    recording.frames.push_back({*stamp, in_mav0(folder, "cam0/data/" + line.words[1]), ""});
   }
   if (recording.frames.empty()) {
     return Error{ErrorCode::invalid_input, "\"" + file + "\" names no image"};
@@ -145,7 +145,7 @@ Status read_images(const std::string& folder, Recording& recording) {
 }
 
 Status read_imu(const std::string& folder, Recording& recording) {
-  const std::string file = in(folder, "imu0/data.csv");
+  const std::string file = in_mav0(folder, "imu0/data.csv");
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -167,7 +167,7 @@ Status read_imu(const std::string& folder, Recording& recording) {
 }
 
 Status read_truth(const std::string& folder, Recording& recording) {
-  const std::string file = in(folder, "state_groundtruth_estimate0/data.csv");
+  const std::string file = in_mav0(folder, "state_groundtruth_estimate0/data.csv");
   if (std::error_code failed; !fs::exists(file, failed)) {
     return Done{};
   }
@@ -200,12 +200,12 @@ Status read_truth(const std::string& folder, Recording& recording) {
 
 bool is_euroc(const std::string& folder) {
   std::error_code failed;
-  return fs::is_directory(in(folder, "cam0"), failed);
+  return fs::is_directory(in_mav0(folder, "cam0"), failed);
 }
 
 Result<Recording> read_euroc(const std::string& folder, const RecordingSettings& settings) {
   Recording recording;
-  if (const Status read = read_camera(in(folder, "cam0/sensor.yaml"), recording); !read) {
+  if (const Status read = read_camera(in_mav0(folder, "cam0/sensor.yaml"), recording); !read) {
     return read.error();
   }
   if (settings.intrinsics.size() == 4) {

@@ -18,12 +18,6 @@
 namespace flyball {
 namespace {
 
-/// ` (mine.toml:7)`, or nothing for a default.
-std::string place_of(const std::string& key, const GivenValues& given) {
-  const auto found = given.find(key);
-  return found == given.end() ? "" : " (" + found->second.origin + ")";
-}
-
 /// A name that was looked for among others.
 struct NamedThing {
   std::string key;

@@ -55,11 +55,6 @@ std::string key_of(std::size_t event, const std::string& name) {
   return prefix + std::to_string(event + 1) + "." + name;
 }
 
-std::string place_of(const std::string& key, const GivenValues& given) {
-  const auto found = given.find(key);
-  return found == given.end() ? "" : " (" + found->second.origin + ")";
-}
-
 /// `7` of `events.7.at_s`; 0 for what is no number.
 int number_of(const std::string& key) {
   const std::string rest = key.substr(std::string{prefix}.size());

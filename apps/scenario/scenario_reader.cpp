@@ -110,6 +110,11 @@ std::optional<GivenValue> toml_scalar(const std::string& text) {
 
 }  // namespace
 
+std::string place_of(const std::string& key, const GivenValues& given) {
+  const auto found = given.find(key);
+  return found == given.end() ? "" : " (" + found->second.origin + ")";
+}
+
 ScenarioText read_scenario_file(const std::string& path) {
   const std::string file = std::filesystem::path{path}.filename().string();
   ScenarioText read;

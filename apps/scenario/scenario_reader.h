@@ -15,6 +15,9 @@ namespace flyball {
 
 using GivenValues = std::map<std::string, GivenValue>;
 
+/// ` (mine.toml:7)`, where the value of a setting was given; nothing for a default.
+[[nodiscard]] std::string place_of(const std::string& key, const GivenValues& given);
+
 /// The given values by key, and errors for what could not be read.
 struct ScenarioText {
   GivenValues values{};

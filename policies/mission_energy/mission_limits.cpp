@@ -12,7 +12,7 @@
 namespace flyball {
 namespace {
 
-constexpr double standing_m_s = 0.1;        // Chosen: slower than any cruise.
+constexpr double waiting_m_s = 0.1;         // Chosen: slower than any cruise.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
 /// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
@@ -182,7 +182,7 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // be seen, and outside of cruise, because a new goal asks for a plan. A vehicle that stands waits
   // for a plan, and the map must keep its cells until that plan is there.
   const bool cruises = seen.phase == MissionPhase::cruise;
-  const bool waits = cruises && !(seen.speed_m_s > standing_m_s);
+  const bool waits = cruises && !(seen.speed_m_s > waiting_m_s);
   around.coarsest_m = std::min(
       {around.coarsest_m, near || !cruises ? large_m_ : 1e9, waits ? in_force.resolution_m : 1e9});
   if (needs_finest(seen, near, in_force)) {

@@ -13,8 +13,8 @@ namespace {
 constexpr double standing_m_s = 0.1;      // Slower than any cruise.
 constexpr double behind_the_gap_m = 3.0;  // A plan through a gap needs to know the space behind it.
 constexpr Duration settled = std::chrono::seconds{1};  // Then a map holds several frames.
-constexpr double farthest_m = 30.0;  // Longer than the scan for gaps, which reaches 24 m.
-constexpr double rounding_m = 1e-9;
+constexpr double farthest_gap_m = 30.0;  // Longer than the scan for gaps, which reaches 24 m.
+constexpr double level_rounding_m = 1e-9;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Passability::Passability(const PassabilitySettings& settings, std::vector<double
   FLYBALL_ASSERT(!levels_m_.empty() && std::is_sorted(levels_m_.begin(), levels_m_.end()),
                  "%zu levels", levels_m_.size());
   while (settings_.retry_m > 0.0 && retry_level_ > 0 &&
-         levels_m_[retry_level_] > settings_.retry_m + rounding_m) {
+         levels_m_[retry_level_] > settings_.retry_m + level_rounding_m) {
     --retry_level_;
   }
 }
@@ -40,7 +40,7 @@ double Passability::least_m(std::size_t level) const {
 std::size_t Passability::open_level(const Observation& seen) const {
   for (std::size_t level = levels_m_.size(); level-- > 1 && seen.map_resolution_m > 0.0;) {
     const double coarser_m = std::max(0.0, levels_m_[level] - seen.map_resolution_m);
-    if (seen.narrowest_gap_m - 2.0 * coarser_m >= least_m(level) - rounding_m) {
+    if (seen.narrowest_gap_m - 2.0 * coarser_m >= least_m(level) - level_rounding_m) {
       return level;
     }
   }
@@ -105,14 +105,15 @@ void Passability::need_until_past(const Observation& seen, Standing standing) {
   if (seen.planner_failures > 0 || standing != Standing::no) {
     failed_on_m_ = settings_.near_m;
   } else {
-    gap_on_m_ = std::max(gap_on_m_, std::min(seen.gap_distance_m + behind_the_gap_m, farthest_m));
+    gap_on_m_ =
+        std::max(gap_on_m_, std::min(seen.gap_distance_m + behind_the_gap_m, farthest_gap_m));
   }
 }
 
 // The gap is near enough to be seen, and a map of the finest cells with more than one frame does
 // not show it. So coarse cells had made it up, or the path leads elsewhere by now.
 bool Passability::is_gone(const Observation& seen) {
-  const bool is_finest = seen.map_resolution_m <= levels_m_.front() + rounding_m;
+  const bool is_finest = seen.map_resolution_m <= levels_m_.front() + level_rounding_m;
   finest_since_ = is_finest ? finest_since_.value_or(seen.now) : std::optional<MissionTime>{};
   return finest_since_ && seen.now - *finest_since_ >= settled && gap_on_m_ > behind_the_gap_m &&
          gap_on_m_ < settings_.near_m;

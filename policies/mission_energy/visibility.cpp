@@ -11,7 +11,7 @@ constexpr double body_m = 0.6;    // Half the width of the body with its tube at
 constexpr double forgets = 0.25;  // Chosen: of 4 observations a second, two thirds in one second.
 constexpr double tries = 1.15;    // Chosen: the range doubles within five observations.
 constexpr double nearest_m = 1.0;
-constexpr double farthest_m = 1e3;
+constexpr double farthest_view_m = 1e3;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void Visibility::note(const Observation& seen, double range_m) {
     visibility_m_ =
         free_m >= visibility_m_ ? free_m : visibility_m_ + forgets * (free_m - visibility_m_);
   }
-  visibility_m_ = std::clamp(visibility_m_, nearest_m, farthest_m);
+  visibility_m_ = std::clamp(visibility_m_, nearest_m, farthest_view_m);
 }
 
 }  // namespace flyball

@@ -56,6 +56,7 @@ function(flyball_module name)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON)
+  flyball_unity_groups(${target} ${arg_SOURCES})
   flyball_compile_options(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   install(TARGETS ${target} EXPORT Flyball_${name} FILE_SET HEADERS)
@@ -63,6 +64,23 @@ function(flyball_module name)
   list(FILTER uses INCLUDE REGEX "^flyball::")
   list(TRANSFORM uses REPLACE "^flyball::" "")
   flyball_component(${name} ${uses})
+endfunction()
+
+# flyball_unity_groups(<target> <source>...): which sources are compiled as one where CMAKE_UNITY_BUILD is on
+# (under a sanitizer, where headers take most of the time): neighbours, so that a new file moves no
+# file of another folder. Their names without linkage must differ.
+function(flyball_unity_groups target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS ARGN)
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "in_${folder}" group)
+    if(NOT count_${group})
+      set(count_${group} 0)
+    endif()
+    math(EXPR part "${count_${group}} / 8")
+    math(EXPR count_${group} "${count_${group}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
+  endforeach()
 endfunction()
 
 # flyball_component(<name> <component>...): installed, it can be found, with those that it uses.

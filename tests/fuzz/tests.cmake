@@ -29,6 +29,7 @@ endif()
 if(FLYBALL_BUILD_SIM AND TARGET flyball_lua AND TARGET GTest::gtest)
   file(GLOB fuzz_sources CONFIGURE_DEPENDS ${fuzz}/targets/*_fuzzer.cpp)
   add_library(fuzz_sources OBJECT ${fuzz_sources})
+  set_target_properties(fuzz_sources PROPERTIES UNITY_BUILD OFF)
   target_link_libraries(fuzz_sources PRIVATE flyball::apps flyball_lua octomap octomath PNG::PNG
                                              GTest::gtest)
   flyball_fuzz_settings(fuzz_sources)

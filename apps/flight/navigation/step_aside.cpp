@@ -10,7 +10,7 @@ namespace {
 
 // Chosen: a few millimetres are enough for a cell that only just overlaps the tube, and a step
 // longer than the tube is wide would need a path.
-constexpr std::array<double, 4> aside_m{0.005, 0.015, 0.03, 0.06};
+constexpr std::array<double, 4> steps_m{0.005, 0.015, 0.03, 0.06};
 constexpr std::size_t turns = 8;
 constexpr double eighth_rad = 0.7853981633974483;
 
@@ -23,9 +23,9 @@ std::optional<Vec3> place_aside_W(const Situation& situation, const Vec3& here_W
   if (!is_blocked(here_W)) {
     return std::nullopt;
   }
-  for (std::size_t i = 0; i < turns * aside_m.size(); ++i) {
+  for (std::size_t i = 0; i < turns * steps_m.size(); ++i) {
     const double yaw_rad = static_cast<double>(i % turns) * eighth_rad;
-    const Vec3 p_W = here_W + aside_m[i / turns] * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
+    const Vec3 p_W = here_W + steps_m[i / turns] * Vec3{std::cos(yaw_rad), std::sin(yaw_rad), 0.0};
     if (!is_blocked(p_W)) {
       return p_W;
     }

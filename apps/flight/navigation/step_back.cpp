@@ -14,7 +14,7 @@ constexpr double spacing_m = 0.1;     // Between remembered places: less than a 
 constexpr double most_trail_m = 5.0;  // Longer than the blind zone of cells of 1 m.
 constexpr double least_m = 0.2;       // From nearer by the camera would see nothing new.
 constexpr double speed_m_s = 0.5;
-constexpr double yaw_rate_rad_s = 0.8;
+constexpr double turn_rate_rad_s = 0.8;
 constexpr double settled_m = 0.15;  // The vehicle stands when it is this near to its reference, ...
 constexpr double settled_rad = 0.05;  // ... and looks this near to the wanted heading.
 constexpr double same_place_m = 3.0;  // Manoeuvres that begin within this are of one place, ...
@@ -67,7 +67,7 @@ bool StepBack::begin(double distance_m, double yaw_rad) {
 StepBack::Hover StepBack::tick(MissionTime now, Duration dt, const Hover& hover, double error_m) {
   const double dt_s = to_seconds(dt);
   Hover next = hover;
-  next.yaw_rad = wrap_angle(towards(hover.yaw_rad, yaw_rad_, yaw_rate_rad_s * dt_s));
+  next.yaw_rad = wrap_angle(towards(hover.yaw_rad, yaw_rad_, turn_rate_rad_s * dt_s));
   double step_m = std::min(left_m_, speed_m_s * dt_s);
   while (step_m > 0.0 && !trail_W_.empty()) {
     const Vec3 to_W = trail_W_.back() - next.p_W;

@@ -7,9 +7,9 @@ namespace {
 // Chosen: candidates 3 m apart to both sides, up to 12 m, and every 2.5 m along the line.
 constexpr double step_m = 2.5;
 constexpr double nearest_share = 0.5;  // Of the horizon: nearer goals would make short legs.
-constexpr double aside_m = 3.0;
+constexpr double side_step_m = 3.0;
 constexpr int most_aside = 4;
-constexpr double half_band_m = 0.3;  // A little more than half the body's height.
+constexpr double body_band_m = 0.3;  // A little more than half the body's height.
 // Unknown space nearer to an obstacle may be the obstacle's inside: RoboRun's blocks are 4 m wide.
 constexpr double unknown_gap_m = 3.0;
 
@@ -20,7 +20,7 @@ bool may_be_there(const Situation& situation, const Vec3& p_W) {
   const CellState state = situation.map.body_state(p_W, situation.brief.narrow_body());
   return state == CellState::free ||
          (state == CellState::unknown &&
-          situation.map.nearest_obstacle_m(p_W, unknown_gap_m, half_band_m) >= unknown_gap_m);
+          situation.map.nearest_obstacle_m(p_W, unknown_gap_m, body_band_m) >= unknown_gap_m);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Vec3 sub_goal_W(const Situation& situation, const Vec3& start_W, const Vec3& goa
     return may_be_there(situation, p_W) && failures-- <= 0;
   };
   for (int place = 0; place <= 2 * most_aside; ++place) {
-    const double aside = aside_m * (place % 2 == 1 ? (place + 1) / 2 : -(place / 2));
+    const double aside = side_step_m * (place % 2 == 1 ? (place + 1) / 2 : -(place / 2));
     for (double on_m = horizon_m; on_m >= nearest_share * horizon_m; on_m -= step_m) {
       if (Vec3 p_W = start_W + on_m * ahead_W + aside * left_W; is_next(p_W)) {
         return p_W;

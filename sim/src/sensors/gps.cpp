@@ -2,6 +2,7 @@
 
 #include "flyball/sim/gps.h"
 
+#include "sensors/normal3.h"
 #include <algorithm>
 #include <cmath>
 
@@ -53,15 +54,6 @@ Geodetic geodetic_from_centre(const Vec3& p) {
   const double height =
       axial * std::cos(latitude) + p.z() * s - semi_major_m * std::sqrt(1.0 - e2 * s * s);
   return {latitude, std::atan2(p.y(), p.x()), height};
-}
-
-Vec3 normal3(RandomStream& noise) {
-  // One after the other: the order of evaluation of a constructor's arguments is not ours.
-  Vec3 v;
-  for (double& component : v) {
-    component = noise.normal();
-  }
-  return v;
 }
 
 }  // namespace

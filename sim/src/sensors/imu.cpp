@@ -3,6 +3,7 @@
 
 #include "flyball/sim/airframe.h"
 
+#include "sensors/normal3.h"
 #include <cmath>
 
 namespace flyball {
@@ -10,14 +11,6 @@ namespace {
 
 constexpr double full_turn_rad = 6.283185307179586;
 constexpr double gyro_share = 1e-3;  // rad/s per m/s^2, of a damped mount: an assumption.
-
-Vec3 normal3(RandomStream& noise) {
-  Vec3 v;
-  for (double& component : v) {
-    component = noise.normal();
-  }
-  return v;
-}
 
 }  // namespace
 

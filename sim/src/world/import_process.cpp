@@ -22,7 +22,7 @@ namespace {
 
 // What the process sends: its verdict, the number of bytes that follow, and those bytes.
 enum class Verdict : std::uint64_t { good = 1, not_found, invalid_input, failed, out_of_memory };
-struct Header {
+struct AnswerHeader {
   Verdict verdict{Verdict::failed};
   std::uint64_t bytes{};
 };
@@ -77,7 +77,7 @@ bool write_all(int to, const void* from, std::size_t bytes) {
 }
 
 void send(int to, Verdict verdict, const std::string& content) {
-  const Header header{verdict, content.size()};
+  const AnswerHeader header{verdict, content.size()};
   (void)(write_all(to, &header, sizeof header) && write_all(to, content.data(), content.size()));
 }
 
@@ -135,7 +135,7 @@ Error broken_off(int status, const ImportLimits& limits) {
 }
 
 Result<std::string> judged(std::string content, int status, const ImportLimits& limits) {
-  Header header;
+  AnswerHeader header;
   if (content.size() < sizeof header) {
     return broken_off(status, limits);
   }

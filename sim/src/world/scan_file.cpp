@@ -94,15 +94,15 @@ class TreeReader {
   std::istream& stream_;
 };
 
-struct Header {
+struct ScanHeader {
   bool is_octree{};
   bool has_log_odds{};
   double resolution_m{};
 };
 
 // Leaves the stream at the first byte of the tree.
-Header read_header(std::istream& stream) {
-  Header header;
+ScanHeader read_header(std::istream& stream) {
+  ScanHeader header;
   std::string line;
   std::getline(stream, line);
   header.has_log_odds = line.rfind("# Octomap OcTree file", 0) == 0;
@@ -168,7 +168,7 @@ Result<ScanGrid> read_scan(const std::string& path) {
   if (!stream || !std::filesystem::is_regular_file(path, failed)) {
     return Error{ErrorCode::not_found, "no map file \"" + path + "\""};
   }
-  const Header header = read_header(stream);
+  const ScanHeader header = read_header(stream);
   if (!header.is_octree) {
     return unreadable(path, "is no OcTree of OctoMap's (.bt or .ot)");
   }
