@@ -136,6 +136,9 @@ configure() {
   (cd "$top" && cmake "${fresh[@]}" --preset "$1" > /dev/null)
 }
 
+# Else what reads a precompiled header is never taken from the cache.
+export CCACHE_SLOPPINESS=pch_defines,time_macros
+
 # build PRESET [TARGET...]: everything when no target is named.
 build() {
   local preset=$1 targets=()
