@@ -4,17 +4,13 @@
 #include "scenario/scenario_fields.h"
 
 #include "scenario/kernel_choice.h"
+#include "scenario/scenario_edge.h"
 
 namespace flyball {
 namespace {
 
 using Fields = std::vector<ScenarioField>;
 
-/// `&at<&Scenario::map, &MapSettings::range_m>` is the place of `map.range_m`.
-template <auto section, auto value>
-auto* at(Scenario& scenario) {
-  return &(scenario.*section.*value);
-}
 template <auto value>
 auto* at_top(Scenario& scenario) {
   return &(scenario.*value);
@@ -302,6 +298,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, search_fields());
   append(all, watch_fields());
   append(all, computer_fields());
+  append(all, edge_fields());
   return all;
 }
 

@@ -42,17 +42,22 @@ OperatingPoint start_point(const Scenario& scenario) {
   return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
 }
 
-std::unique_ptr<Executor> make_virtual(const Graph& graph,
-                                       const Platform& computer,
-                                       EventQueue& queue,
-                                       const OperatingPoint& start) {
-  return std::make_unique<VirtualExecutor>(graph, computer, queue, start);
+/// The modeled computer, with the scenario's edge computer.
+MakeExecutor modeled(const std::optional<EdgeModel>& edge) {
+  return [edge](const Graph& graph, const Platform& computer, EventQueue& queue,
+                const OperatingPoint& start) {
+    auto executor = std::make_unique<VirtualExecutor>(graph, computer, queue, start);
+    if (edge) {
+      executor->connect_edge(*edge);
+    }
+    return executor;
+  };
 }
 
 /// On what a flight is computed.
 struct FlightComputer {
-  MakeExecutor make_executor{make_virtual};
-  RealtimeBoard* board{};  ///< Null for one that is modelled.
+  MakeExecutor make_executor{};  ///< Empty: a modeled one.
+  RealtimeBoard* board{};        ///< Null for one that is modeled.
 };
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -74,7 +79,8 @@ struct Flight {
     add_finish(graph, parts.mission);
     record_node = add_record(graph, parts.mission, trace);
     add_governing(scenario, setup);
-    executor = on.make_executor(graph, computer, queue, start_point(scenario));
+    const MakeExecutor make = on.make_executor ? on.make_executor : modeled(setup.edge);
+    executor = make(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                         parts.vehicle, parts.kernels.localizer);
@@ -82,7 +88,7 @@ struct Flight {
         std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
                                                         queue, *loop, *parts.kernels.mapper});
     drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
-    board.connect(*executor, *loop, drift.get(), on.board);
+    board.connect(*executor, graph, *loop, drift.get(), on.board);
     recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
   }
 
@@ -299,6 +305,12 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
+  if (setup->edge && hooks.executor) {
+    return Error{ErrorCode::invalid_input,
+                 "edge.platform = \"" + scenario.edge.platform +
+                     "\" needs the modeled computer, because only it models the link; set " +
+                     "edge.platform to \"none\", or fly without --executor realtime"};
+  }
   auto workload = make_workload(scenario, setup->things.world);
   if (!workload) {
     return workload.error();
@@ -318,11 +330,8 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{scenario,
-                *setup,
-                *record.trace,
-                std::move(*workload),
-                {hooks.executor ? hooks.executor : make_virtual, hooks.computer}};
+  Flight flight{
+      scenario, *setup, *record.trace, std::move(*workload), {hooks.executor, hooks.computer}};
   connect(flight, hooks);
   run(flight, hooks);
   if (const Status written =

@@ -76,6 +76,7 @@ void VirtualComputer::publish(int topic, const Message& message) {
 void VirtualComputer::release(int node, MissionTime at_time) {
   Job job;
   job.id = jobs_released++;
+  job.place = place_of(node);
   job.record.node = node;
   job.record.released = at_time;
   if (const Duration deadline = spec(node).deadline; deadline > Duration::zero()) {
@@ -138,6 +139,10 @@ void VirtualComputer::end_job(int node) {
     kill_job(node);
     return;
   }
+  if (const Job& ended = *nodes[index(node)].job; ended.place == Place::edge && !ended.is_done) {
+    send_outputs(node);
+    return;
+  }
   const Job job = take_job(node);
   release_next(node);
   for (const auto& action : job.at_end) {
@@ -145,6 +150,9 @@ void VirtualComputer::end_job(int node) {
   }
   for (const auto& [topic, message] : job.outputs) {
     publish(topic, message);
+    if (job.place == Place::edge) {
+      edge->knows(topic, exchange.version(topic));
+    }
   }
   tell(job.record);
 }
@@ -212,6 +220,23 @@ double VirtualExecutor::busy_cores() const {
 
 std::uint64_t VirtualExecutor::drops() const {
   return computer_->exchange.drops() + computer_->dropped_periods;
+}
+
+void VirtualExecutor::connect_edge(const EdgeModel& edge) {
+  computer_->edge.emplace(edge, computer_->graph.topics().size());
+}
+
+void VirtualExecutor::place(int node, bool on_edge) {
+  computer_->place(node, on_edge);
+}
+
+DeviceUse VirtualExecutor::device_use() const {
+  DeviceUse use;
+  if (computer_->edge) {
+    use.sending_s = computer_->edge->up.on_air_s(computer_->queue.now());
+    use.receiving_s = computer_->edge->down.on_air_s(computer_->queue.now());
+  }
+  return use;
 }
 
 void VirtualExecutor::stop() {

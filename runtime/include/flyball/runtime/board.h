@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace flyball {
@@ -66,6 +67,9 @@ class Board {
   [[nodiscard]] virtual BoardReading read() const = 0;
   /// What is granted may be less; the next reading tells.
   virtual void request(const OperatingPoint& point) = 0;
+  /// Jobs of this node run on the edge computer from the next one on, or on board again. Nothing
+  /// happens where there is no such node or no such computer.
+  virtual void place(std::string_view /*node*/, bool /*on_edge*/) {}
 };
 
 }  // namespace flyball

@@ -4,6 +4,7 @@
 /// @file
 /// Runs a graph: on a modeled computer in mission time, or on threads in real time.
 
+#include "flyball/runtime/edge.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/platform.h"
 
@@ -77,6 +78,11 @@ class Executor {
   virtual void set_operating_point(const OperatingPoint& point) = 0;
   /// What is granted, which may be less than was set.
   [[nodiscard]] virtual OperatingPoint operating_point() const = 0;
+  /// Jobs of `node` run on the edge computer from the next one on, or on board again. Without an
+  /// edge computer all stay on board.
+  virtual void place(int /*node*/, bool /*on_edge*/) {}
+  /// Of devices beside the cores, as far as they are modeled.
+  [[nodiscard]] virtual DeviceUse device_use() const { return {}; }
   /// What the platform grants, or what work costs on it, is different from now on.
   virtual void platform_changed() = 0;
   /// Core-seconds of work done since the start.

@@ -40,7 +40,19 @@ struct TopicSpec {
   std::string name;
   std::type_index type;
   std::size_t capacity{1};  ///< 1: latest value. More: a queue; the oldest is dropped and counted.
+  double (*wire_bytes)(const void* message){};  ///< Of one message on a link to another computer.
 };
+
+/// How many bytes a message takes on a link: `wire_bytes` of its type, where the type's header
+/// declares one, else its size in memory.
+template <class T>
+auto bytes_on_wire(const T& message, int /*preferred*/) -> decltype(wire_bytes(message)) {
+  return wire_bytes(message);
+}
+template <class T>
+double bytes_on_wire(const T& /*message*/, long /*otherwise*/) {
+  return static_cast<double>(sizeof(T));
+}
 
 enum class OnMiss : std::uint8_t {
   warn,   ///< Count it.
@@ -136,7 +148,9 @@ class Graph {
   /// @pre `name` is new, `capacity >= 1`.
   template <class T>
   Topic<T> topic(std::string name, std::size_t capacity = 1) {
-    return {add_topic({std::move(name), typeid(T), capacity})};
+    return {add_topic({std::move(name), typeid(T), capacity, [](const void* message) {
+                         return bytes_on_wire(*static_cast<const T*>(message), 0);
+                       }})};
   }
   template <class Request, class Response>
   Service<Request, Response> service(const std::string& name, std::size_t capacity = 4) {

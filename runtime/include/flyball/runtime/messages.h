@@ -73,6 +73,16 @@ struct PointCloudFrame {
   std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
 };
 
+/// On a link: 16 bits of millimetres for each pixel, as RGB-D cameras send them.
+[[nodiscard]] inline double wire_bytes(const DepthFrame& frame) {
+  return 2.0 * frame.pixels * (1.0 + static_cast<double>(frame.sides.size()));
+}
+/// On a link: three 32-bit numbers for each point. Makes the points.
+[[nodiscard]] inline double wire_bytes(const PointCloudFrame& frame) {
+  const PointCloud& cloud = frame.cloud_C.value();
+  return 12.0 * static_cast<double>(cloud.hits_C.size() + cloud.clear_C.size());
+}
+
 /// Where the vehicle truly is: only a simulator can say, and only a localizer that stands in for a
 /// perfect one (`LocalizerInputs::truth`) is told.
 struct TruePose {

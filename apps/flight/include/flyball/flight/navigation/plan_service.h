@@ -39,6 +39,16 @@ struct PlanAnswer {
   double iterations{};
 };
 
+/// On a link: a path's way-points, beside the members of fixed size.
+[[nodiscard]] inline double wire_bytes(const PlanQuery& query) {
+  const std::size_t known = query.known ? query.known->waypoints_W.size() : 0;
+  return static_cast<double>(sizeof(PlanQuery) + known * sizeof(Vec3));
+}
+[[nodiscard]] inline double wire_bytes(const PlanAnswer& answer) {
+  return static_cast<double>(sizeof(PlanAnswer) + answer.waypoints_W.size() * sizeof(Vec3) +
+                             answer.failure.size());
+}
+
 struct PlannedPath {
   std::uint64_t id{};
   Trajectory trajectory{};
