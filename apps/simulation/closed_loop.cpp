@@ -109,17 +109,19 @@ Watts ClosedLoop::computer_power(double busy_cores) const {
              : link_.brief().platform->power(executor_.operating_point(), busy_cores);
 }
 
-Watts ClosedLoop::radio_power(double dt_s) {
-  if (!has_edge(scenario_)) {
-    return Watts{};
-  }
-  const EdgeSettings& radio = scenario_.edge;
+Watts ClosedLoop::device_power(double dt_s) {
   const DeviceUse use = executor_.device_use();
+  const double computes = (use.gpu_s - last_use_.gpu_s) / dt_s;
   const double sends = (use.sending_s - last_use_.sending_s) / dt_s;
   const double receives = (use.receiving_s - last_use_.receiving_s) / dt_s;
   last_use_ = use;
-  return Watts{radio.radio_idle_w + sends * (radio.radio_send_w - radio.radio_idle_w) +
-               receives * (radio.radio_receive_w - radio.radio_idle_w)};
+  const Watts gpu{computes * link_.brief().platform->gpu_power().value()};
+  if (!has_edge(scenario_)) {
+    return gpu;
+  }
+  const EdgeSettings& radio = scenario_.edge;
+  return gpu + Watts{radio.radio_idle_w + sends * (radio.radio_send_w - radio.radio_idle_w) +
+                     receives * (radio.radio_receive_w - radio.radio_idle_w)};
 }
 
 void ClosedLoop::physics_step() {
@@ -140,7 +142,7 @@ void ClosedLoop::energy_step() {
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
-  log_.computer_w = (computer_power(busy) + radio_power(dt_s)).value();
+  log_.computer_w = (computer_power(busy) + device_power(dt_s)).value();
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);

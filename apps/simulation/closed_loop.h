@@ -82,8 +82,8 @@ class ClosedLoop {
 
  private:
   [[nodiscard]] Watts computer_power(double busy_cores) const;
-  /// Of the link to an edge computer, on average since the last call `dt_s` ago.
-  [[nodiscard]] Watts radio_power(double dt_s);
+  /// Of the GPU and of the link to an edge computer, on average since the last call `dt_s` ago.
+  [[nodiscard]] Watts device_power(double dt_s);
   void physics_step();
   void energy_step();
   void publish_navigation();

@@ -15,7 +15,7 @@
 namespace flyball {
 
 /// Which servers a job waits for.
-enum class Place : std::uint8_t { board, edge };
+enum class Place : std::uint8_t { board, gpu, edge };
 
 struct Job {
   std::uint64_t id{};  ///< In the order of release.

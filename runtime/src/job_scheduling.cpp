@@ -10,6 +10,7 @@
 #include "realtime/cpu_meter.h"
 #include "virtual_computer.h"
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace flyball {
@@ -26,6 +27,7 @@ void VirtualComputer::dispatch() {
   advance();
   send_inputs();
   serve(Place::board, queue.now() < stalled_until ? 0.0 : free_cores());
+  serve_gpu();
   if (edge) {
     serve(Place::edge, edge->model.point.cores);
   }
@@ -44,9 +46,53 @@ void VirtualComputer::serve(Place place, double cores) {
       compute(urgent[i]);
     }
   }
+  const double busy = (place == Place::board ? taken_cores : 0.0) +
+                      std::accumulate(shares.begin(), shares.end(), 0.0);
   for (std::size_t i = 0; i < urgent.size(); ++i) {
-    apply_share(urgent[i], shares[i]);
+    const int node = urgent[i];
+    if (!has_moved(node)) {
+      const Job& job = *nodes[index(node)].job;
+      apply_share(node, shares[i],
+                  platform_of(node).slowdown(price_list(node, job.record.work), clock_of(place),
+                                             busy - shares[i]));
+    }
   }
+}
+
+/// One job at a time: the most urgent of those that wait. It is not interrupted.
+void VirtualComputer::serve_gpu() {
+  const std::vector<int> urgent = nodes_by_urgency(Place::gpu);
+  if (urgent.empty() || is_gpu_busy()) {
+    return;
+  }
+  const int next = urgent.front();
+  if (!nodes[index(next)].job->has_started) {
+    compute(next);
+  }
+  if (!has_moved(next)) {
+    apply_share(next, 1.0);
+  }
+}
+
+bool VirtualComputer::has_moved(int node) {
+  Job& job = *nodes[index(node)].job;
+  if (!job.has_started || job.place == Place::edge) {
+    return false;
+  }
+  const Place place =
+      platform.runs_on_gpu(price_list(node, job.record.work)) ? Place::gpu : Place::board;
+  if (place == job.place) {
+    return false;
+  }
+  job.place = place;
+  request_dispatch();
+  return true;
+}
+
+bool VirtualComputer::is_gpu_busy() const {
+  return std::any_of(nodes.begin(), nodes.end(), [](const NodeState& node) {
+    return node.job && node.job->place == Place::gpu && node.job->share > 0.0;
+  });
 }
 
 std::vector<int> VirtualComputer::nodes_by_urgency(Place place) const {
@@ -93,6 +139,10 @@ void VirtualComputer::compute(int node) {
   job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
 }
 
+Hertz VirtualComputer::clock_of(Place place) const {
+  return place == Place::edge ? edge->model.point.frequency : point.frequency;
+}
+
 const Platform& VirtualComputer::platform_of(int node) const {
   return nodes[index(node)].job->place == Place::edge ? *edge->model.platform : platform;
 }
@@ -111,10 +161,11 @@ Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
              : platform.job_time(kernel, work, point.frequency);
 }
 
-void VirtualComputer::apply_share(int node, double share) {
+void VirtualComputer::apply_share(int node, double share, double slowdown) {
   Job& job = *nodes[index(node)].job;
-  const double speed =
+  const double undisturbed =
       share <= 1.0 ? share : platform_of(node).speedup(price_list(node, job.record.work), share);
+  const double speed = undisturbed / slowdown;
   if (job.has_end && speed == job.speed) {
     job.share = share;
     return;  // its end stays exactly where it is
@@ -148,6 +199,7 @@ void VirtualComputer::advance() {
   }
   busy_core_s += busy_cores() * elapsed_s;
   busiest_core_s += std::min(1.0, busy_cores()) * elapsed_s;
+  busy_gpu_s += is_gpu_busy() ? elapsed_s : 0.0;
   for (NodeState& node : nodes) {
     if (node.job && node.job->has_started) {
       node.job->advance(elapsed_s);
@@ -175,7 +227,7 @@ double VirtualComputer::busy_cores() const {
 void VirtualComputer::rescale_running_jobs() {
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
     auto& job = nodes[index(node)].job;
-    if (job && job->has_started && job->place == Place::board) {
+    if (job && job->has_started && job->place != Place::edge) {
       job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
       job->has_end = false;  // at the same share it still ends at another time
     }

@@ -13,7 +13,10 @@ void VirtualComputer::place(int node, bool on_edge) {
 }
 
 Place VirtualComputer::place_of(int node) const {
-  return edge && nodes[index(node)].is_offloaded ? Place::edge : Place::board;
+  if (edge && nodes[index(node)].is_offloaded) {
+    return Place::edge;
+  }
+  return platform.runs_on_gpu(spec(node).cost) ? Place::gpu : Place::board;
 }
 
 void VirtualComputer::send_inputs() {

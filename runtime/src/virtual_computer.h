@@ -49,8 +49,12 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void request_dispatch();
   void dispatch();
   void serve(Place place, double cores);
+  void serve_gpu();
   void compute(int node);
-  void apply_share(int node, double share);
+  /// @param slowdown  By others that use the memory, at least 1.
+  void apply_share(int node, double share, double slowdown = 1.0);
+  /// The job of `node`, which has been computed, waits for other servers than its node's kernel.
+  [[nodiscard]] bool has_moved(int node);
   void schedule_end(int node);
   void advance();
   void set_operating_point(const OperatingPoint& wanted);
@@ -60,6 +64,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   [[nodiscard]] double free_cores() const;
   /// Where the job of `node` runs.
   [[nodiscard]] const Platform& platform_of(int node) const;
+  [[nodiscard]] Hertz clock_of(Place place) const;
   /// The kernel whose price list counts for a node's work.
   [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
@@ -67,6 +72,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   /// Those whose jobs wait for these servers, or have them.
   [[nodiscard]] std::vector<int> nodes_by_urgency(Place place) const;
   [[nodiscard]] double busy_cores() const;
+  [[nodiscard]] bool is_gpu_busy() const;
 
   // The edge computer: offloading.cpp.
   void place(int node, bool on_edge);
@@ -103,6 +109,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   std::uint64_t dropped_periods{};
   double busy_core_s{};
   double busiest_core_s{};
+  double busy_gpu_s{};
   MissionTime advanced_to{};
   MissionTime stalled_until{};
   bool is_dispatch_pending{};

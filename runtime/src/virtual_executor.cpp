@@ -232,6 +232,8 @@ void VirtualExecutor::place(int node, bool on_edge) {
 
 DeviceUse VirtualExecutor::device_use() const {
   DeviceUse use;
+  const double since_s = to_seconds(computer_->queue.now() - computer_->advanced_to);
+  use.gpu_s = computer_->busy_gpu_s + (computer_->is_gpu_busy() ? since_s : 0.0);
   if (computer_->edge) {
     use.sending_s = computer_->edge->up.on_air_s(computer_->queue.now());
     use.receiving_s = computer_->edge->down.on_air_s(computer_->queue.now());

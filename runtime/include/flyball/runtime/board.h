@@ -37,6 +37,8 @@ struct BoardModel {
   std::optional<PowerCost> power{};       ///< Input power of the whole computer.
   std::optional<ThermalModel> thermal{};  ///< Empty: it is not known to get too hot.
   VehicleModel vehicle{};
+  std::optional<GpuModel> gpu{};  ///< Empty: there is none, or nothing is known of it.
+  double memory_contention{};     ///< See `PlatformModel`; 0: not known.
 };
 
 /// What a platform's file says of the board; what work costs in time is left to be learned in
