@@ -103,6 +103,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   std::optional<EdgeComputer> edge{};
   /// Of each topic. Deques: a listener may add another one while it runs.
   std::vector<std::deque<std::function<void(const Message&)>>> listeners;
+  std::function<Message(int topic, const Message&)> filter{};  ///< Empty: all messages pass.
   std::deque<std::function<void(const JobRecord&)>> job_listeners;
   std::deque<std::function<void(int, OnMiss)>> miss_listeners;
   std::uint64_t jobs_released{};

@@ -60,7 +60,11 @@ void VirtualComputer::trigger_periodically(int node) {
   }
 }
 
-void VirtualComputer::publish(int topic, const Message& message) {
+void VirtualComputer::publish(int topic, const Message& published) {
+  const Message message = filter ? filter(topic, published) : published;
+  if (!message) {
+    return;
+  }
   for (const int node : exchange.put(topic, message, queue.now())) {
     if (!nodes[index(node)].job) {
       release(node, queue.now());
@@ -183,6 +187,10 @@ VirtualExecutor::VirtualExecutor(const Graph& graph,
 }
 
 VirtualExecutor::~VirtualExecutor() = default;
+
+void VirtualExecutor::filter_messages(std::function<Message(int topic, const Message&)> filter) {
+  computer_->filter = std::move(filter);
+}
 
 void VirtualExecutor::on_job(std::function<void(const JobRecord&)> listener) {
   computer_->job_listeners.push_back(std::move(listener));

@@ -69,6 +69,10 @@ class Executor {
       listener(*static_cast<const T*>(message.get()));
     });
   }
+  /// Calls `filter` with each message before it appears on its topic, and puts its answer there
+  /// instead; null: the message is lost. For simulated faults, so that only a modeled computer does
+  /// it.
+  virtual void filter_messages(std::function<Message(int topic, const Message&)> /*filter*/) {}
   virtual void on_job(std::function<void(const JobRecord&)> listener) = 0;
   /// A job passed its deadline, told at that moment, once. Under `skip` it is killed next.
   virtual void on_miss(std::function<void(int node, OnMiss)> listener) = 0;

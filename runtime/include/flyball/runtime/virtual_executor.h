@@ -30,6 +30,7 @@ class VirtualExecutor final : public Executor {
   VirtualExecutor(const VirtualExecutor&) = delete;
   VirtualExecutor& operator=(const VirtualExecutor&) = delete;
 
+  void filter_messages(std::function<Message(int topic, const Message&)> filter) override;
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
   void set_operating_point(const OperatingPoint& point) override;

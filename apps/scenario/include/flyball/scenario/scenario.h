@@ -62,18 +62,26 @@ struct EdgeSettings {
   double radio_idle_w{0.8};     ///< An estimate for one antenna that listens.
 };
 
+/// What guards the messages on board against soft errors.
+struct FaultSettings {
+  std::string detector{"none"};  ///< `none`, `range`, `rate` or `both`: see `Plausibility`.
+};
+
 /// Something that happens to the companion computer in flight; which members count is a matter of
 /// the kind.
 struct ComputerEvent {
-  std::string kind{};          ///< `slowdown`, `co_runner` or `cooling`.
-  double at_s{};               ///< Mission time.
-  double until_s{};            ///< 0: it lasts.
-  double factor{1.0};          ///< Slowdown: kernels take so many times what the file says.
-  std::string kernels{"all"};  ///< Slowdown: these only, with commas between them.
-  double cores{};              ///< Co-runner: kept busy.
-  double memory_share{};       ///< Co-runner: of the memory's bandwidth.
-  double resistance_k_w{8.0};  ///< Cooling: from the computer to the air.
-  double ambient_c{40.0};      ///< Cooling: of the air.
+  std::string kind{};           ///< `slowdown`, `co_runner`, `cooling` or `bit_flip`.
+  double at_s{};                ///< Mission time.
+  double until_s{};             ///< 0: it lasts.
+  double factor{1.0};           ///< Slowdown: kernels take so many times what the file says.
+  std::string kernels{"all"};   ///< Slowdown: these only, with commas between them.
+  double cores{};               ///< Co-runner: kept busy.
+  double memory_share{};        ///< Co-runner: of the memory's bandwidth.
+  double resistance_k_w{8.0};   ///< Cooling: from the computer to the air.
+  double ambient_c{40.0};       ///< Cooling: of the air.
+  std::string topic{};          ///< Bit flip: in the next message here.
+  std::string variable{"any"};  ///< Bit flip: in a number of this name, or in any.
+  double draw{};                ///< Bit flip: with the seed, settles which number and which bit.
 };
 
 struct Scenario {
@@ -100,6 +108,7 @@ struct Scenario {
   PlatformSettings platform{};
   EdgeSettings edge{};
   OffloadSettings offload{};
+  FaultSettings faults{};
   GovernorSettings governor{};
   std::vector<ComputerEvent> events{};
 };
