@@ -99,8 +99,14 @@ std::vector<KnobSpec> offload_knobs(const Scenario& scenario) {
     return knobs;
   }
   for (const OffloadChoice& choice : choices) {
-    KnobSpec spec{key_of(choice),           "place", choice.node, {0.0, 1.0}, 0.0, 1.0, 0.0,
-                  "where its next jobs run"};
+    KnobSpec spec{key_of(choice),
+                  "place",
+                  choice.node,
+                  {0.0, 1.0},
+                  0.0,
+                  1.0,
+                  0.0,
+                  "where the next jobs of this node run"};
     spec.labels = {"onboard", "edge"};
     knobs.push_back(std::move(spec));
   }
