@@ -62,10 +62,13 @@ void VirtualComputer::serve(Place place, double cores) {
 /// One job at a time: the most urgent of those that wait. It is not interrupted.
 void VirtualComputer::serve_gpu() {
   const std::vector<int> urgent = nodes_by_urgency(Place::gpu);
-  if (urgent.empty() || is_gpu_busy()) {
+  if (urgent.empty()) {
     return;
   }
-  const int next = urgent.front();
+  const auto running = std::find_if(urgent.begin(), urgent.end(), [this](int node) {
+    return nodes[index(node)].job->share > 0.0;
+  });
+  const int next = running != urgent.end() ? *running : urgent.front();
   if (!nodes[index(next)].job->has_started) {
     compute(next);
   }

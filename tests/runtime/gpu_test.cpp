@@ -57,6 +57,16 @@ TEST(Gpu, a_job_that_runs_is_not_interrupted_and_the_most_urgent_one_is_next) {
   EXPECT_EQ(rig.of(urgent).started, at_ms(40.0));
 }
 
+TEST(Gpu, what_follows_the_cores_clock_does_so_while_it_runs) {
+  GpuRig rig;
+  const int shader = rig.add({40.0, 0, "shader"});
+  rig.start(1);
+  rig.trigger(shader, 0.0);
+  rig.set_point(20.0, 1, 2.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(shader), 30.0, end_tolerance_ms);
+}
+
 TEST(Gpu, work_that_is_charged_as_one_of_its_kernels_moves_there) {
   Graph graph{"moves"};
   const auto in = graph.topic<int>("in");
