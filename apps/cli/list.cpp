@@ -156,6 +156,7 @@ std::string all_of_family(const Plugins& plugins) {
 Scenario with_all_knobs(const Plugins& plugins) {
   Scenario scenario;
   scenario.plugins = plugins;
+  scenario.edge.platform = scenario.platform.name;
   scenario.knobs = {all_of_family<PathPlanner>(plugins), all_of_family<Detector>(plugins), true,
                     true};
   return scenario;

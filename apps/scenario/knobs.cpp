@@ -6,6 +6,7 @@
 #include "flyball/runtime/decision.h"
 
 #include "scenario/kernel_choice.h"
+#include "scenario/scenario_edge.h"
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
@@ -170,6 +171,9 @@ Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Pla
   of_mission->insert(of_mission->begin(), speed_knob());
   of_mission->push_back(cores_knob(platform, scenario.platform.cores));
   of_mission->push_back(frequency_knob(platform, scenario.platform.frequency_hz));
+  for (KnobSpec& knob : offload_knobs(scenario)) {
+    of_mission->push_back(std::move(knob));
+  }
   if (const Status added = add(std::move(*of_mission), "the mission", scenario, all); !added) {
     return added.error();
   }

@@ -13,6 +13,7 @@
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -91,6 +92,7 @@ class GovernorLoop {
   void record(JobContext& job, bool is_whole);
   void record_bounds(JobContext& job);
   void apply(JobContext& job, const Decision& decision);
+  void place_nodes();
   void note_moved_wishes(JobContext& job);
   void note_fallback(JobContext& job);
 
@@ -101,6 +103,7 @@ class GovernorLoop {
   Board& board_;
   GovernorInputs inputs_;
   OperatingPoint asked_;
+  std::map<std::string, bool> placed_{};  ///< Whether a node that may move is on the edge.
   Observation seen_{};
   std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
   ChoiceMemory choices_{};
