@@ -304,10 +304,15 @@ MapSetting EnergySearch::idle(
 }
 
 void EnergySearch::put_in_force(const MapSetting& setting, MissionTime now) {
-  if (setting != in_force_) {
-    in_force_ = setting;
-    in_force_since_ = now;
+  if (setting == in_force_) {
+    return;
   }
+  in_force_ = setting;
+  in_force_since_ = now;
+  // The ticket assumes the clock that it was issued at; `note_clock` sees what is granted.
+  bound_.widen(
+      ticket_, level(setting.resolution_m),
+      from_seconds(predicted_s({setting.resolution_m, setting.range_m, issued_at_.value()})));
 }
 
 }  // namespace flyball

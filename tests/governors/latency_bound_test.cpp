@@ -145,6 +145,21 @@ TEST(LatencyBound, moves_with_the_clock_that_was_granted) {
   EXPECT_EQ(bound.tracker(0).decisions(), 1U);
 }
 
+TEST(LatencyBound, a_change_of_setting_leaves_the_longer_bound_at_its_own_level) {
+  LatencyBound bound{2, 4, {0.05, 0.05, 0.0}};
+  const auto longer = bound.issue(0, at_s(0.0), 100ms);
+  bound.widen(longer, 1, 300ms);
+  bound.settle(longer, at_s(0.2));
+  EXPECT_EQ(bound.tracker(0).decisions(), 0U);
+  EXPECT_EQ(bound.tracker(1).decisions(), 1U);
+  EXPECT_EQ(bound.tracker(1).misses(), 0U);
+  const auto shorter = bound.issue(0, at_s(1.0), 100ms);
+  bound.widen(shorter, 1, 50ms);
+  bound.settle(shorter, at_s(1.09));
+  EXPECT_EQ(bound.tracker(0).decisions(), 1U);
+  EXPECT_EQ(bound.tracker(0).misses(), 0U);
+}
+
 TEST(LatencyBound, levels_learn_apart) {
   LatencyBound bound{2, 4, {0.05, 0.05, 0.0}};
   bound.settle(bound.issue(1, at_s(0.0), 100ms), at_s(5.0));
