@@ -6,6 +6,7 @@
 /// them.
 
 #include "flyball/runtime/board.h"
+#include "flyball/runtime/node_meter.h"
 #include "flyball/runtime/realtime/realtime_board.h"
 
 #include "simulation/closed_loop.h"
@@ -31,6 +32,7 @@ class SimulatedBoard final : public Board {
   void measure();
 
   [[nodiscard]] BoardReading read() const override;
+  [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
   void request(const OperatingPoint& point) override;
 
  private:
@@ -42,6 +44,7 @@ class SimulatedBoard final : public Board {
   const ComputerDrift* drift_{};
   const RealtimeBoard* computer_{};
   std::atomic<std::uint64_t> deadline_misses_{};
+  NodeMeter nodes_{};
   mutable std::mutex mutex_{};  ///< Of `gauges_`.
   BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.
 };
