@@ -79,8 +79,8 @@ class SearchAndRescue final : public Workload {
     next_estimate_ = job.now() + estimating_period;
     const Site& site = brief_->site;
     tell_progress(job, mission_, ProgressUnit::square_metre,
-                  known_area_m2(*revision->map, site.volume_W, site.cruise_height_m + site.ground_z_m,
-                                square_m));
+                  known_area_m2(*revision->map, site.volume_W,
+                                site.cruise_height_m + site.ground_z_m, square_m));
   }
 
   void end(JobContext& job, MissionStatus status, MissionFailure failure) {

@@ -67,14 +67,13 @@ ObservationField optional(ObservationField one) {
 
 template <Stage stage>
 ObservationField job_s(const char* name) {
-  return {name,
-          [](const Observation& seen) { return to_seconds(seen.stage(stage).latency); },
-          [](Observation& seen, double value) {
-            seen.stage(stage).latency = nearest_duration(value);
-          },
-          true,
-          "s",
-          "From the trigger to the result of this stage's newest job"};
+  return {
+      name,
+      [](const Observation& seen) { return to_seconds(seen.stage(stage).latency); },
+      [](Observation& seen, double value) { seen.stage(stage).latency = nearest_duration(value); },
+      true,
+      "s",
+      "From the trigger to the result of this stage's newest job"};
 }
 
 template <Stage stage>

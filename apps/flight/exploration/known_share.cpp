@@ -88,10 +88,7 @@ double KnownShare::percent(const OccupancyView& map) {
   return known == 0 ? 0.0 : 100.0 * static_cast<double>(known) / all;
 }
 
-double known_area_m2(const OccupancyView& map,
-                     const Aabb& volume_W,
-                     double z_m,
-                     double square_m) {
+double known_area_m2(const OccupancyView& map, const Aabb& volume_W, double z_m, double square_m) {
   FLYBALL_ASSERT(square_m > 0.0, "squares of %g m", square_m);
   const std::size_t columns = cells_along(volume_W.max.x() - volume_W.min.x(), square_m);
   const std::size_t rows = cells_along(volume_W.max.y() - volume_W.min.y(), square_m);

@@ -19,8 +19,8 @@ constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
 // Chosen: farther obstacles than this make no difference to any policy.
 constexpr double nearest_limit_m = 20.0;
-constexpr double headroom_limit_m = 5.0;  // Chosen: four times the largest cells.
-constexpr double headroom_step_m = 0.05;  // A third of the finest cells.
+constexpr double headroom_limit_m = 5.0;    // Chosen: four times the largest cells.
+constexpr double headroom_step_m = 0.05;    // A third of the finest cells.
 constexpr double path_width_reach_m = 8.0;  // A little farther than the delivery camera's range.
 // Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
 // wide.

@@ -46,8 +46,8 @@ class PowerMeter {
   std::deque<Reading> readings_{};
 };
 
-/// By the names of rails: VDD_SYS_CPU, VDD_SYS_GPU, VDD_SYS_DDR, VDD_SYS_SOC on a Jetson TX2. A rail
-/// whose name tells of several parts (VDD_CPU_GPU_CV) counts for none of them.
+/// By the names of rails: VDD_SYS_CPU, VDD_SYS_GPU, VDD_SYS_DDR, VDD_SYS_SOC on a Jetson TX2. A
+/// rail whose name tells of several parts (VDD_CPU_GPU_CV) counts for none of them.
 [[nodiscard]] RailPower power_by_rail(const LinuxSystem& system,
                                       const std::vector<PowerRail>& rails);
 

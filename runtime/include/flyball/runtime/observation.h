@@ -72,11 +72,11 @@ struct Observation {
   double headroom_m{};  ///< From the top of the body up to an obstacle in the map, at most 5; 0:
                         ///< nobody says.
   ProgressUnit progress_unit{};
-  double progress{};    ///< Since take-off, in this unit, as far as the vehicle itself can tell.
-  Watts cpu_power{};    ///< Of the processors' rail; these four are 0 where the board has no such
-  Watts gpu_power{};    ///< meter, and they are in `computer_power` too.
+  double progress{};  ///< Since take-off, in this unit, as far as the vehicle itself can tell.
+  Watts cpu_power{};  ///< Of the processors' rail; these four are 0 where the board has no such
+  Watts gpu_power{};  ///< meter, and they are in `computer_power` too.
   Watts memory_power{};
-  Watts soc_power{};    ///< Of the rest of the chip.
+  Watts soc_power{};  ///< Of the rest of the chip.
   std::array<StageUse, stage_count> stages{};
 
   [[nodiscard]] const StageUse& stage(Stage one) const {

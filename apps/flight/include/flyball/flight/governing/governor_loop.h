@@ -43,7 +43,7 @@ struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
   std::optional<Topic<MapRevision>> map{};
   std::array<std::vector<int>, stage_count> stages{};  ///< The nodes of each.
-  Duration period{};          ///< Between decisions.
+  Duration period{};                                   ///< Between decisions.
   ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
