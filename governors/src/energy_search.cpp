@@ -51,16 +51,8 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   EnergySearch search{settings, levels, std::move(*points), computer};
   search.in_force_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
                       knobs.value("cpu.frequency_hz")};
-  search.points_.prune(4, [&](const double* at, std::vector<double>& costs) {
-    const MapSetting setting{at[resolution], at[range], at[clock_axis]};
-    if (setting.range_m > levels[search.level(setting.resolution_m)].most_range_m) {
-      costs.assign(4, std::numeric_limits<double>::infinity());
-      return;
-    }
-    const double latency_s = search.predicted_s(setting);
-    costs = {setting.resolution_m, -setting.range_m, latency_s,
-             search.computer_.power(Hertz{setting.clock_hz}, search.busy_cores(setting, latency_s))
-                 .value()};
+  search.points_.keep_if([&](const double* at) {
+    return at[range] <= levels[search.level(at[resolution])].most_range_m;
   });
   search.estimates_.resize(search.points_.size());
   for (std::size_t point = 0; point < search.points_.size(); ++point) {
