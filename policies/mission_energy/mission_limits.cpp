@@ -227,6 +227,8 @@ void MissionLimits::limit_two_levels(const Observation& seen,
                                      const MapSetting& in_force,
                                      Surroundings& around) const {
   constexpr double no_limit = std::numeric_limits<double>::max();
+  // Another map begins with every change of the cells, and a plan in small ones finds every gap.
+  around.prefers_fine = true;
   const bool fine = around.coarsest_m <= levels_m_.front();
   // Far away, noise opens and closes gaps, so narrow ones are looked at from nearby only.
   const bool from_nearby = (fine || near) && !(around.least_range_m > 0.0);

@@ -82,6 +82,16 @@ TEST(EnergySearch, looks_no_farther_than_it_pays) {
   }
 }
 
+TEST(EnergySearch, takes_the_finest_cells_where_they_cost_nothing_and_are_preferred) {
+  Surroundings around = open_space();
+  around.speed_limit_m_s = 1.0;
+  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.80);
+  around.prefers_fine = true;
+  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.15);
+  around.speed_limit_m_s = 10.0;
+  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.80);
+}
+
 TEST(EnergySearch, brakes_as_the_mission_does) {
   const EnergySearch one = search();
   Surroundings around = open_space();

@@ -65,6 +65,7 @@ struct Surroundings {
   /// close gaps that nobody has seen yet; null: none. It stays the owner's.
   const std::vector<double>* failed_plans_per_m{};
   double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
+  bool prefers_fine{};     ///< Of settings that cost the same, smaller cells are taken.
   WaitingShare waits{};    ///< Raises the price of lower clocks.
   bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
 };
@@ -91,7 +92,7 @@ struct EnergyEstimate {
 /// speed.
 ///
 /// Among settings that take less than a thousandth more than the best, the search takes the one
-/// with the shortest response. It learns latency and rotor power from observations, and also how
+/// with the shortest response, or one with the smallest cells if those are preferred. It learns latency and rotor power from observations, and also how
 /// much power the computer may take before it gets too hot (`ThermalLimit`); clocks beyond that are
 /// not chosen. Nothing allocates after `make`.
 class EnergySearch {
