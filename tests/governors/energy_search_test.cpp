@@ -82,16 +82,6 @@ TEST(EnergySearch, looks_no_farther_than_it_pays) {
   }
 }
 
-TEST(EnergySearch, takes_the_finest_cells_where_they_cost_nothing_and_are_preferred) {
-  Surroundings around = open_space();
-  around.speed_limit_m_s = 1.0;
-  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.80);
-  around.prefers_fine = true;
-  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.15);
-  around.speed_limit_m_s = 10.0;
-  EXPECT_EQ(search().choose(around, {}).setting.resolution_m, 0.80);
-}
-
 TEST(EnergySearch, brakes_as_the_mission_does) {
   const EnergySearch one = search();
   Surroundings around = open_space();
@@ -270,6 +260,19 @@ EnergySearch search_with(const EnergySearchSettings& settings) {
   const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
                                         {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
   return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs(), power());
+}
+
+TEST(EnergySearch, takes_the_finest_cells_where_they_cost_nothing_and_are_preferred) {
+  EnergySearchSettings settings;
+  settings.switching_s = 0.0;
+  Surroundings around = open_space();
+  around.needs_top_clock = true;  // At a lower one, a coarser map would leave the cores idle.
+  around.speed_limit_m_s = 1.0;
+  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.80);
+  around.prefers_fine = true;
+  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.15);
+  around.speed_limit_m_s = 10.0;
+  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.80);
 }
 
 TEST(EnergySearch,
