@@ -169,6 +169,8 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], under_ceiling_m(seen));
   around.least_range_m = gaps.look_m;
   around.needs_top_clock = gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise;
+  stops_.note(seen);
+  around.stops_per_m = stops_.per_m();
   is_lattice_ ? limit_lattice(seen, near, in_force, around)
               : limit_two_levels(seen, near, in_force, around);
   return around;

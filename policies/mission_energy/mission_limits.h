@@ -14,6 +14,7 @@
 
 #include "failed_plans.h"
 #include "passability.h"
+#include "stops.h"
 #include "visibility.h"
 #include <optional>
 #include <string>
@@ -108,6 +109,7 @@ class MissionLimits {
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
+  Stops stops_{};
   FailedPlans failed_;
   bool seeks_door_{};  ///< A plan has failed near a narrow place.
 };
