@@ -18,6 +18,7 @@ void SimulatedBoard::connect(Executor& executor,
     computer->connect(executor);
   }
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
+  nodes_.connect(executor);
   measure();
 }
 
@@ -30,6 +31,7 @@ void SimulatedBoard::measure() {
     const BoardReading real = computer_->meters();
     now.temperature_c = real.temperature_c;
     now.trip_c = real.trip_c;
+    now.rails = real.rails;
   } else if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
     now.temperature_c = heat->temperature_c();
     now.trip_c = heat->first_trip_c().value_or(0.0);

@@ -6,6 +6,7 @@
 /// them.
 
 #include "flyball/runtime/board.h"
+#include "flyball/runtime/node_meter.h"
 #include "flyball/runtime/realtime/realtime_board.h"
 
 #include "simulation/closed_loop.h"
@@ -32,6 +33,7 @@ class SimulatedBoard final : public Board {
   void measure();
 
   [[nodiscard]] BoardReading read() const override;
+  [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
   void request(const OperatingPoint& point) override;
   void place(std::string_view node, bool on_edge) override;
 
@@ -45,6 +47,7 @@ class SimulatedBoard final : public Board {
   const ComputerDrift* drift_{};
   const RealtimeBoard* computer_{};
   std::atomic<std::uint64_t> deadline_misses_{};
+  NodeMeter nodes_{};
   mutable std::mutex mutex_{};  ///< Of `gauges_`.
   BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.
 };
