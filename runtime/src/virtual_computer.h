@@ -46,6 +46,8 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   // Scheduling.
   void request_dispatch();
   void dispatch();
+  /// Starts those that get a core for the first time; false: none of them was new.
+  bool compute_new(const std::vector<int>& urgent, const std::vector<double>& shares);
   void compute(int node);
   void apply_share(int node, double share);
   void schedule_end(int node);
@@ -59,7 +61,10 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
+  /// How many times faster than on one core the node's job is on `cores`.
+  [[nodiscard]] double speed_on(int node, double cores) const;
   [[nodiscard]] std::vector<int> nodes_by_urgency() const;
+  [[nodiscard]] std::vector<double> shares_of(const std::vector<int>& urgent) const;
   [[nodiscard]] double busy_cores() const;
 
   /// Schedules `action` for as long as this executor lives: the queue outlives it.
