@@ -28,6 +28,7 @@ struct Job {
 
   double left{1.0};     ///< Share of the work that is still to do.
   double one_core_s{};  ///< Time of the whole work on one core at the present clock.
+  double shared{1.0};   ///< Share of that time in which several cores can work side by side.
   double share{};       ///< Cores granted now.
   double speed{};       ///< How many times faster than one core that is.
   double busy_s{};      ///< Core time so far.

@@ -35,16 +35,10 @@ void VirtualComputer::dispatch() {
 
 void VirtualComputer::serve(Place place, double cores) {
   const std::vector<int> urgent = nodes_by_urgency(place);
-  std::vector<CoreClaim> claims;
-  claims.reserve(urgent.size());
-  for (const int node : urgent) {
-    claims.push_back({spec(node).priority, useful_cores(node)});
-  }
-  const std::vector<double> shares = share_cores(claims, cores);
-  for (std::size_t i = 0; i < urgent.size(); ++i) {
-    if (shares[i] > 0.0 && !nodes[index(urgent[i])].job->has_started) {
-      compute(urgent[i]);
-    }
+  std::vector<double> shares = shares_of(urgent, cores);
+  // A job that has computed may leave cores to others: only then it is known what they would bring.
+  while (compute_new(urgent, shares)) {
+    shares = shares_of(urgent, cores);
   }
   const double busy = (place == Place::board ? taken_cores : 0.0) +
                       std::accumulate(shares.begin(), shares.end(), 0.0);
@@ -57,6 +51,28 @@ void VirtualComputer::serve(Place place, double cores) {
                                              busy - shares[i]));
     }
   }
+}
+
+std::vector<double> VirtualComputer::shares_of(const std::vector<int>& urgent,
+                                               double cores) const {
+  std::vector<CoreClaim> claims;
+  claims.reserve(urgent.size());
+  for (const int node : urgent) {
+    claims.push_back({spec(node).priority, useful_cores(node)});
+  }
+  return share_cores(claims, cores);
+}
+
+bool VirtualComputer::compute_new(const std::vector<int>& urgent,
+                                  const std::vector<double>& shares) {
+  bool is_any = false;
+  for (std::size_t i = 0; i < urgent.size(); ++i) {
+    if (shares[i] > 0.0 && !nodes[index(urgent[i])].job->has_started) {
+      compute(urgent[i]);
+      is_any = true;
+    }
+  }
+  return is_any;
 }
 
 /// One job at a time: the most urgent of those that wait. It is not interrupted.
@@ -114,9 +130,18 @@ std::vector<int> VirtualComputer::nodes_by_urgency(Place place) const {
 }
 
 double VirtualComputer::useful_cores(int node) const {
-  const NodeSpec& wanted = spec(node);
   // A second core that brings nothing is left to others.
-  return platform_of(node).speedup(wanted.cost, 2.0) > 1.0 ? wanted.threads : 1.0;
+  return speed_on(node, 2.0) > 1.0 ? spec(node).threads : 1.0;
+}
+
+// Of a job that has not computed yet, nobody knows how much of it is shared.
+double VirtualComputer::speed_on(int node, double cores) const {
+  const std::optional<Job>& job = nodes[index(node)].job;
+  const bool is_known = job && job->has_started;
+  const double together = platform_of(node).speedup(
+      is_known ? price_list(node, job->record.work) : spec(node).cost, cores);
+  const double shared = is_known ? job->shared : 1.0;
+  return together > 1.0 && shared < 1.0 ? 1.0 / (1.0 - shared + shared / together) : together;
 }
 
 void VirtualComputer::compute(int node) {
@@ -140,6 +165,10 @@ void VirtualComputer::compute(int node) {
   job.outputs = std::move(context.outputs);
   job.at_end = std::move(context.last_actions);
   job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
+  if (job.record.work.tells_shared()) {
+    const double shared_s = to_seconds(time_on_one_core(node, job.record.work.shared()));
+    job.shared = job.one_core_s > 0.0 ? shared_s / job.one_core_s : 0.0;
+  }
 }
 
 Hertz VirtualComputer::clock_of(Place place) const {
@@ -166,8 +195,7 @@ Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
 
 void VirtualComputer::apply_share(int node, double share, double slowdown) {
   Job& job = *nodes[index(node)].job;
-  const double undisturbed =
-      share <= 1.0 ? share : platform_of(node).speedup(price_list(node, job.record.work), share);
+  const double undisturbed = share <= 1.0 ? share : speed_on(node, share);
   const double speed = undisturbed / slowdown;
   if (job.has_end && speed == job.speed) {
     job.share = share;

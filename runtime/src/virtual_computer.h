@@ -50,6 +50,10 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void dispatch();
   void serve(Place place, double cores);
   void serve_gpu();
+  /// How many of so many cores each of these nodes gets.
+  [[nodiscard]] std::vector<double> shares_of(const std::vector<int>& urgent, double cores) const;
+  /// Starts those that get a core for the first time; false: none of them was new.
+  bool compute_new(const std::vector<int>& urgent, const std::vector<double>& shares);
   void compute(int node);
   /// @param slowdown  By others that use the memory, at least 1.
   void apply_share(int node, double share, double slowdown = 1.0);
@@ -69,6 +73,8 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
+  /// How many times faster than on one core the node's job is on `cores`.
+  [[nodiscard]] double speed_on(int node, double cores) const;
   /// Those whose jobs wait for these servers, or have them.
   [[nodiscard]] std::vector<int> nodes_by_urgency(Place place) const;
   [[nodiscard]] double busy_cores() const;

@@ -86,6 +86,9 @@ struct PlannerSettings {
   /// Iterations for one request. More would be spent on a map that is seconds old; a new request on
   /// the newest map is worth more.
   int budget{4000};
+  /// So many searches, which differ in their random draws, race each other on cores of their own;
+  /// the first that finds a path ends them all. They share the budget.
+  int searches{1};
   /// A goal farther away is approached through intermediate places; 0: it is planned to at once.
   double horizon_m{};
 };
