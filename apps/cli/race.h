@@ -41,11 +41,12 @@ class Race {
   /// @return As `fly`.
   [[nodiscard]] std::optional<int> halve(std::vector<Candidate>& candidates, RaceOrder is_better);
 
+  /// With which it flies as a policy.
+  [[nodiscard]] std::string preset_file(const Candidate& candidate) const;
   [[nodiscard]] const RaceSettings& settings() const { return settings_; }
 
  private:
   struct Heat;
-  [[nodiscard]] std::string preset_file(const Candidate& candidate) const;
   [[nodiscard]] Status write_preset(const Candidate& candidate) const;
   [[nodiscard]] std::variant<std::vector<Heat>, std::vector<Error>> plan(
       const std::vector<Candidate*>& candidates, std::size_t seeds) const;

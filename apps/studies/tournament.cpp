@@ -74,6 +74,7 @@ Json json_of(const WorldResult& world) {
   }
   if (world.hindsight) {
     json["fixed_best"] = {{"setting", world.hindsight->setting},
+                          {"preset", world.hindsight->preset},
                           {"tried", world.hindsight->tried},
                           {"on_grid", world.hindsight->on_grid},
                           {"borders", world.hindsight->borders}};

@@ -106,6 +106,7 @@ std::variant<BestSetting, int> find_best_setting(RaceSettings settings, FlightSt
   }
   const Candidate& best = search.flown.front();
   BestSetting found{told_in_hindsight(*grid, best, search.flown), best.flights};
+  found.told.preset = race.preset_file(best);
   for (Summary& flight : found.flights) {
     flight.policy = fixed_best;
   }

@@ -45,6 +45,7 @@ struct GridAxis {
 /// What was found in one world.
 struct Hindsight {
   std::string setting{};               ///< `planner_budget=4000 range_m=7 resolution_m=0.15`
+  std::string preset{};                ///< The file of that setting, which flies it as a policy.
   std::size_t tried{};                 ///< Settings that were flown, with at least one seed.
   std::size_t on_grid{};               ///< Those among them with which the search began.
   std::vector<std::string> borders{};  ///< A sentence for each axis on whose border the best lies.
