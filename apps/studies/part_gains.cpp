@@ -5,6 +5,7 @@
 #include "flyball/records/text_table.h"
 
 #include "studies/plots/page.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -31,6 +32,19 @@ Pairing flights_of(const std::vector<Summary>& flights, const std::string& polic
 
 bool has_succeeded(const Summary& flight) {
   return flight.status == MissionStatus::succeeded;
+}
+
+/// Sign test: how likely so lopsided a count is, in this direction, where both are equally likely
+/// (McNemar 1947, doi:10.1007/BF02295996, exact and one-sided).
+double chance_of(int one, int other) {
+  const int all = one + other;
+  double ways = 1.0;  // To choose k of all.
+  double sum = 0.0;
+  for (int k = 0; k <= std::min(one, other); ++k) {
+    sum += ways;
+    ways *= static_cast<double>(all - k) / static_cast<double>(k + 1);
+  }
+  return sum / std::exp2(all);
 }
 
 PartGain gain_of(const std::string& part, const Pairing& whole, const Pairing& without) {
@@ -86,7 +100,8 @@ std::vector<std::string> heads(const std::string& whole) {
 }  // namespace
 
 std::string PartGain::verdict() const {
-  if (only_whole != only_without) {
+  constexpr double significant = 0.05;
+  if (chance_of(only_whole, only_without) <= significant) {
     return only_whole > only_without ? "is needed to arrive" : "keeps from arriving";
   }
   if (!energy_percent) {

@@ -3,7 +3,6 @@
 #include "flyball/studies/part_gains.h"
 
 #include "made_flights.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -56,13 +55,24 @@ TEST(PartGains, says_when_a_part_changes_nothing) {
   EXPECT_EQ(made_gains()[4].verdict(), "costs energy");
 }
 
-TEST(PartGains, counts_success_before_energy) {
-  const PartGain c = made_gains()[2];
-  EXPECT_EQ(c.only_whole, 1);
-  EXPECT_EQ(c.verdict(), "is needed to arrive");
-  const PartGain d = made_gains()[3];
-  EXPECT_EQ(d.only_without, 1);
-  EXPECT_EQ(d.verdict(), "keeps from arriving");
+TEST(PartGains, counts_success) {
+  EXPECT_EQ(made_gains()[2].only_whole, 1);
+  EXPECT_EQ(made_gains()[2].only_without, 0);
+  EXPECT_EQ(made_gains()[3].only_without, 1);
+  EXPECT_EQ(made_gains()[2].verdict(), "nothing beyond its interval") << "one flight is chance";
+}
+
+TEST(PartGains, says_that_success_differs_only_where_it_is_no_chance) {
+  PartGain gain;
+  gain.energy_percent = MedianInterval{5.0, 1.0, 9.0};
+  gain.only_whole = 4;
+  EXPECT_EQ(gain.verdict(), "earns its place") << "1 in 16";
+  gain.only_whole = 5;
+  EXPECT_EQ(gain.verdict(), "is needed to arrive") << "1 in 32";
+  gain.only_without = 1;
+  EXPECT_EQ(gain.verdict(), "earns its place") << "7 in 64";
+  gain.only_without = 15;
+  EXPECT_EQ(gain.verdict(), "keeps from arriving");
 }
 
 TEST(PartGains, has_no_figure_for_what_did_not_fly) {

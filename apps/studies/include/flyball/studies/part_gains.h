@@ -29,7 +29,8 @@ struct PartGain {
   /// What leaving the part out costs, of the whole policy's energy; negative: it saves so much.
   std::optional<MedianInterval> energy_percent{};
   std::optional<double> mean_percent{};  ///< The same; of geometric means.
-  /// What is to be said of it in a word or two.
+  /// What is to be said of it in a word or two: of success where a sign test finds a difference
+  /// (5 %), else of energy where its interval does.
   [[nodiscard]] std::string verdict() const;
 };
 
