@@ -10,7 +10,6 @@
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
 #include "flyball/scenario/plugins.h"
-#include "flyball/sim/platform_file.h"
 
 #include "commands.h"
 #include "console.h"
@@ -163,17 +162,8 @@ Scenario with_all_knobs(const Plugins& plugins) {
 }
 
 Result<Lines> list_knobs(const Plugins& plugins) {
-  const Scenario scenario = with_all_knobs(plugins);
-  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
-  if (!file) {
-    return file.error();
-  }
-  Result<PlatformModel> model = load_platform(*file);
-  if (!model) {
-    return model.error();
-  }
   Lines lines{{"KNOB", "UNIT", "OWNER", "DEFAULT", "MEANING", "VALUES"}};
-  const auto knobs = standard_knobs(scenario, ModeledPlatform{std::move(*model)});
+  const auto knobs = standard_knobs(with_all_knobs(plugins));
   if (!knobs) {
     return knobs.error();
   }

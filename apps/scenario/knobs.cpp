@@ -4,6 +4,8 @@
 #include "flyball/kernels/detector.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/decision.h"
+#include "flyball/scenario/files.h"
+#include "flyball/sim/platform_file.h"
 
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_edge.h"
@@ -184,6 +186,18 @@ Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Pla
                                                std::to_string(Decision::capacity)};
   }
   return all;
+}
+
+Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario) {
+  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return file.error();
+  }
+  Result<PlatformModel> model = load_platform(*file);
+  if (!model) {
+    return model.error();
+  }
+  return standard_knobs(scenario, ModeledPlatform{std::move(*model)});
 }
 
 }  // namespace flyball
