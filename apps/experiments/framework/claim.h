@@ -67,8 +67,8 @@ enum class Verdict : std::uint8_t {
 [[nodiscard]] const char* to_string(Verdict verdict);
 
 /// Reproduced: our median is within 25 % of the paper's number, or on the right side of it where it
-/// is a limit. Same trend: it is on the same side of `neutral` as the paper's number, with its whole
-/// interval.
+/// is a limit. Same trend: it is on the same side of `neutral` as the paper's number, with its
+/// whole interval.
 [[nodiscard]] Verdict verdict_of(const Claim& claim);
 
 /// The share of the gap between our number and the paper's, both as logarithms of ratios, that a

@@ -86,10 +86,9 @@ Measured success_percent(const Point& point) {
   if (point.flights.empty()) {
     return {};
   }
-  const auto succeeded =
-      std::count_if(point.flights.begin(), point.flights.end(), [](const Summary* flight) {
-        return flight->status == MissionStatus::succeeded;
-      });
+  const auto succeeded = std::count_if(
+      point.flights.begin(), point.flights.end(),
+      [](const Summary* flight) { return flight->status == MissionStatus::succeeded; });
   const double percent =
       100.0 * static_cast<double>(succeeded) / static_cast<double>(point.flights.size());
   return {MedianInterval{percent, percent, percent}, static_cast<int>(point.flights.size())};

@@ -53,7 +53,9 @@ struct RowsOf {
 struct HtmlOf {
   std::string operator()(const LinePlot& plot) const { return line_plot_svg(plot); }
   std::string operator()(const HeatMap& map) const { return heat_map_svg(map); }
-  std::string operator()(const DotPlot& plot) const { return dot_plot_svg(plot.title, plot.values); }
+  std::string operator()(const DotPlot& plot) const {
+    return dot_plot_svg(plot.title, plot.values);
+  }
   std::string operator()(const TextTable& table) const {
     std::string rows;
     for (const auto& row : table.rows) {
