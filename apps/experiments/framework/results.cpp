@@ -70,12 +70,12 @@ std::string claims_csv(const std::vector<ExperimentResult>& results) {
   for (const ExperimentResult& result : results) {
     for (const Claim& claim : result.findings.claims) {
       const auto& ours = claim.ours.value;
-      csv += csv_row({result.named.name, claim.what, claim.unit,
-                      claim.paper ? csv_number(claim.paper->value) : "",
-                      claim.paper ? claim.paper->where : "", ours ? csv_number(ours->median) : "",
-                      ours ? csv_number(ours->lo) : "", ours ? csv_number(ours->hi) : "",
-                      std::to_string(claim.ours.n), to_string(verdict_of(claim)),
-                      cause_text(claim)});
+      csv +=
+          csv_row({result.named.name, claim.what, claim.unit,
+                   claim.paper ? csv_number(claim.paper->value) : "",
+                   claim.paper ? claim.paper->where : "", ours ? csv_number(ours->median) : "",
+                   ours ? csv_number(ours->lo) : "", ours ? csv_number(ours->hi) : "",
+                   std::to_string(claim.ours.n), to_string(verdict_of(claim)), cause_text(claim)});
     }
   }
   return csv;
