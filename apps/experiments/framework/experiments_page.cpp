@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// tested-in: results
 
 #include "flyball/records/text_table.h"
 #include "flyball/studies/comparison.h"
