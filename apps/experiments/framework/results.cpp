@@ -11,10 +11,12 @@ namespace flyball {
 
 void evaluate(ExperimentResult& result) {
   Result<Findings> findings = result.named.experiment.evaluate(Evidence{result.sweeps});
-  if (findings) {
-    result.findings = std::move(*findings);
-  } else {
+  if (!findings) {
     result.trouble = findings.error().message;
+  } else if (findings->claims.empty()) {
+    result.trouble = "experiment \"" + result.named.name + "\" makes no claim";
+  } else {
+    result.findings = std::move(*findings);
   }
 }
 

@@ -91,6 +91,9 @@ TEST(Results, say_why_an_experiment_found_nothing) {
   evaluate(result);
   EXPECT_NE(to_text({result}).find("no platform \"x\""), std::string::npos);
   EXPECT_NE(experiments_page({result}, 1).find("no platform &quot;x&quot;"), std::string::npos);
+  result.named.experiment.evaluate = [](const Evidence&) -> Result<Findings> { return Findings{}; };
+  evaluate(result);
+  EXPECT_EQ(result.trouble, "experiment \"made\" makes no claim");
 }
 
 }  // namespace
