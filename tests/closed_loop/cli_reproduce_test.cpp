@@ -2,6 +2,7 @@
 
 #include "flyball_process.h"
 #include "flyball_program.h"
+#include "made_slurm.h"
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -50,6 +51,21 @@ TEST(CliReproduce, ends_with_the_same_tables_when_it_is_killed_and_continued) {
   }
   EXPECT_FALSE(fs::exists(flyball.place.path("r/speed_latency/slower_maps")))
       << "records go when they are counted";
+}
+
+TEST(CliReproduce, flies_the_same_as_an_array_of_slurm) {
+  const FlyballProgram here;
+  const auto expected = here.run(std::string{line} + "--jobs 2");
+  ASSERT_EQ(expected.exit_code, 0) << expected.errors;
+  const FlyballProgram flyball;
+  const MadeSlurm slurm{flyball, "sh \"$script\""};
+  const auto flown = flyball.run(std::string{line} + "--on slurm");
+  ASSERT_EQ(flown.exit_code, 0) << flown.errors;
+  EXPECT_EQ(flown.output, expected.output);
+  EXPECT_EQ(flyball.place.content("slurm_programs/arrays"), "array\n") << flown.errors;
+  for (const char* table : tables) {
+    EXPECT_EQ(flyball.place.content(table), here.place.content(table)) << table;
+  }
 }
 
 TEST(CliReproduce, refuses_what_it_does_not_know_before_anything_flies) {
