@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "experiments/framework/all_experiments.h"
 #include "flight_options.h"
 #include <array>
 #include <cctype>
@@ -182,12 +183,20 @@ Result<Lines> list_workloads(const Plugins& plugins) {
   return lines;
 }
 
+Result<Lines> list_experiments(const Plugins&) {
+  Lines lines;
+  for (const NamedExperiment& each : all_experiments()) {
+    lines.push_back({each.name, each.experiment.title});
+  }
+  return lines;
+}
+
 struct Listing {
   const char* kind;
   Result<Lines> (*list)(const Plugins&);
 };
 
-constexpr std::array<Listing, 9> listings{{
+constexpr std::array<Listing, 10> listings{{
     {"scenarios", [](const Plugins&) { return list_files("scenarios"); }},
     {"workloads", list_workloads},
     {"kernels", list_kernels},
@@ -197,6 +206,7 @@ constexpr std::array<Listing, 9> listings{{
     {"worlds", list_worlds},
     {"airframes", [](const Plugins&) { return list_files("airframes"); }},
     {"knobs", list_knobs},
+    {"experiments", list_experiments},
 }};
 
 std::string kinds() {
