@@ -49,8 +49,11 @@ class Sum {
 
 class FrameWork {
  public:
-  explicit FrameWork(Registry& registry)
-      : points_{registry.make<PointCloudBuilder>("depth_to_points")} {}
+  FrameWork(Registry& registry, Simd simd)
+      : points_{registry.make<PointCloudBuilder>("depth_to_points")},
+        exact_{cell_m, simd},
+        rays_{cell_m, RayScan::Match::close, simd},
+        map_{cell_m, simd} {}
 
   void to_points(const Frame& frame) {
     const DepthFrame depths{{}, 0, pixels, frame.pixels.pixels->image, {}};
@@ -76,9 +79,9 @@ class FrameWork {
 
  private:
   std::unique_ptr<PointCloudBuilder> points_;
-  ExactScan exact_{cell_m};
-  RayScan rays_{cell_m, RayScan::Match::close};
-  BrickMap map_{cell_m};
+  ExactScan exact_;
+  RayScan rays_;
+  BrickMap map_;
   Scan scan_;
 };
 
@@ -87,21 +90,22 @@ class FrameWork {
 
 int main(int argc, char** argv) {
   using flyball::bench::FrameWork;
-  const std::string what = argc == 3 ? argv[1] : "";
-  const long frames = argc == 3 ? std::strtol(argv[2], nullptr, 10) : 0;
+  const bool is_portable = argc == 4 && std::string{argv[3]} == "portable";
+  const std::string what = argc == 3 || is_portable ? argv[1] : "";
   const auto step = what == "points" ? &FrameWork::to_points
                     : what == "map"  ? &FrameWork::to_map
                     : what == "walk" ? &FrameWork::walk
                                      : nullptr;
-  if (step == nullptr || frames < 1) {
-    std::fputs("frame_work points|map|walk FRAMES\n", stderr);
+  const long frames = step == nullptr ? 0 : std::strtol(argv[2], nullptr, 10);
+  if (frames < 1) {
+    std::fputs("frame_work points|map|walk FRAMES [portable]\n", stderr);
     return 2;
   }
   flyball::Registry registry;
   flyball_plugin_depth_to_points(registry);
   const auto flight = flyball::bench::frames_of(flyball::bench::Scene::indoor, flyball::bench::size,
                                                 flyball::bench::flight_stride);
-  FrameWork work{registry};
+  FrameWork work{registry, is_portable ? flyball::Simd::portable : flyball::widest_simd()};
   for (long i = 0; i < frames; ++i) {
     (work.*step)(flight[static_cast<std::size_t>(i) % flight.size()]);
   }
