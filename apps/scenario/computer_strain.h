@@ -4,7 +4,7 @@
 /// @file
 /// How the events of a scenario strain the computer at one moment.
 
-#include "flyball/runtime/drifting_platform.h"
+#include "flyball/runtime/modeled/drifting_platform.h"
 #include "flyball/scenario/scenario.h"
 
 #include <optional>

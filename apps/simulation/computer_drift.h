@@ -4,9 +4,9 @@
 /// @file
 /// The companion computer as it truly is in flight: the scenario's events, and its heat.
 
-#include "flyball/runtime/drifting_platform.h"
+#include "flyball/runtime/modeled/drifting_platform.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 #include "flyball/runtime/thermal.h"
-#include "flyball/runtime/virtual_executor.h"
 
 #include "simulation/closed_loop.h"
 #include "simulation/mission_link.h"

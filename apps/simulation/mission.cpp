@@ -4,8 +4,8 @@
 #include "flyball/flight/governing/governor_loop.h"
 #include "flyball/flight/workload.h"
 #include "flyball/records/version.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 #include "flyball/runtime/quantile.h"
-#include "flyball/runtime/virtual_executor.h"
 
 #include "records/fingerprint.h"
 #include "simulation/closed_loop.h"

@@ -5,7 +5,7 @@
 /// The inside of the virtual executor. Messages and jobs come and go in virtual_executor.cpp; how
 /// jobs share the cores is in job_scheduling.cpp.
 
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "edge_computer.h"
 #include "job.h"

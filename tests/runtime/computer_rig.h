@@ -4,7 +4,7 @@
 /// @file
 /// A modeled computer whose jobs take as many milliseconds as a test says, at 1 GHz on one core.
 
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include <memory>
 #include <optional>
@@ -23,8 +23,8 @@ inline double ms(MissionTime t) {
   return ms(t.time_since_epoch());
 }
 
-/// `serial`, `memory` (half of its time does not scale with the clock), `amdahl` (80 % parallel) and
-/// `race` (all of what is shared).
+/// `serial`, `memory` (half of its time does not scale with the clock), `amdahl` (80 % parallel)
+/// and `race` (all of what is shared).
 inline PlatformModel rig_model(double switching_ms) {
   PlatformModel model;
   model.name = "rig";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/runtime/drifting_platform.h"
+#include "flyball/runtime/modeled/drifting_platform.h"
 
 #include "computer_rig.h"
 #include <atomic>

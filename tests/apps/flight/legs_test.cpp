@@ -2,7 +2,7 @@
 #include "flyball/flight/legs.h"
 
 #include "flyball/flight/perception/clear_space.h"
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"
 #include "mission_rig.h"

@@ -2,7 +2,7 @@
 // test-label: closed_loop
 #include "simulation/referee.h"
 
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"
 #include "mission_rig.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/tracking_score.h"
 
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"
 #include "mission_rig.h"

@@ -2,7 +2,7 @@
 #include "flyball/flight/people/target_nodes.h"
 
 #include "flyball/kernels/switched.h"
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"
 #include "mission_rig.h"

@@ -3,7 +3,7 @@
 
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/kernels/point_cloud.h"
-#include "flyball/runtime/virtual_executor.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "mission_rig.h"
 #include <algorithm>

@@ -6,6 +6,7 @@
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/governing/choice_text.h"
+#include "flyball/flight/governing/node_places.h"
 #include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/situation.h"
 #include "flyball/flight/perception/map_revision.h"
@@ -14,7 +15,6 @@
 #include "flyball/runtime/board.h"
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -97,7 +97,6 @@ class GovernorLoop {
   void record(JobContext& job, bool is_whole);
   void record_bounds(JobContext& job);
   void apply(JobContext& job, const Decision& decision);
-  void place_nodes();
   void note_moved_wishes(JobContext& job);
   void note_fallback(JobContext& job);
 
@@ -108,7 +107,7 @@ class GovernorLoop {
   Board& board_;
   GovernorInputs inputs_;
   OperatingPoint asked_;
-  std::map<std::string, bool> placed_{};  ///< Whether a node that may move is on the edge.
+  NodePlaces places_{};
   Observation seen_{};
   std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
   ChoiceMemory choices_{};
