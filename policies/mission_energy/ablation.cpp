@@ -36,6 +36,8 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"gaps", Part::gaps},
       {"visibility", Part::visibility},
       {"failed_plan_prices", Part::failed_plan_prices},
+      {"stop_prices", Part::stop_prices},
+      {"ceiling", Part::ceiling},
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"detour_prices", Part::detour_prices},
@@ -98,6 +100,8 @@ Observation Ablation::seen(Observation seen) const {
   if (part_ == Part::gaps) {
     seen.narrowest_gap_m = wide_open_m;
     seen.gap_distance_m = 0.0;
+  } else if (part_ == Part::ceiling) {
+    seen.headroom_m = 0.0;  // Nobody says.
   } else if (part_ == Part::rotor_power) {
     seen.rotor_power = Watts{0.0};  // From which nothing is learned.
   }
@@ -116,6 +120,8 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.visibility_m = no_limit;
   } else if (part_ == Part::failed_plan_prices) {
     around.failed_plans_per_m = nullptr;
+  } else if (part_ == Part::stop_prices) {
+    around.stops_per_m = 0.0;
   } else if (part_ == Part::finest_reserve) {
     around.finest_m = 0.0;
   }

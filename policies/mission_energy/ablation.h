@@ -51,6 +51,8 @@ class Ablation {
     gaps,
     visibility,
     failed_plan_prices,
+    stop_prices,
+    ceiling,
     rotor_power,
     declared_zones,
     detour_prices,
