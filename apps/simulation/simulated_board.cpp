@@ -5,10 +5,12 @@
 namespace flyball {
 
 void SimulatedBoard::connect(Executor& executor,
+                             const Graph& graph,
                              const ClosedLoop& loop,
                              const ComputerDrift* drift,
                              RealtimeBoard* computer) {
   executor_ = &executor;
+  graph_ = &graph;
   loop_ = &loop;
   drift_ = drift;
   computer_ = computer;
@@ -46,6 +48,14 @@ BoardReading SimulatedBoard::gauges() const {
 void SimulatedBoard::request(const OperatingPoint& point) {
   if (executor_ != nullptr) {
     executor_->set_operating_point(point);
+  }
+}
+
+void SimulatedBoard::place(std::string_view node, bool on_edge) {
+  for (std::size_t i = 0; executor_ != nullptr && i < graph_->nodes().size(); ++i) {
+    if (graph_->nodes()[i].spec.name == node) {
+      executor_->place(static_cast<int>(i), on_edge);
+    }
   }
 }
 

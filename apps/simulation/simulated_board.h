@@ -25,6 +25,7 @@ class SimulatedBoard final : public Board {
   /// All arguments outlive the board; `drift` may be null: then nothing is known of heat. With a
   /// `computer`, which runs the nodes and is not modeled, watts and heat are what it measures.
   void connect(Executor& executor,
+               const Graph& graph,
                const ClosedLoop& loop,
                const ComputerDrift* drift,
                RealtimeBoard* computer = nullptr);
@@ -34,12 +35,14 @@ class SimulatedBoard final : public Board {
   [[nodiscard]] BoardReading read() const override;
   [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
   void request(const OperatingPoint& point) override;
+  void place(std::string_view node, bool on_edge) override;
 
  private:
   [[nodiscard]] BoardReading gauges() const;
 
   BoardReading unconnected_{};
   Executor* executor_{};
+  const Graph* graph_{};
   const ClosedLoop* loop_{};
   const ComputerDrift* drift_{};
   const RealtimeBoard* computer_{};

@@ -26,6 +26,7 @@ constexpr double path_width_reach_m = 8.0;  // A little farther than the deliver
 // wide.
 constexpr std::array<double, 3> density_places_m{4.0, 8.0, 12.0};
 constexpr std::array<double, 5> limit_places_m{4.0, 8.0, 12.0, 16.0, 20.0};
+constexpr std::string_view offload = "offload.";  // And the name of a node.
 constexpr std::array<std::pair<const char*, Stage>, 8> stage_names{
     {{"map", Stage::map},
      {"plan", Stage::plan},
@@ -385,6 +386,23 @@ void GovernorLoop::apply(JobContext& job, const Decision& decision) {
     board_.request(wished);
     knobs_.computer = board_.read().granted;
     has_new_knobs_ = true;
+  }
+  place_nodes();
+}
+
+/// Each knob `offload.<node>` says where the next jobs of this node run.
+void GovernorLoop::place_nodes() {
+  for (const KnobSpec& spec : knobs_.knobs.specs()) {
+    if (spec.name.rfind(offload, 0) != 0) {
+      continue;
+    }
+    const std::string node = spec.name.substr(offload.size());
+    const bool on_edge = knobs_.value(spec.name) != 0.0;
+    if (const auto placed = placed_.find(node);
+        placed == placed_.end() || placed->second != on_edge) {
+      placed_[node] = on_edge;
+      board_.place(node, on_edge);
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace flyball {
@@ -37,6 +38,8 @@ struct BoardModel {
   std::optional<PowerCost> power{};       ///< Input power of the whole computer.
   std::optional<ThermalModel> thermal{};  ///< Empty: it is not known to get too hot.
   VehicleModel vehicle{};
+  std::optional<GpuModel> gpu{};  ///< Empty: there is none, or nothing is known of it.
+  double memory_contention{};     ///< See `PlatformModel`; 0: not known.
 };
 
 /// What a platform's file says of the board; what work costs in time is left to be learned in
@@ -85,6 +88,9 @@ class Board {
   [[nodiscard]] virtual NodeUse use_of(int /*node*/) const { return {}; }
   /// What is granted may be less; the next reading tells.
   virtual void request(const OperatingPoint& point) = 0;
+  /// Jobs of this node run on the edge computer from the next one on, or on board again. Nothing
+  /// happens where there is no such node or no such computer.
+  virtual void place(std::string_view /*node*/, bool /*on_edge*/) {}
 };
 
 }  // namespace flyball

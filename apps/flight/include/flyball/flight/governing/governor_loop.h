@@ -14,6 +14,7 @@
 #include "flyball/runtime/board.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -96,6 +97,7 @@ class GovernorLoop {
   void record(JobContext& job, bool is_whole);
   void record_bounds(JobContext& job);
   void apply(JobContext& job, const Decision& decision);
+  void place_nodes();
   void note_moved_wishes(JobContext& job);
   void note_fallback(JobContext& job);
 
@@ -106,6 +108,7 @@ class GovernorLoop {
   Board& board_;
   GovernorInputs inputs_;
   OperatingPoint asked_;
+  std::map<std::string, bool> placed_{};  ///< Whether a node that may move is on the edge.
   Observation seen_{};
   std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
   ChoiceMemory choices_{};
