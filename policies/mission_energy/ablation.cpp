@@ -45,6 +45,9 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"finest_reserve", Part::finest_reserve},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"noise_limit", Part::noise_limit},
+      {"stop_prices", Part::stop_prices},
+      {"ceiling", Part::ceiling},
+      {"wide_first_bound", Part::wide_first_bound},
   };
   return all;
 }
@@ -92,6 +95,9 @@ EnergySearchSettings Ablation::begins_with(EnergySearchSettings settings) const 
     settings.spacing_m = std::numeric_limits<double>::infinity();  // No obstacle ever comes.
   } else if (part_ == Part::switching_price) {
     settings.switching_s = 0.0;
+  } else if (part_ == Part::wide_first_bound) {
+    settings.bound.first = 0.1;  // About what a single scene's maps differ by.
+    settings.bound.eta = 0.05;
   }
   return settings;
 }
@@ -104,6 +110,8 @@ Observation Ablation::seen(Observation seen) const {
     seen.headroom_m = 0.0;  // Nobody says.
   } else if (part_ == Part::rotor_power) {
     seen.rotor_power = Watts{0.0};  // From which nothing is learned.
+  } else if (part_ == Part::ceiling) {
+    seen.headroom_m = 0.0;  // Nobody says.
   }
   return seen;
 }
@@ -124,6 +132,8 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.stops_per_m = 0.0;
   } else if (part_ == Part::finest_reserve) {
     around.finest_m = 0.0;
+  } else if (part_ == Part::stop_prices) {
+    around.stops_per_m = 0.0;
   }
 }
 

@@ -59,7 +59,10 @@ class Ablation {
     switching_price,
     finest_reserve,
     plan_budgets,
-    noise_limit
+    noise_limit,
+    stop_prices,
+    ceiling,
+    wide_first_bound
   };
   struct Named;
   static const std::vector<Named>& parts();
