@@ -8,6 +8,7 @@
 #include "flyball/simulation/mission.h"
 
 #include "cli/computer/real_computer.h"
+#include "cli/computer/service_notice.h"
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
@@ -87,9 +88,13 @@ std::vector<Override> overrides_of(const RunOptions& options) {
   return overrides;
 }
 
-MissionHooks hooks_of(const Scenario& scenario) {
+/// @param notice  Told of each step; outlives the flight.
+MissionHooks hooks_of(const Scenario& scenario, ServiceNotice& notice) {
   MissionHooks hooks;
-  hooks.stop = was_interrupted;
+  hooks.stop = [&notice] {
+    notice.step();
+    return was_interrupted();
+  };
   if (has_watcher()) {
     const std::string who = scenario.governor.policy + " seed " + std::to_string(scenario.seed);
     hooks.progress = [who](double mission_s, const std::string& what) {
@@ -170,7 +175,8 @@ int fly_into(const std::string& folder,
     remove_empty(made);
     return refuse({onboard_record.error()});
   }
-  MissionHooks hooks = hooks_of(scenario);
+  ServiceNotice notice;
+  MissionHooks hooks = hooks_of(scenario, notice);
   hooks.start_map = options.start_map;
   hooks.final_map = options.final_map;
   Timeline timeline;

@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(same_version "(= ${PROJECT_VERSION})")
 
 # What a program links stands in the program, and dpkg-shlibdeps finds the packages. Across
-# architectures it would need theirs installed here; the governor links nothing but these.
+# architectures it would need theirs installed here.
 set(CPACK_DEBIAN_GOVERNOR_PACKAGE_NAME libflyball-governor${PROJECT_VERSION_MAJOR})
 set(CPACK_DEBIAN_GOVERNOR_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_GOVERNOR_DESCRIPTION "Governor of knobs and clocks, behind a header of C99")
@@ -36,7 +36,9 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION "Closed-loop simulator and tools of Flyball
  Flies missions with any choice of knobs, compares governors, reads and sets the clocks of a board.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "flyball-data ${same_version}")
 if(CMAKE_CROSSCOMPILING)
-  set(CPACK_DEBIAN_GOVERNOR_PACKAGE_DEPENDS "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12)")
+  set(CPACK_FLYBALL_SYSROOT ${CMAKE_SYSROOT})
+  set(CPACK_FLYBALL_BUILT ${PROJECT_BINARY_DIR})
+  set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/arm64_depends.cmake)
 else()
   set(CPACK_DEBIAN_GOVERNOR_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)

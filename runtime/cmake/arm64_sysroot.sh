@@ -33,6 +33,12 @@ make_links_relative() {
     done
 }
 
+# So do some packages' files for CMake.
+name_own_libraries() {
+  grep -rlE --include='*.cmake' ' "/usr/lib/' "$1/usr/lib" "$1/usr/share" |
+    xargs sed -i -E '/IMPORTED_LOCATION|_import_check_files|_IMPORT_CHECK_FILES/ s| "/usr/lib/| "${CMAKE_SYSROOT}/usr/lib/|'
+}
+
 if [[ -e $sysroot/.complete ]]; then
   printf '%s is complete; remove it to make it anew\n' "$sysroot"
   exit 0
@@ -40,8 +46,13 @@ fi
 ensure_packages cross_packages
 rm -rf "$sysroot"
 mkdir -p "$(dirname "$sysroot")"
+# Which package has which shared library stands in the packages, and they are gone afterwards.
+# shellcheck disable=SC2016 # $1: the hook's own
 mmdebstrap --mode=root --architectures=arm64 --variant=extract --include="$(libraries)" \
-  --aptopt='APT::Install-Recommends "false"' bookworm "$sysroot" >&2
+  --aptopt='APT::Install-Recommends "false"' \
+  --extract-hook='for deb in "$1"/var/cache/apt/archives/*.deb; do dpkg-deb --info "$deb" shlibs 2> /dev/null || true; done > "$1/shlibs"' \
+  bookworm "$sysroot" >&2
 make_links_relative "$sysroot"
+name_own_libraries "$sysroot"
 touch "$sysroot/.complete"
 printf '%s: %s\n' "$sysroot" "$(du -sh "$sysroot" | cut -f1)"

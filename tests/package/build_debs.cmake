@@ -66,6 +66,8 @@ endif()
 
 package(flyball)
 expect("${depends}" "flyball-data \\(= " "flyball's Depends")
+expect("${files}" "/usr/lib/systemd/system/flyball@\\.service" "flyball")
+refuse("${files}" "\\.wants/" "flyball")  # It starts when somebody says so.
 foreach(library liboctomap libompl libopencv-core libmrpt libsimtk|libsimbody libembree libassimp)
   expect("${depends}" "${library}" "flyball's Depends")
 endforeach()

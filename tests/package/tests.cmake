@@ -24,6 +24,12 @@ if(dpkg_shlibdeps)
                                      -P ${CMAKE_CURRENT_LIST_DIR}/build_debs.cmake)
   set_tests_properties(package.debs PROPERTIES LABELS package TIMEOUT 600)
 endif()
+find_program(systemd_analyze systemd-analyze)
+if(FLYBALL_BUILD_SIM AND systemd_analyze)
+  add_test(NAME package.service COMMAND ${CMAKE_COMMAND} ${consumer_settings} -D analyze=${systemd_analyze}
+                                        -P ${CMAKE_CURRENT_LIST_DIR}/check_service.cmake)
+  set_tests_properties(package.service PROPERTIES LABELS package TIMEOUT 60)
+endif()
 if(FLYBALL_BUILD_SIM)
   add_test(NAME package.policy COMMAND ${CMAKE_COMMAND} ${consumer_settings}
                                        -P ${CMAKE_CURRENT_LIST_DIR}/build_policy.cmake)

@@ -58,7 +58,11 @@ Matrix8 form_of_coefficients(int n) {
 }
 
 Matrix8 form_of_ends(int n) {
-  return coefficients_from_ends().transpose() * form_of_coefficients(n) * coefficients_from_ends();
+  // Lazily, each coefficient is summed in order. Eigen's product for large matrices sums the last
+  // rows in another order where a processor has more registers, as 64-bit Arm does.
+  const Matrix8 ends_to_rows = coefficients_from_ends().transpose();
+  const Matrix8 of_coefficients = ends_to_rows.lazyProduct(form_of_coefficients(n));
+  return of_coefficients.lazyProduct(coefficients_from_ends());
 }
 
 /// The squared n-th derivative as a quadratic form of [p, v, a, j] at both ends, for unit duration.

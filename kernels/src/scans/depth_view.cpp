@@ -5,6 +5,14 @@
 #include <cmath>
 
 namespace flyball {
+namespace {
+
+/// As Eigen sums it on x86-64; on 64-bit Arm it would add x and y first, and round differently.
+float squared_length(const Eigen::Vector3f& p) {
+  return p.x() * p.x() + (p.y() * p.y() + p.z() * p.z());
+}
+
+}  // namespace
 
 /// The image of the box of C around a cube, in pixels from the image's corner; perhaps beside it.
 struct DepthView::Image {
@@ -146,7 +154,7 @@ bool DepthView::sees_through(const Eigen::Vector3f& centre_C, int level) const {
   constexpr int texels = 8;  // As wide as the block: what is looked at beside it is an eighth.
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   if (centre_C.z() - extent.half.z() <= probe_.nearest_m ||
-      centre_C.squaredNorm() > extent.squared_near) {
+      squared_length(centre_C) > extent.squared_near) {
     return false;
   }
   const Image image = image_of(centre_C, extent);
@@ -158,7 +166,7 @@ Visibility DepthView::visibility_of(const Eigen::Vector3f& centre_C, int level) 
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();
   const float last_z = centre_C.z() + extent.half.z();
-  const float squared_distance = centre_C.squaredNorm();
+  const float squared_distance = squared_length(centre_C);
   if (last_z <= probe_.nearest_m || squared_distance > extent.squared_far) {
     return Visibility::none;
   }

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__ARM_NEON)
+#include <arm_neon.h>
 #endif
 
 namespace flyball {
@@ -72,6 +75,92 @@ inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
 #include "view_meetings.inc"
 #include "view_octants.inc"
 }  // namespace portable
+
+#if defined(__aarch64__) && defined(__ARM_NEON)
+// The compiler makes NEON of the portable loops too. This has what it does not find by itself.
+namespace neon {
+constexpr std::size_t vector_bytes = 16;
+using Doubles [[gnu::vector_size(vector_bytes)]] = double;
+inline Doubles roots(const Doubles& numbers) {
+  return Doubles(vsqrtq_f64(numbers));
+}
+using Singles [[gnu::vector_size(vector_bytes)]] = float;
+inline Singles roots(const Singles& numbers) {
+  return Singles(vsqrtq_f32(numbers));
+}
+using Bytes [[gnu::vector_size(vector_bytes)]] = signed char;
+inline uint8x16_t one_bit_each() {
+  return vreinterpretq_u8_u64(vdupq_n_u64(0x8040201008040201));
+}
+inline Bytes bytes_of(std::uint64_t mask) {
+  const uint8x8_t low = vdup_n_u8(static_cast<std::uint8_t>(mask));
+  const uint8x8_t high = vdup_n_u8(static_cast<std::uint8_t>(mask >> 8U));
+  return Bytes(vtstq_u8(vcombine_u8(low, high), one_bit_each()));
+}
+inline std::uint64_t sign_bits(const Bytes& bytes) {
+  const uint8x16_t bits =
+      vandq_u8(vreinterpretq_u8_s8(vshrq_n_s8(int8x16_t(bytes), 7)), one_bit_each());
+  // Side by side the bits of both halves; the sum of the pairs has no carry.
+  const uint8x16_t pairs = vzip1q_u8(bits, vextq_u8(bits, bits, 8));
+  return vaddvq_u16(vreinterpretq_u16_u8(pairs));
+}
+using Ints [[gnu::vector_size(vector_bytes)]] = std::int32_t;
+using HalfInts [[gnu::vector_size(vector_bytes / 2)]] = std::int32_t;
+using HalfFloats [[gnu::vector_size(vector_bytes / 2)]] = float;
+inline Doubles in_double(const HalfFloats& numbers) {
+  return Doubles(vcvt_f64_f32(numbers));
+}
+inline Doubles in_double(const HalfInts& numbers) {
+  return Doubles(vcvtq_f64_s64(vmovl_s32(numbers)));
+}
+inline HalfInts floored(const Doubles& numbers) {
+  return HalfInts(vmovn_s64(vcvtmq_s64_f64(numbers)));
+}
+inline Ints floored(const Singles& numbers) {
+  return Ints(vcvtmq_s32_f32(numbers));
+}
+inline bool is_any(const Ints& lanes) {
+  return vmaxvq_u32(vreinterpretq_u32_s32(int32x4_t(lanes))) != 0;
+}
+inline bool is_all(const Ints& lanes) {
+  return vminvq_u32(vreinterpretq_u32_s32(int32x4_t(lanes))) != 0;
+}
+inline std::uint32_t bits_of(const std::array<std::int32_t, 8>& words) {
+  constexpr std::uint16_t places[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+  const int16x8_t narrow =
+      vcombine_s16(vmovn_s32(vld1q_s32(words.data())), vmovn_s32(vld1q_s32(words.data() + 4)));
+  return vaddvq_u16(vandq_u16(vreinterpretq_u16_s16(narrow), vld1q_u16(places)));
+}
+inline void split_points(const float* points, PointBlock& block) {
+  for (std::size_t at = 0; at < flyball::lanes; at += 4) {
+    const float32x4x3_t axes = vld3q_f32(points + 3 * at);
+    vst1q_f32(&block.p[0][at], axes.val[0]);
+    vst1q_f32(&block.p[1][at], axes.val[1]);
+    vst1q_f32(&block.p[2][at], axes.val[2]);
+  }
+}
+inline void join_points(const std::array<Lanes<float>, 3>& axes, float* points) {
+  for (std::size_t at = 0; at < flyball::lanes; at += 4) {
+    vst3q_f32(points + 3 * at,
+              {vld1q_f32(&axes[0][at]), vld1q_f32(&axes[1][at]), vld1q_f32(&axes[2][at])});
+  }
+}
+inline bool mark_distinct(const Lanes<std::int32_t>& /*steps*/,
+                          const std::uint32_t* /*places*/,
+                          std::uint8_t /*mark*/,
+                          std::uint8_t* /*marks*/) {
+  return false;
+}
+#include "inner_loops.inc"
+#include "view_loops.inc"
+#include "view_meetings.inc"
+#include "view_octants.inc"
+}  // namespace neon
+constexpr bool has_neon = true;
+#else
+namespace neon = portable;
+constexpr bool has_neon = false;
+#endif
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
@@ -169,6 +258,9 @@ bool runs(Simd simd) {
   if (simd == Simd::portable) {
     return true;
   }
+  if (simd == Simd::neon) {
+    return has_neon;
+  }
 #if defined(__x86_64__)
   if (simd == Simd::avx2) {
     return has_avx && __builtin_cpu_supports("avx2") != 0;
@@ -185,7 +277,7 @@ bool runs(Simd simd) {
 
 std::vector<Simd> supported_simd() {
   std::vector<Simd> supported;
-  for (const Simd simd : {Simd::portable, Simd::avx2, Simd::avx512}) {
+  for (const Simd simd : {Simd::portable, Simd::neon, Simd::avx2, Simd::avx512}) {
     if (runs(simd)) {
       supported.push_back(simd);
     }
@@ -199,9 +291,20 @@ Simd widest_simd() {
 
 const InnerLoops& inner_loops(Simd simd) {
   static constexpr InnerLoops of_portable = portable::loops;
+  static constexpr InnerLoops of_neon = neon::loops;
   static constexpr InnerLoops of_avx2 = avx2::loops;
   static constexpr InnerLoops of_avx512 = avx512::loops;
-  return simd == Simd::avx512 ? of_avx512 : simd == Simd::avx2 ? of_avx2 : of_portable;
+  switch (simd) {
+    case Simd::portable:
+      return of_portable;
+    case Simd::neon:
+      return of_neon;
+    case Simd::avx2:
+      return of_avx2;
+    case Simd::avx512:
+      return of_avx512;
+  }
+  return of_portable;
 }
 
 }  // namespace flyball

@@ -18,7 +18,8 @@
 namespace flyball {
 
 enum class Simd : std::uint8_t {
-  portable,  ///< What the target always has: SSE2, NEON, or plain code.
+  portable,  ///< What the compiler makes of them for any processor: SSE2, NEON, or plain code.
+  neon,      ///< And by hand, what it does not find by itself on 64-bit Arm.
   avx2,
   avx512,
 };

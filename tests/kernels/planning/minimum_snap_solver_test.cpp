@@ -115,4 +115,25 @@ TEST(MinimumSnapSolver, knows_how_far_a_knot_reaches) {
   EXPECT_FALSE(flyball::control_reach_m(k, 1.0, true, reach_m));
 }
 
+TEST(MinimumSnapSolver, gives_the_same_bits_on_every_processor) {
+  // Durations are powers of two, so that the C library's pow, which is not ours, is exact.
+  std::vector<SnapKnot> knots{{{0, 0, 1}, Vec3{3, 4, 0} / 5, {1.7, 0.2, 0}, true},
+                              {{5, 3, 1.5}, Vec3{4, 3, 0} / 5, Vec3::Zero(), false},
+                              {{9, 11, 1.2}, Vec3{-3, 4, 0} / 5, Vec3::Zero(), false},
+                              {{6, 18, 2}, Vec3{0, 5, 12} / 13, {0.9, 0, 0.1}, true}};
+  flyball::minimise(4, knots, {2.0, 4.0, 2.0});
+  const auto piece = flyball::piece_between(knots[1], knots[2], 4.0);
+  const auto is = [](const Vec3& seen, double x, double y, double z) {
+    return seen.x() == x && seen.y() == y && seen.z() == z;
+  };
+  // As an x86-64 computes them.
+  EXPECT_TRUE(
+      is(knots[1].along, 0x1.20479f6f9349ap+2, 0x1.498334bd8a349p-1, -0x1.76c4a34016f3fp+1));
+  EXPECT_TRUE(
+      is(knots[2].along, 0x1.d5ad6af0cc288p+2, 0x1.6186955f6938cp-1, -0x1.44ca834eba9ecp+3));
+  EXPECT_TRUE(is(piece.c.col(5), -0x1.910e4eca6cd7p-3, 0x1.65ff134f4527dp-2, 0x1.93333333332cfp-6));
+  EXPECT_TRUE(
+      is(piece.c.col(7), -0x1.5242d2f1fff8p-9, 0x1.21194ae4b6107p-8, 0x1.7ffffffffffa1p-12));
+}
+
 }  // namespace
