@@ -124,43 +124,6 @@ TEST(PlanWithTubes, searches_for_a_shorter_path_no_longer_than_that_may_save) {
   EXPECT_LT(iterations(1e-3), bare + 400.0);
 }
 
-// A pillar has come into view on a path of 60 m.
-TEST(PlanWithTubes, mends_a_path_where_a_newer_map_blocks_it) {
-  kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{70, 10, 3}}, 0.15, CellState::free};
-  map.fill({Vec3{30, -3, 0}, Vec3{31, 3, 3}}, CellState::occupied);
-  Planning planning{map};
-  planning.fly_within({Vec3{-2.5, -9.5, 1.0}, Vec3{69.5, 9.5, 1.6}});
-  planning.query.start_W = Vec3{1, 0, 1.3};
-  planning.query.goal_W = Vec3{60, 0, 1.3};
-  KnownPath broken;
-  broken.waypoints_W = {Vec3{0, 0, 1.3}, Vec3{20, 0, 1.3}, Vec3{60, 0, 1.3}};
-  broken.body = planning.rig.brief->narrow_body();
-  planning.query.broken = broken;
-  Cylinder body;
-  const Plan plan = planning.plan(body);
-  ASSERT_TRUE(plan.failure.empty()) << plan.failure;
-  EXPECT_EQ(plan.waypoints_W.front(), planning.query.start_W);
-  EXPECT_EQ(plan.waypoints_W[1], broken.waypoints_W[1]);
-  EXPECT_EQ(plan.waypoints_W.back(), planning.query.goal_W);
-  EXPECT_DOUBLE_EQ(body.radius_m, broken.body.radius_m);
-  for (std::size_t i = 1; i < plan.waypoints_W.size(); ++i) {
-    EXPECT_FALSE(map.segment_hits(plan.waypoints_W[i - 1], plan.waypoints_W[i], body));
-  }
-}
-
-TEST(PlanWithTubes, plans_as_ever_where_a_path_cannot_be_mended) {
-  const kit::GridMap map = room_with_gap(1.5);
-  Planning planning{map};
-  KnownPath broken;
-  broken.waypoints_W = {planning.query.start_W, Vec3{3.05, 2, 1.3}};  // It ends in the wall.
-  broken.body = planning.rig.brief->narrow_body();
-  planning.query.broken = broken;
-  Cylinder body;
-  const Plan plan = planning.plan(body);
-  EXPECT_TRUE(plan.failure.empty()) << plan.failure;
-  EXPECT_EQ(plan.waypoints_W.back(), planning.query.goal_W);
-}
-
 TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
