@@ -61,7 +61,6 @@ void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
   back_.forget();
   blocked_at_m_.reset();
-  last_path_.reset();
   ++path_number_;
 }
 
@@ -70,7 +69,6 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   without_path_since_ = now;
   pending_id_ = 0;
   known_.reset();
-  last_path_.reset();
   want_plan(now, "new goal");
 }
 
@@ -158,19 +156,12 @@ PlanQuery Navigator::query() {
   }
   joins_ = known_.has_value();
   query.known = std::exchange(known_, std::nullopt);
-  query.broken = query.known ? std::nullopt : broken_path();
   query.goal_W = *goal_W_;
   query.failures = failures_;
   // When no path was found twice with the narrow tube, none will be found with a wide one.
   query.may_be_tight = situation().speed_limit_m_s(query.start_W) <= slow_m_s || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
   return query;
-}
-
-// A path that leads nowhere is not mended, nor one from whose end the way goes on.
-std::optional<KnownPath> Navigator::broken_path() const {
-  const bool goes_on = follower_.is_at_end() || is_leg_ending();
-  return goes_on || stalls_ > 0 ? std::nullopt : last_path_;
 }
 
 // The next plan is asked for so early that the vehicle need not stop, and so late that the next
@@ -225,9 +216,6 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     return;
   }
   ++failures_;
-  if (!planned.map_moved_on) {
-    last_path_.reset();
-  }
   if (planned.failure == "start blocked" && at_rest_since_) {
     if (const auto aside_W = place_aside_W(situation(), follower_.position_W())) {
       hover_at(*aside_W, follower_.yaw_rad());
@@ -268,9 +256,6 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   if (!joins_) {
     searched_s_ = to_seconds(now - asked_at_);
     lead_.took(searched_s_, planned.iterations);
-  }
-  if (planned.path.waypoints_W.size() >= 2) {
-    last_path_ = planned.path;
   }
   if (!planned.failure.empty()) {
     plan_failed(now, planned);

@@ -2,7 +2,6 @@
 #include "flyball/flight/navigation/plan_with_tubes.h"
 
 #include "flyball/flight/navigation/gap_scan.h"
-#include "flyball/flight/navigation/path_break.h"
 #include "flyball/flight/navigation/plan_race.h"
 #include "flyball/runtime/random.h"
 
@@ -58,9 +57,6 @@ class Search {
   // openings ahead is not tried, since before doors that would take a quarter of the time.
   bool find_any() {
     const int budget = static_cast<int>(situation_.knobs.value("planner.budget"));
-    if (query_.broken && mend(*query_.broken, budget / wide_parts)) {
-      return true;
-    }
     if (query_.may_be_tight) {
       return try_with(situation_.brief.narrow_body(), budget);
     }
@@ -76,34 +72,6 @@ class Search {
     const int tried = (tries_roomy ? part : 0) + (tries_wide ? part : 0);
     return (tries_roomy && try_with(roomy, part)) || (tries_wide && try_with(wide, part)) ||
            try_with(situation_.brief.narrow_body(), budget - tried);
-  }
-
-  // What has come into view beside a path blocks a few metres of it. A search for a way around
-  // those takes a small part of the iterations of a search for the whole path.
-  bool mend(const KnownPath& broken, int iterations) {
-    const PlanRequest whole = request_;
-    double queries = 0.0;
-    auto parts = break_of(joined_to(query_.start_W, broken, situation_.map), situation_.map,
-                          broken.body, queries);
-    bool is_mended = parts && parts->behind_W.empty();
-    if (parts && !is_mended) {
-      request_.start_W = parts->before_W.back();
-      request_.goal_W = parts->behind_W.front();
-      is_mended = try_with(broken.body, iterations);
-    }
-    work_.add("collision_queries", queries);
-    request_ = whole;
-    if (!is_mended) {
-      return false;
-    }
-    std::vector<Vec3> mended_W{std::move(parts->before_W)};
-    if (!parts->behind_W.empty()) {
-      mended_W.insert(mended_W.end(), plan_.waypoints_W.begin() + 1, plan_.waypoints_W.end());
-      mended_W.insert(mended_W.end(), parts->behind_W.begin() + 1, parts->behind_W.end());
-    }
-    plan_.waypoints_W = std::move(mended_W);
-    body_ = broken.body;
-    return true;
   }
 
   [[nodiscard]] double narrowest_opening_m() const {

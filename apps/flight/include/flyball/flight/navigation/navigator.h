@@ -78,7 +78,6 @@ class Navigator {
   void plan_refused(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool awaits_finer_map(MissionTime now) const;
   [[nodiscard]] PlanQuery query();
-  [[nodiscard]] std::optional<KnownPath> broken_path() const;
   [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);
   void want_plan(MissionTime now, const std::string& why);
@@ -97,9 +96,8 @@ class Navigator {
   double splice_m_{};
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
-  std::optional<KnownPath> known_{};      ///< The path of the last of these plans.
-  std::optional<KnownPath> last_path_{};  ///< Of the last plan; newer maps may block it.
-  bool joins_{};                          ///< The pending plan is that path, joined from elsewhere.
+  std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
+  bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
   int failures_{};  ///< Plans in a row that have failed.
   int replans_{};

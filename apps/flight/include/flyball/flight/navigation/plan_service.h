@@ -26,8 +26,6 @@ struct PlanQuery {
   int failures{};        ///< Plans in a row that have failed.
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
-  /// A path to the same goal that newer maps block; most of it may still be free.
-  std::optional<KnownPath> broken{};
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
   std::optional<KnownPath> known{};
 };
