@@ -14,13 +14,14 @@ foreach(entry IN LISTS top)
 endforeach()
 
 # A file that is tested through another one says so in a line `// tested-in: <stem>`. Plug-ins need
-# no test of their own: the conformance tests run each of them. The commands are tested as programs.
+# no test of their own: the conformance tests run each of them, and all_experiments_test.cpp plans each
+# experiment. The commands are tested as programs.
 foreach(folder IN LISTS places)
   file(GLOB_RECURSE tests ${root}/tests/${folder}/*_test.cpp)
   list(TRANSFORM tests REPLACE ".*/" "")
   if(folder STREQUAL "apps")
     file(GLOB_RECURSE sources ${root}/apps/*.cpp)
-    list(FILTER sources EXCLUDE REGEX "/apps/(cli|workloads|records/picture_reader)/")
+    list(FILTER sources EXCLUDE REGEX "/apps/(cli|workloads|records/picture_reader)/|/apps/experiments/[a-z0-9_]+[.]cpp$")
   elseif(folder STREQUAL "policies")
     # Beside <name>/<name>.cpp, the plug-in, stand the parts of it.
     file(GLOB sources ${root}/policies/*/*.cpp)

@@ -18,6 +18,7 @@ void add_tournament(CLI::App& program, int& exit_code);
 void add_bound(CLI::App& program, int& exit_code);
 void add_drift(CLI::App& program, int& exit_code);
 void add_sweep(CLI::App& program, int& exit_code);
+void add_reproduce(CLI::App& program, int& exit_code);
 void add_tune(CLI::App& program, int& exit_code);
 void add_list(CLI::App& program, int& exit_code);
 void add_fit(CLI::App& program, int& exit_code);

@@ -10,10 +10,10 @@
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
 #include "flyball/scenario/plugins.h"
-#include "flyball/sim/platform_file.h"
 
 #include "commands.h"
 #include "console.h"
+#include "experiments/framework/all_experiments.h"
 #include "flight_options.h"
 #include <array>
 #include <cctype>
@@ -156,23 +156,15 @@ std::string all_of_family(const Plugins& plugins) {
 Scenario with_all_knobs(const Plugins& plugins) {
   Scenario scenario;
   scenario.plugins = plugins;
+  scenario.edge.platform = scenario.platform.name;
   scenario.knobs = {all_of_family<PathPlanner>(plugins), all_of_family<Detector>(plugins), true,
                     true};
   return scenario;
 }
 
 Result<Lines> list_knobs(const Plugins& plugins) {
-  const Scenario scenario = with_all_knobs(plugins);
-  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
-  if (!file) {
-    return file.error();
-  }
-  Result<PlatformModel> model = load_platform(*file);
-  if (!model) {
-    return model.error();
-  }
   Lines lines{{"KNOB", "UNIT", "OWNER", "DEFAULT", "MEANING", "VALUES"}};
-  const auto knobs = standard_knobs(scenario, ModeledPlatform{std::move(*model)});
+  const auto knobs = standard_knobs(with_all_knobs(plugins));
   if (!knobs) {
     return knobs.error();
   }
@@ -191,12 +183,20 @@ Result<Lines> list_workloads(const Plugins& plugins) {
   return lines;
 }
 
+Result<Lines> list_experiments(const Plugins&) {
+  Lines lines;
+  for (const NamedExperiment& each : all_experiments()) {
+    lines.push_back({each.name, each.experiment.title});
+  }
+  return lines;
+}
+
 struct Listing {
   const char* kind;
   Result<Lines> (*list)(const Plugins&);
 };
 
-constexpr std::array<Listing, 9> listings{{
+constexpr std::array<Listing, 10> listings{{
     {"scenarios", [](const Plugins&) { return list_files("scenarios"); }},
     {"workloads", list_workloads},
     {"kernels", list_kernels},
@@ -206,6 +206,7 @@ constexpr std::array<Listing, 9> listings{{
     {"worlds", list_worlds},
     {"airframes", [](const Plugins&) { return list_files("airframes"); }},
     {"knobs", list_knobs},
+    {"experiments", list_experiments},
 }};
 
 std::string kinds() {

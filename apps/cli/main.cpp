@@ -28,6 +28,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_compare(program, exit_code);
   flyball::add_tournament(program, exit_code);
   flyball::add_sweep(program, exit_code);
+  flyball::add_reproduce(program, exit_code);
   flyball::add_tune(program, exit_code);
   flyball::add_drift(program, exit_code);
   flyball::add_bound(program, exit_code);

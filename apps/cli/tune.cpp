@@ -6,8 +6,8 @@
 
 #include "claimed_folder.h"
 #include "commands.h"
+#include "race.h"
 #include "seed_list.h"
-#include "stored_flights.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -28,132 +28,47 @@ struct TuneOptions {
   std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
 };
 
-/// One candidate with one seed.
-struct Heat : StoredFlight {
-  std::size_t candidate{};
-};
-
-/// What the whole race needs.
-struct Race {
-  const TuneOptions& options;
-  std::vector<std::uint64_t> seeds;
-  std::string folder;
-  FlightStore& store;
-  std::vector<Candidate> candidates;
-};
-
 std::string out_folder(const TuneOptions& options) {
   const std::string stem = std::filesystem::path{options.flight.scenario}.stem().string();
   return options.flight.out.empty() ? "flights/tune_" + stem : options.flight.out;
 }
 
-/// Its preset, under a name that says its parameters: the same candidate has the same file.
-std::string preset_file(const Race& race, const Candidate& candidate) {
-  std::string name = race.options.policy;
-  for (const auto& [parameter, value] : candidate.parameters) {
-    std::string number = std::to_string(value);
-    std::replace(number.begin(), number.end(), '.', '_');
-    name += "-" + parameter + "-" + number;
-  }
-  return race.folder + "/candidates/" + name + ".toml";
-}
-
-std::variant<std::vector<Heat>, std::vector<Error>> plan_round(Race& race,
-                                                               const TuningRound& round) {
-  std::vector<Heat> heats;
-  for (std::size_t i = 0; i < round.candidates; ++i) {
-    const Candidate& candidate = race.candidates[i];
-    const std::string file = preset_file(race, candidate);
-    for (std::size_t k = candidate.flights.size(); k < round.seeds; ++k) {
-      auto planned = plan_flight(race.options.flight, file, race.seeds[k], race.folder);
-      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-        return std::move(*errors);
-      }
-      heats.push_back({{std::move(std::get<PlannedFlight>(planned)), "", std::nullopt}, i});
-    }
-  }
-  return heats;
-}
-
-Flown fly_round(Race& race, std::vector<Heat>& heats) {
-  Flown flown = fly_stored({race.folder, race.options.jobs}, race.store, pointers_to(heats));
-  if (flown.signal == 0 && flown.errors.empty()) {
-    for (const Heat& heat : heats) {
-      race.candidates[heat.candidate].flights.push_back(*heat.summary);
-    }
-  }
-  return flown;
-}
-
-Status write_presets(const Race& race) {
-  const auto prepared = prepare_folder(race.folder + "/candidates");
-  if (!prepared) {
-    return prepared.error();
-  }
-  for (const Candidate& candidate : race.candidates) {
-    const std::string text = preset_text(race.options.policy, "A candidate of a race", candidate);
-    if (Status written = write_file(preset_file(race, candidate), text); !written) {
-      return written;
-    }
-  }
-  return Done{};
-}
-
 /// Enough to run the race again: what it was on, and the values that were tried.
-std::string told(const Race& race, const std::string& stem) {
+std::string told(const TuneOptions& options,
+                 const std::string& stem,
+                 const std::vector<std::uint64_t>& seeds,
+                 std::size_t candidates) {
   std::string text = "Tuned for " + stem;
-  for (const std::string& setting : race.options.flight.settings) {
+  for (const std::string& setting : options.flight.settings) {
     text += " " + setting;
   }
-  text += ": the least energy of " + std::to_string(race.candidates.size()) + " settings (";
-  for (std::size_t i = 0; i < race.options.tried.size(); ++i) {
-    text += (i == 0 ? "" : " ") + race.options.tried[i];
+  text += ": the least energy of " + std::to_string(candidates) + " settings (";
+  for (std::size_t i = 0; i < options.tried.size(); ++i) {
+    text += (i == 0 ? "" : " ") + options.tried[i];
   }
-  return text + ") on seeds " + seeds_text(race.seeds);
+  return text + ") on seeds " + seeds_text(seeds);
 }
 
-int show(const Race& race) {
-  const TuneOptions& options = race.options;
+int show(const TuneOptions& options, const Race& race, const std::vector<Candidate>& ranked) {
   const std::string stem = std::filesystem::path{options.flight.scenario}.stem().string();
-  const std::string path = options.preset.empty() ? race.folder + "/tuned.toml" : options.preset;
-  const Status written =
-      write_file(path, preset_text(options.policy, told(race, stem), race.candidates.front()));
+  const std::string path =
+      options.preset.empty() ? out_folder(options) + "/tuned.toml" : options.preset;
+  const std::string description = told(options, stem, race.settings().seeds, ranked.size());
+  const Status written = write_file(path, preset_text(options.policy, description, ranked.front()));
   if (!written) {
     return refuse({written.error()});
   }
   if (options.flight.json) {
-    print(to_json(stem, options.policy, race.candidates) + "\n");
+    print(to_json(stem, options.policy, ranked) + "\n");
     note("preset: " + path);
   } else {
-    print(to_text(race.candidates) + "preset: " + path + "\n");
+    print(to_text(ranked) + "preset: " + path + "\n");
   }
-  const bool flies = race.candidates.front().failures() == 0;
+  const bool flies = ranked.front().failures() == 0;
   if (!flies) {
     note("no setting flew every seed; the best one is written all the same");
   }
   return flies ? exit_success : exit_mission_failed;
-}
-
-int run(Race& race) {
-  if (const Status written = write_presets(race); !written) {
-    return refuse({written.error()});
-  }
-  for (const TuningRound& round : tuning_rounds(race.candidates.size(), race.seeds.size())) {
-    note("round: " + std::to_string(round.candidates) + " settings, " +
-         std::to_string(round.seeds) + " seeds");
-    auto planned = plan_round(race, round);
-    if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-      return refuse(*errors);
-    }
-    const Flown flown = fly_round(race, std::get<std::vector<Heat>>(planned));
-    if (const std::optional<int> code = unfinished(flown)) {
-      return *code;
-    }
-    std::stable_sort(race.candidates.begin(),
-                     race.candidates.begin() + static_cast<std::ptrdiff_t>(round.candidates),
-                     is_better);
-  }
-  return show(race);
 }
 
 /// A setting that was tuned on the seeds that it is tested with proves nothing.
@@ -196,8 +111,16 @@ int tune(const TuneOptions& options) {
   if (!store) {
     return refuse({store.error()});
   }
-  Race race{options, *seeds, folder, *store, combinations(tried)};
-  return run(race);
+  Race race{{options.flight,
+             options.policy,
+             *seeds,
+             folder + "/candidates",
+             folder,
+             {folder, options.jobs}},
+            *store};
+  std::vector<Candidate> candidates = combinations(tried);
+  const std::optional<int> code = race.halve(candidates, is_better);
+  return code ? *code : show(options, race, candidates);
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ MissionTopics add_mission_topics(Graph& graph) {
   MissionTopics topics;
   topics.knobs = graph.topic<KnobsInForce>("knobs");
   topics.state = graph.topic<MissionState>("mission_state");
+  topics.progress = graph.topic<MissionProgress>("progress");
   topics.end = graph.topic<MissionEnd>("end", most_ends);
   topics.outcome = graph.topic<MissionEnd>("outcome");
   topics.log = graph.topic<LogRow>("log", most_rows);
@@ -101,6 +102,10 @@ void log(JobContext& job,
 
 void log_event(JobContext& job, const MissionTopics& topics, const std::string& what) {
   log(job, topics, "event", {{"what", what}});
+}
+
+void tell_progress(JobContext& job, const MissionTopics& topics, ProgressUnit unit, double value) {
+  job.publish(topics.progress, MissionProgress{unit, value});
 }
 
 void end_mission(JobContext& job,

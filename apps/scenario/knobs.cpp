@@ -4,8 +4,11 @@
 #include "flyball/kernels/detector.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/decision.h"
+#include "flyball/scenario/files.h"
+#include "flyball/sim/platform_file.h"
 
 #include "scenario/kernel_choice.h"
+#include "scenario/scenario_edge.h"
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
@@ -170,6 +173,9 @@ Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Pla
   of_mission->insert(of_mission->begin(), speed_knob());
   of_mission->push_back(cores_knob(platform, scenario.platform.cores));
   of_mission->push_back(frequency_knob(platform, scenario.platform.frequency_hz));
+  for (KnobSpec& knob : offload_knobs(scenario)) {
+    of_mission->push_back(std::move(knob));
+  }
   if (const Status added = add(std::move(*of_mission), "the mission", scenario, all); !added) {
     return added.error();
   }
@@ -180,6 +186,18 @@ Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Pla
                                                std::to_string(Decision::capacity)};
   }
   return all;
+}
+
+Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario) {
+  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
+  if (!file) {
+    return file.error();
+  }
+  Result<PlatformModel> model = load_platform(*file);
+  if (!model) {
+    return model.error();
+  }
+  return standard_knobs(scenario, ModeledPlatform{std::move(*model)});
 }
 
 }  // namespace flyball

@@ -5,6 +5,7 @@
 #include "flyball/scenario/files.h"
 
 #include "scenario/scenario_check.h"
+#include "scenario/scenario_edge.h"
 #include "scenario/scenario_events.h"
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_keys.h"
@@ -190,9 +191,9 @@ std::variant<LoadedScenario, std::vector<Error>> load_overridden_scenario(
   assign_all(scenario, fields, read);
   drop_exchanged(filed, parameter_groups(scenario), read.values);
   report_unknown_keys(fields, parameter_groups(scenario), read);
-  for (const auto& check :
-       {read_parameters(scenario, read.values), read_events(scenario, read.values),
-        check_names(scenario, read.values), check_map(scenario, read.values)}) {
+  for (const auto& check : {read_parameters(scenario, read.values),
+                            read_events(scenario, read.values), check_names(scenario, read.values),
+                            check_map(scenario, read.values), check_edge(scenario, read.values)}) {
     read.errors.insert(read.errors.end(), check.begin(), check.end());
   }
   if (!read.errors.empty()) {
@@ -230,6 +231,7 @@ FlightSettings flight_settings(const Scenario& scenario) {
   }
   settings.kernels = scenario.kernels;
   settings.knobs = scenario.knobs;
+  settings.has_edge = has_edge(scenario);
   settings.map = scenario.map;
   settings.planner = scenario.planner;
   settings.scan = scenario.scan;

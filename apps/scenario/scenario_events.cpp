@@ -32,7 +32,7 @@ struct EventField {
 const std::vector<EventField>& event_fields() {
   using E = ComputerEvent;
   static const std::vector<EventField> all{
-      {"kind", "", &E::kind, 0, 0, true, "slowdown, co_runner or cooling"},
+      {"kind", "", &E::kind, 0, 0, true, "slowdown, co_runner, cooling or bit_flip"},
       {"at_s", "", &E::at_s, 0, 86400, true, "mission time at which it begins"},
       {"until_s", "", &E::until_s, 0, 86400, false, "mission time at which it ends; 0: it lasts"},
       {"factor", "slowdown", &E::factor, 0.1, 100, true, "times the cost in the platform's file"},
@@ -43,6 +43,9 @@ const std::vector<EventField>& event_fields() {
       {"resistance_k_w", "cooling", &E::resistance_k_w, 0.1, 1000, true,
        "from the computer to the air"},
       {"ambient_c", "cooling", &E::ambient_c, -60, 90, true, "of the air"},
+      {"topic", "bit_flip", &E::topic, 0, 0, true, "the topic whose next message is hit"},
+      {"variable", "bit_flip", &E::variable, 0, 0, false, "the name of the number, or any"},
+      {"draw", "bit_flip", &E::draw, 0, 1e9, false, "settles, with the seed, which bit flips"},
   };
   return all;
 }
@@ -152,11 +155,11 @@ ComputerEvent read_event(std::size_t index, const GivenValues& given, std::vecto
   const std::string kind_key = key_of(index, "kind");
   const auto kind = given.find(kind_key);
   const std::string named = kind == given.end() ? "" : as_text(kind->second).value_or("");
-  if (named != "slowdown" && named != "co_runner" && named != "cooling") {
+  if (named != "slowdown" && named != "co_runner" && named != "cooling" && named != "bit_flip") {
     errors.push_back(
         {ErrorCode::invalid_input, kind_key + (named.empty() ? "" : " = \"" + named + "\"") +
                                        place_of(kind_key, given) +
-                                       " must be one of: slowdown, co_runner, cooling"});
+                                       " must be one of: slowdown, co_runner, cooling, bit_flip"});
     return event;
   }
   for (const EventField& field : event_fields()) {

@@ -4,17 +4,13 @@
 #include "scenario/scenario_fields.h"
 
 #include "scenario/kernel_choice.h"
+#include "scenario/scenario_edge.h"
 
 namespace flyball {
 namespace {
 
 using Fields = std::vector<ScenarioField>;
 
-/// `&at<&Scenario::map, &MapSettings::range_m>` is the place of `map.range_m`.
-template <auto section, auto value>
-auto* at(Scenario& scenario) {
-  return &(scenario.*section.*value);
-}
 template <auto value>
 auto* at_top(Scenario& scenario) {
   return &(scenario.*value);
@@ -254,6 +250,8 @@ Fields computer_fields() {
        "frames integrated a second, at most"},
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one plan may take"},
+      {"planner.searches", &at<&Scenario::planner, &PlannerSettings::searches>, 1, 16,
+       "searches that race each other and share the budget; each can use a core"},
       {"planner.horizon_m", &at<&Scenario::planner, &PlannerSettings::horizon_m>, 0, 10000,
        "a farther goal is approached through intermediate places; 0: planned to at once"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,
@@ -265,6 +263,12 @@ Fields computer_fields() {
       {"platform.start_temperature_c",
        &at<&Scenario::platform, &PlatformSettings::start_temperature_c>, 0, 120,
        "at take-off; 0: as warm as it is after it has idled for long"},
+      {"faults.detector",
+       &at<&Scenario::faults, &FaultSettings::detector>,
+       0,
+       0,
+       "refuses messages whose numbers, or their changes, no vehicle can mean",
+       {"none", "range", "rate", "both"}},
       {"governor.policy", &at<&Scenario::governor, &GovernorSettings::policy>, 0, 0,
        "turns the knobs in flight"},
       {"governor.period_s", &at<&Scenario::governor, &GovernorSettings::period_s>, 0.01, 10,
@@ -302,6 +306,7 @@ std::vector<ScenarioField> scenario_fields() {
   append(all, search_fields());
   append(all, watch_fields());
   append(all, computer_fields());
+  append(all, edge_fields());
   return all;
 }
 

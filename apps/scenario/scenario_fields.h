@@ -21,6 +21,12 @@ using FieldPlace = std::variant<double* (*)(Scenario&),
                                 bool* (*)(Scenario&),
                                 std::string* (*)(Scenario&)>;
 
+/// `&at<&Scenario::map, &MapSettings::range_m>` is the place of `map.range_m`.
+template <auto section, auto value>
+auto* at(Scenario& scenario) {
+  return &(scenario.*section.*value);
+}
+
 struct ScenarioField {
   std::string key;  ///< `map.range_m`; the unit is its suffix.
   FieldPlace place;

@@ -18,29 +18,19 @@ struct UnitSuffix {
 
 // Longer ones first: `_m_s` ends in `_s`. Units that no key has are here too, so that a key with
 // the wrong one is recognised.
-constexpr std::array<UnitSuffix, 44> unit_suffixes{{
-    {"_k_w", "K/W"},      {"_c", "degrees Celsius"},
-    {"_1_m2", "1/m^2"},   {"_rad_s", "rad/s"},
-    {"_deg_s", "deg/s"},  {"_m_s2", "m/s^2"},
-    {"_km_h", "km/h"},    {"_m_s", "m/s"},
-    {"_mph", "mph"},      {"_percent", "%"},
-    {"_seconds", "s"},    {"_minutes", "min"},
-    {"_meters", "m"},     {"_metres", "m"},
-    {"_degrees", "deg"},  {"_radians", "rad"},
-    {"_per_m2", "1/m^2"}, {"_rad", "rad"},
-    {"_deg", "deg"},      {"_ghz", "GHz"},
-    {"_mhz", "MHz"},      {"_khz", "kHz"},
-    {"_hz", "Hz"},        {"_min", "min"},
-    {"_ms", "ms"},        {"_us", "us"},
-    {"_ns", "ns"},        {"_kg", "kg"},
-    {"_lb", "lb"},        {"_km", "km"},
-    {"_cm", "cm"},        {"_mm", "mm"},
-    {"_ft", "ft"},        {"_px", "px"},
-    {"_kw", "kW"},        {"_mw", "mW"},
-    {"_wh", "Wh"},        {"_ah", "Ah"},
-    {"_m", "m"},          {"_s", "s"},
-    {"_h", "h"},          {"_g", "g"},
-    {"_w", "W"},          {"_j", "J"},
+constexpr std::array<UnitSuffix, 46> unit_suffixes{{
+    {"_mbit_s", "Mbit/s"}, {"_bit_s", "bit/s"}, {"_k_w", "K/W"},      {"_c", "degrees Celsius"},
+    {"_1_m2", "1/m^2"},    {"_rad_s", "rad/s"}, {"_deg_s", "deg/s"},  {"_m_s2", "m/s^2"},
+    {"_km_h", "km/h"},     {"_m_s", "m/s"},     {"_mph", "mph"},      {"_percent", "%"},
+    {"_seconds", "s"},     {"_minutes", "min"}, {"_meters", "m"},     {"_metres", "m"},
+    {"_degrees", "deg"},   {"_radians", "rad"}, {"_per_m2", "1/m^2"}, {"_rad", "rad"},
+    {"_deg", "deg"},       {"_ghz", "GHz"},     {"_mhz", "MHz"},      {"_khz", "kHz"},
+    {"_hz", "Hz"},         {"_min", "min"},     {"_ms", "ms"},        {"_us", "us"},
+    {"_ns", "ns"},         {"_kg", "kg"},       {"_lb", "lb"},        {"_km", "km"},
+    {"_cm", "cm"},         {"_mm", "mm"},       {"_ft", "ft"},        {"_px", "px"},
+    {"_kw", "kW"},         {"_mw", "mW"},       {"_wh", "Wh"},        {"_ah", "Ah"},
+    {"_m", "m"},           {"_s", "s"},         {"_h", "h"},          {"_g", "g"},
+    {"_w", "W"},           {"_j", "J"},
 }};
 
 std::size_t edits_between(const std::string& a, const std::string& b) {

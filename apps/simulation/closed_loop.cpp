@@ -3,6 +3,7 @@
 
 #include "flyball/flight/perception/perception_nodes.h"
 
+#include "scenario/scenario_edge.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -108,6 +109,21 @@ Watts ClosedLoop::computer_power(double busy_cores) const {
              : link_.brief().platform->power(executor_.operating_point(), busy_cores);
 }
 
+Watts ClosedLoop::device_power(double dt_s) {
+  const DeviceUse use = executor_.device_use();
+  const double computes = (use.gpu_s - last_use_.gpu_s) / dt_s;
+  const double sends = (use.sending_s - last_use_.sending_s) / dt_s;
+  const double receives = (use.receiving_s - last_use_.receiving_s) / dt_s;
+  last_use_ = use;
+  const Watts gpu{computes * link_.brief().platform->gpu_power().value()};
+  if (!has_edge(scenario_)) {
+    return gpu;
+  }
+  const EdgeSettings& radio = scenario_.edge;
+  return gpu + Watts{radio.radio_idle_w + sends * (radio.radio_send_w - radio.radio_idle_w) +
+                     receives * (radio.radio_receive_w - radio.radio_idle_w)};
+}
+
 void ClosedLoop::physics_step() {
   const double dt_s = scenario_.vehicle.physics_step_s;
   const RotorSpeeds command =
@@ -126,7 +142,7 @@ void ClosedLoop::energy_step() {
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
-  log_.computer_w = computer_power(busy).value();
+  log_.computer_w = (computer_power(busy) + device_power(dt_s)).value();
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);

@@ -82,6 +82,8 @@ class ClosedLoop {
 
  private:
   [[nodiscard]] Watts computer_power(double busy_cores) const;
+  /// Of the GPU and of the link to an edge computer, on average since the last call `dt_s` ago.
+  [[nodiscard]] Watts device_power(double dt_s);
   void physics_step();
   void energy_step();
   void publish_navigation();
@@ -114,6 +116,7 @@ class ClosedLoop {
   bool renders_at_once_{};
   FlightLog log_{};
   double last_busy_core_s_{};
+  DeviceUse last_use_{};
   std::uint64_t navigation_count_{};
   std::uint64_t frame_count_{};
   std::uint64_t colour_count_{};

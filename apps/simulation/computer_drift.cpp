@@ -45,7 +45,9 @@ void ComputerDrift::start(const std::optional<ThermalModel>& thermal) {
                  [this] { heat_step(); });
   }
   for (const ComputerEvent& event : scenario_.events) {
-    schedule(event);
+    if (event.kind != "bit_flip") {  // Those are of `SoftErrors`.
+      schedule(event);
+    }
   }
 }
 

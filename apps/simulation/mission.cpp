@@ -12,12 +12,13 @@
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
 #include "simulation/future_frames.h"
+#include "simulation/mission_checks.h"
 #include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
 #include "simulation/referee.h"
 #include "simulation/simulated_board.h"
+#include "simulation/soft_errors.h"
 #include <cstdio>
-#include <filesystem>
 
 namespace flyball {
 namespace {
@@ -42,17 +43,22 @@ OperatingPoint start_point(const Scenario& scenario) {
   return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
 }
 
-std::unique_ptr<Executor> make_virtual(const Graph& graph,
-                                       const Platform& computer,
-                                       EventQueue& queue,
-                                       const OperatingPoint& start) {
-  return std::make_unique<VirtualExecutor>(graph, computer, queue, start);
+/// The modeled computer, with the scenario's edge computer.
+MakeExecutor modeled(const std::optional<EdgeModel>& edge) {
+  return [edge](const Graph& graph, const Platform& computer, EventQueue& queue,
+                const OperatingPoint& start) {
+    auto executor = std::make_unique<VirtualExecutor>(graph, computer, queue, start);
+    if (edge) {
+      executor->connect_edge(*edge);
+    }
+    return executor;
+  };
 }
 
 /// On what a flight is computed.
 struct FlightComputer {
-  MakeExecutor make_executor{make_virtual};
-  RealtimeBoard* board{};  ///< Null for one that is modelled.
+  MakeExecutor make_executor{};  ///< Empty: a modeled one.
+  RealtimeBoard* board{};        ///< Null for one that is modeled.
 };
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -74,7 +80,8 @@ struct Flight {
     add_finish(graph, parts.mission);
     record_node = add_record(graph, parts.mission, trace);
     add_governing(scenario, setup);
-    executor = on.make_executor(graph, computer, queue, start_point(scenario));
+    const MakeExecutor make = on.make_executor ? on.make_executor : modeled(setup.edge);
+    executor = make(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                         parts.vehicle, parts.kernels.localizer);
@@ -82,7 +89,8 @@ struct Flight {
         std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
                                                         queue, *loop, *parts.kernels.mapper});
     drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
-    board.connect(*executor, *loop, drift.get(), on.board);
+    soft_errors = std::make_unique<SoftErrors>(*link, scenario, graph, *executor, queue);
+    board.connect(*executor, graph, *loop, drift.get(), on.board);
     recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
   }
 
@@ -123,6 +131,7 @@ struct Flight {
   std::unique_ptr<ClosedLoop> loop;
   std::unique_ptr<Referee> referee;
   std::unique_ptr<ComputerDrift> drift;
+  std::unique_ptr<SoftErrors> soft_errors;
   std::unique_ptr<FlightRecorder> recorder;
 };
 
@@ -177,6 +186,7 @@ void connect(Flight& flight, const MissionHooks& hooks) {
   flight.loop->start();
   flight.referee->start();
   flight.drift->start(flight.computer.nominal().thermal);
+  flight.soft_errors->start();
   flight.board.measure();
   flight.loop->on_energy([&flight] { flight.board.measure(); });
 }
@@ -240,6 +250,11 @@ void fill_computing(Summary& summary, const Flight& flight) {
   if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
     summary.quality["simulator_late_s_max"] = to_seconds(late);
   }
+  if (const SoftErrors& errors = *flight.soft_errors; errors.is_used()) {
+    summary.quality["bit_flips"] = static_cast<double>(errors.flips());
+    summary.quality["readers_lost"] = static_cast<double>(errors.lost());
+    summary.quality["refused_messages"] = static_cast<double>(errors.refused());
+  }
   if (const auto& localization = flight.link->localization()) {
     summary.quality["localization_lost"] = localization->times_lost;
     summary.quality["localization_lost_s"] = localization->lost_s;
@@ -267,16 +282,6 @@ Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const 
   return workload;
 }
 
-/// Before the flight: after it a wrong name would cost the map.
-Status check_map_name(const std::string& path) {
-  const std::string ending = std::filesystem::path{path}.extension().string();
-  if (path.empty() || ending == ".bt" || ending == ".ot") {
-    return Done{};
-  }
-  return Error{ErrorCode::invalid_input,
-               "map file \"" + path + "\" must end in .bt (free or occupied) or .ot (log-odds)"};
-}
-
 }  // namespace
 
 Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
@@ -299,6 +304,9 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!setup) {
     return setup.error();
   }
+  if (const Status possible = check_executor(scenario, hooks); !possible) {
+    return possible.error();
+  }
   auto workload = make_workload(scenario, setup->things.world);
   if (!workload) {
     return workload.error();
@@ -318,11 +326,11 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{scenario,
-                *setup,
-                *record.trace,
-                std::move(*workload),
-                {hooks.executor ? hooks.executor : make_virtual, hooks.computer}};
+  Flight flight{
+      scenario, *setup, *record.trace, std::move(*workload), {hooks.executor, hooks.computer}};
+  if (const Status possible = flight.soft_errors->check(); !possible) {
+    return possible.error();
+  }
   connect(flight, hooks);
   run(flight, hooks);
   if (const Status written =

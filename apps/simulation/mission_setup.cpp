@@ -9,6 +9,7 @@
 
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_check.h"
+#include "scenario/scenario_edge.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/seeing_setup.h"
 
@@ -144,6 +145,11 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
     return platform.error();
   }
   setup.platform = std::move(*platform);
+  auto edge = make_edge(scenario);
+  if (!edge) {
+    return edge.error();
+  }
+  setup.edge = std::move(*edge);
   const auto file = find_shipped("airframes", scenario.vehicle.airframe);
   auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
   if (!airframe) {

@@ -7,16 +7,19 @@
 #include "flyball/flight/brief.h"
 #include "flyball/flight/navigation/situation.h"
 #include "flyball/governors/policy_governor.h"
+#include "flyball/runtime/edge.h"
 #include "flyball/scenario/knobs.h"
 
 #include "simulation/mission_equipment.h"
 #include "simulation/simulated_things.h"
 #include <memory>
+#include <optional>
 
 namespace flyball {
 
 struct MissionSetup {
   std::shared_ptr<const ModeledPlatform> platform;  ///< Owners: this and the brief.
+  std::optional<EdgeModel> edge{};                  ///< Empty: there is no edge computer.
   SimulatedThings things;
   MissionEquipment equipment;
   std::unique_ptr<PolicyGovernor> governor;

@@ -5,10 +5,12 @@
 namespace flyball {
 
 void SimulatedBoard::connect(Executor& executor,
+                             const Graph& graph,
                              const ClosedLoop& loop,
                              const ComputerDrift* drift,
                              RealtimeBoard* computer) {
   executor_ = &executor;
+  graph_ = &graph;
   loop_ = &loop;
   drift_ = drift;
   computer_ = computer;
@@ -16,6 +18,7 @@ void SimulatedBoard::connect(Executor& executor,
     computer->connect(executor);
   }
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
+  nodes_.connect(executor);
   measure();
 }
 
@@ -28,6 +31,7 @@ void SimulatedBoard::measure() {
     const BoardReading real = computer_->meters();
     now.temperature_c = real.temperature_c;
     now.trip_c = real.trip_c;
+    now.rails = real.rails;
   } else if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
     now.temperature_c = heat->temperature_c();
     now.trip_c = heat->first_trip_c().value_or(0.0);
@@ -44,6 +48,14 @@ BoardReading SimulatedBoard::gauges() const {
 void SimulatedBoard::request(const OperatingPoint& point) {
   if (executor_ != nullptr) {
     executor_->set_operating_point(point);
+  }
+}
+
+void SimulatedBoard::place(std::string_view node, bool on_edge) {
+  for (std::size_t i = 0; executor_ != nullptr && i < graph_->nodes().size(); ++i) {
+    if (graph_->nodes()[i].spec.name == node) {
+      executor_->place(static_cast<int>(i), on_edge);
+    }
   }
 }
 

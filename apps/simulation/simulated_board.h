@@ -6,6 +6,7 @@
 /// them.
 
 #include "flyball/runtime/board.h"
+#include "flyball/runtime/node_meter.h"
 #include "flyball/runtime/realtime/realtime_board.h"
 
 #include "simulation/closed_loop.h"
@@ -24,6 +25,7 @@ class SimulatedBoard final : public Board {
   /// All arguments outlive the board; `drift` may be null: then nothing is known of heat. With a
   /// `computer`, which runs the nodes and is not modeled, watts and heat are what it measures.
   void connect(Executor& executor,
+               const Graph& graph,
                const ClosedLoop& loop,
                const ComputerDrift* drift,
                RealtimeBoard* computer = nullptr);
@@ -31,17 +33,21 @@ class SimulatedBoard final : public Board {
   void measure();
 
   [[nodiscard]] BoardReading read() const override;
+  [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
   void request(const OperatingPoint& point) override;
+  void place(std::string_view node, bool on_edge) override;
 
  private:
   [[nodiscard]] BoardReading gauges() const;
 
   BoardReading unconnected_{};
   Executor* executor_{};
+  const Graph* graph_{};
   const ClosedLoop* loop_{};
   const ComputerDrift* drift_{};
   const RealtimeBoard* computer_{};
   std::atomic<std::uint64_t> deadline_misses_{};
+  NodeMeter nodes_{};
   mutable std::mutex mutex_{};  ///< Of `gauges_`.
   BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.
 };

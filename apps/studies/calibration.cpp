@@ -136,6 +136,7 @@ Result<PlatformModel> draft_of(const CalibrationOptions& options) {
   auto model = load_platform(*file);
   if (model) {
     model->max_cores = options.cores;
+    model->power.idle_core_w = 0.0;  // That of another computer's cores.
     model->frequencies = options.clock.settable;
     if (model->frequencies.empty()) {
       model->frequencies.push_back(options.clock.current);

@@ -33,6 +33,9 @@ toml::table power_table(const PowerCost& power) {
                     {"cpu_linear_w", four_digits(power.cpu_linear_w)},
                     {"core_linear_w", four_digits(power.core_linear_w)},
                     {"core_cubic_w", four_digits(power.core_cubic_w)}};
+  if (power.idle_core_w > 0.0) {
+    table.insert("idle_core_w", power.idle_core_w);
+  }
   toml::array clocks;
   for (const MemoryClock& step : power.memory_clocks) {
     clocks.push_back(
@@ -61,11 +64,15 @@ toml::table kernel_table(const KernelCost& cost) {
   for (const auto& [name, price_s] : cost.seconds_per) {
     prices.insert(name, four_digits(price_s));
   }
-  return toml::table{{"scale", four_digits(cost.scale)},
-                     {"a", four_digits(cost.a)},
-                     {"b", four_digits(cost.b)},
-                     {"parallel_fraction", cost.parallel_fraction},
-                     {"seconds_per", prices}};
+  toml::table table{{"scale", four_digits(cost.scale)},
+                    {"a", four_digits(cost.a)},
+                    {"b", four_digits(cost.b)},
+                    {"parallel_fraction", cost.parallel_fraction},
+                    {"seconds_per", prices}};
+  if (cost.on_gpu) {
+    table.insert("on", "gpu");
+  }
+  return table;
 }
 
 std::string percent(double share) {
@@ -113,6 +120,13 @@ std::string to_toml(const PlatformModel& model, const std::vector<std::string>& 
                    {"switching_time_s", to_seconds(model.switching_time)},
                    {"power", power_table(model.power)},
                    {"kernels", kernels}};
+  if (model.memory_contention > 0.0) {
+    file.insert("memory_contention", model.memory_contention);
+  }
+  if (model.gpu) {
+    file.insert("gpu",
+                toml::table{{"clock_hz", model.gpu->clock.value()}, {"busy_w", model.gpu->busy_w}});
+  }
   if (model.thermal) {
     file.insert("thermal", thermal_table(*model.thermal));
   }

@@ -72,6 +72,13 @@ Json json_of(const WorldResult& world) {
       row["throttle_events"] = *world.decisions[i].throttle_events;
     }
   }
+  if (world.hindsight) {
+    json["fixed_best"] = {{"setting", world.hindsight->setting},
+                          {"preset", world.hindsight->preset},
+                          {"tried", world.hindsight->tried},
+                          {"on_grid", world.hindsight->on_grid},
+                          {"borders", world.hindsight->borders}};
+  }
   json["differences"] = Json::array();
   for (const auto* differences : {&world.differences, &world.pairs}) {
     for (const PairedDifference& difference : *differences) {
@@ -113,6 +120,10 @@ std::string differences_text(const std::string& head,
                      figure(d.battery_percent, 1.0, 1)});
   }
   return aligned(lines);
+}
+
+std::string hindsight_text(const WorldResult& world) {
+  return world.hindsight ? "fixed_best: " + world.hindsight->text() + "\n" : std::string{};
 }
 
 std::string decisions_text(const WorldResult& world) {
@@ -198,7 +209,7 @@ std::string to_text(const std::vector<WorldResult>& worlds) {
   std::string text;
   for (const WorldResult& world : worlds) {
     text +=
-        (text.empty() ? "" : "\n") + to_text(world.comparison) +
+        (text.empty() ? "" : "\n") + to_text(world.comparison) + hindsight_text(world) +
         differences_text("less " + world.comparison.rows.front().policy, world.differences, false) +
         differences_text("pairs", world.pairs, true) + decisions_text(world) + bounds_text(world);
   }

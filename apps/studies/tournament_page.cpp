@@ -130,9 +130,15 @@ std::string pareto_of(const WorldResult& world) {
   return pareto_plot_svg("mission time, s", "energy, kJ", std::move(points));
 }
 
+std::string hindsight_html(const WorldResult& world) {
+  return world.hindsight
+             ? "<p class=\"note\">fixed_best: " + html_text(world.hindsight->text()) + ".</p>\n"
+             : std::string{};
+}
+
 std::string world_html(const WorldResult& world) {
   return "<h2>" + html_text(world.comparison.scenario) + "</h2>\n<div class=\"panel\">" +
-         to_html(world.comparison) +
+         to_html(world.comparison) + hindsight_html(world) +
          differences_html("Less " + world.comparison.rows.front().policy, world.differences,
                           false) +
          differences_html("Pairs", world.pairs, true) + decisions_html(world) + bounds_html(world) +
@@ -201,8 +207,10 @@ std::string pairs_over_worlds(const std::vector<WorldResult>& worlds) {
 
 }  // namespace
 
-std::string tournament_page(const std::string& title, const std::vector<WorldResult>& worlds) {
-  std::string page = page_begin(title) + pairs_over_worlds(worlds);
+std::string tournament_page(const std::string& title,
+                            const std::vector<WorldResult>& worlds,
+                            const std::string& summary) {
+  std::string page = page_begin(title) + summary + pairs_over_worlds(worlds);
   for (const WorldResult& world : worlds) {
     page += world_html(world);
   }

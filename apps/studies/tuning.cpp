@@ -3,10 +3,12 @@
 #include "flyball/studies/tuning.h"
 
 #include "flyball/records/text_table.h"
+#include "flyball/studies/statistics.h"
 
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -28,14 +30,6 @@ Error wrong(const std::string& text, const std::string& why) {
 
 bool has_succeeded(const Summary& flight) {
   return flight.status == MissionStatus::succeeded;
-}
-
-std::string parameters_text(const Candidate& candidate) {
-  std::string text;
-  for (const auto& [name, value] : candidate.parameters) {
-    text += (text.empty() ? "" : " ") + name + "=" + number_text(value);
-  }
-  return text;
 }
 
 std::string quoted(const std::string& text) {
@@ -75,6 +69,16 @@ Result<TriedParameter> read_tried(const std::string& text) {
 int Candidate::failures() const {
   return static_cast<int>(flights.size() - static_cast<std::size_t>(std::count_if(
                                                flights.begin(), flights.end(), has_succeeded)));
+}
+
+double Candidate::median_energy_j() const {
+  std::vector<double> energies_j;
+  for (const Summary& flight : flights) {
+    if (has_succeeded(flight)) {
+      energies_j.push_back(flight.energy_total_j());
+    }
+  }
+  return energies_j.empty() ? 0.0 : median_of(std::move(energies_j));
 }
 
 double Candidate::mean_energy_j() const {
@@ -125,11 +129,30 @@ std::vector<TuningRound> tuning_rounds(std::size_t candidates, std::size_t seeds
 
 std::string preset_text(const std::string& policy,
                         const std::string& description,
-                        const Candidate& candidate) {
+                        const std::map<std::string, ParameterValue>& parameters) {
   std::string text = "description = " + quoted(description) + "\npolicy = " + quoted(policy) +
                      "\n\n[parameters]\n";
+  for (const auto& [name, value] : parameters) {
+    const auto* number = std::get_if<double>(&value);
+    text += name + " = " +
+            (number != nullptr ? number_text(*number) : quoted(std::get<std::string>(value))) +
+            "\n";
+  }
+  return text;
+}
+
+std::string preset_text(const std::string& policy,
+                        const std::string& description,
+                        const Candidate& candidate) {
+  return preset_text(policy, description,
+                     std::map<std::string, ParameterValue>{candidate.parameters.begin(),
+                                                           candidate.parameters.end()});
+}
+
+std::string parameters_text(const Candidate& candidate) {
+  std::string text;
   for (const auto& [name, value] : candidate.parameters) {
-    text += name + " = " + number_text(value) + "\n";
+    text += (text.empty() ? "" : " ") + name + "=" + number_text(value);
   }
   return text;
 }

@@ -151,7 +151,7 @@ class AerialPhotography final : public Workload {
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {localization_.pose.index, target_.caught_up.index, tracked_topic_.index};
-    spec.writes = {mission_.end.index};
+    spec.writes = {mission_.progress.index, mission_.end.index};
     legs_->declare(spec);
     declare_log(spec, mission_);
     graph.node(std::move(spec), [this](JobContext& job) {
@@ -190,6 +190,7 @@ class AerialPhotography final : public Workload {
     }
     if (const auto tracked = job.latest(tracked_topic_)) {
       tracked_s_ = tracked->seconds();
+      tell_progress(job, mission_, ProgressUnit::second, tracked_s_);
     }
     is_censored_ = tracked_s_ >= wanted.limit_s;
     if (!is_censored_ && log_.missed_in_row < wanted.lost_after_detections) {

@@ -31,7 +31,7 @@ class Mapping final : public Workload {
     spec.name = "mission";
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
-    spec.writes = {mission_.end.index};
+    spec.writes = {mission_.progress.index, mission_.end.index};
     flight_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       step(job);
@@ -71,6 +71,7 @@ class Mapping final : public Workload {
     next_estimate_ = job.now() + estimating_period;
     known_percent_ = known_->percent(*revision->map);
     log(job, mission_, "known", {{"known_percent", known_percent_}});
+    tell_progress(job, mission_, ProgressUnit::cubic_metre, known_->known_m3());
     if (known_percent_ >= brief_->settings.explore.coverage_percent) {
       flight_->go_home(job);
     }

@@ -10,6 +10,7 @@
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -31,7 +32,7 @@ class PackageDelivery final : public Workload {
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {perception_.localization.pose.index};
-    spec.writes = {perception_.clear.index, mission_.end.index};
+    spec.writes = {perception_.clear.index, mission_.progress.index, mission_.end.index};
     legs_->declare(spec);
     guidance_->declare(spec);
     declare_log(spec, mission_);
@@ -62,6 +63,7 @@ class PackageDelivery final : public Workload {
         }
         break;
       case Stage::flying:
+        tell_metres(job, pose);
         if (has_arrived(job)) {
           land(job);
         }
@@ -79,6 +81,15 @@ class PackageDelivery final : public Workload {
   [[nodiscard]] bool has_arrived(JobContext& job) const {
     const auto navigator = guidance_->state(job);
     return navigator && navigator->has_arrived && navigator->tracking_error.size_m < 0.1;
+  }
+
+  /// As the crow flies. A detour is no progress, and neither is the way back from one a loss.
+  void tell_metres(JobContext& job, const PoseEstimate& pose) {
+    const Vec3 goal_W = above(site(leg_ == Leg::out ? Leg::back : Leg::out));
+    const double leg_m = (brief_->site.goal_W - brief_->site.start_W).norm();
+    const double flown_m = leg_m - (goal_W - pose.X_WB.translation()).norm();
+    nearer_m_ = std::max(nearer_m_, flown_m + (leg_ == Leg::back ? leg_m : 0.0));
+    tell_progress(job, mission_, ProgressUnit::metre, nearer_m_);
   }
 
   [[nodiscard]] Vec3 above(const Vec3& ground_W) const {
@@ -141,6 +152,7 @@ class PackageDelivery final : public Workload {
   std::optional<Legs> legs_{};
   Leg leg_{Leg::out};
   Stage stage_{Stage::ready};
+  double nearer_m_{};  ///< To the goals of both legs together.
 };
 
 }  // namespace

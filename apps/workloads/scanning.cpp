@@ -204,7 +204,7 @@ class Scanning final : public Workload {
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {pose_.index, picture_.index};
-    spec.writes = {mission_.end.index, map_.index};
+    spec.writes = {mission_.progress.index, mission_.end.index, map_.index};
     legs_->declare(spec);
     guidance_->declare(spec);
     declare_log(spec, mission_);
@@ -212,6 +212,7 @@ class Scanning final : public Workload {
       while (const auto picture = job.take(picture_)) {
         if (picture->footprint) {
           seen_.add(*picture->footprint);
+          tell_progress(job, mission_, ProgressUnit::square_metre, covered_m2());
         }
       }
       if (const auto pose = job.latest(pose_)) {
@@ -244,6 +245,11 @@ class Scanning final : public Workload {
       case Stage::done:
         break;
     }
+  }
+
+  [[nodiscard]] double covered_m2() const {
+    const Vec3 extent = area_W_.max - area_W_.min;
+    return 1e-2 * seen_.covered_percent() * extent.x() * extent.y();
   }
 
   [[nodiscard]] Vec3 above_start() const {

@@ -5,6 +5,7 @@
 // of MAVBench (MICRO 2018), figure of search and rescue.
 
 #include "flyball/flight/exploration/exploration_flight.h"
+#include "flyball/flight/exploration/known_share.h"
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/people/person_finding.h"
 #include "flyball/flight/people/person_search.h"
@@ -18,9 +19,13 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
+constexpr auto estimating_period = 1s;
+constexpr double square_m = 0.3;  // Chosen: half a doorway.
+
 class SearchAndRescue final : public Workload {
  public:
   void build(Graph& graph, const FlightParts& parts) override {
+    brief_ = parts.brief;
     mission_ = parts.mission;
     flight_ = std::make_unique<ExplorationFlight>(graph, parts);
     sightings_ = add_person_search(graph, parts, flight_->perception().localization);
@@ -31,7 +36,7 @@ class SearchAndRescue final : public Workload {
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {sightings_.index};
-    spec.writes = {found_.index, mission_.end.index};
+    spec.writes = {found_.index, mission_.progress.index, mission_.end.index};
     flight_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       step(job);
@@ -56,12 +61,26 @@ class SearchAndRescue final : public Workload {
     while (const auto seen = job.take(sightings_)) {
       look_at(job, *seen);
     }
+    tell_area(job);
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
       end(job, MissionStatus::failed, MissionFailure::not_found);
     } else if (flight_->state() == ExplorationFlight::State::landed) {
       end(job, MissionStatus::succeeded, MissionFailure::none);
     }
+  }
+
+  /// Somebody who lies there shows in the colour image where the depth image has made space known.
+  void tell_area(JobContext& job) {
+    const auto revision = job.latest(flight_->perception().map);
+    if (!revision || job.now() < next_estimate_) {
+      return;
+    }
+    next_estimate_ = job.now() + estimating_period;
+    const Site& site = brief_->site;
+    tell_progress(job, mission_, ProgressUnit::square_metre,
+                  known_area_m2(*revision->map, site.volume_W,
+                                site.cruise_height_m + site.ground_z_m, square_m));
   }
 
   void end(JobContext& job, MissionStatus status, MissionFailure failure) {
@@ -79,11 +98,13 @@ class SearchAndRescue final : public Workload {
     }
   }
 
+  std::shared_ptr<const Brief> brief_{};  ///< Owners: all nodes.
   MissionTopics mission_{};
   std::unique_ptr<ExplorationFlight> flight_;
   std::unique_ptr<PersonFinding> finding_;
   Topic<Sightings> sightings_{};
   Topic<Finding> found_{};
+  MissionTime next_estimate_{};
   bool is_done_{};
 };
 

@@ -50,7 +50,7 @@ class Watch final : public Workload {
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {perception_.localization.pose.index, perception_.map.index};
-    spec.writes = {mission_.end.index};
+    spec.writes = {mission_.progress.index, mission_.end.index};
     legs_->declare(spec);
     guidance_->declare(spec);
     declare_log(spec, mission_);
@@ -120,6 +120,7 @@ class Watch final : public Workload {
       ++maps_;
     }
     longest_s_ = std::max(longest_s_, to_seconds(job.now() - news_));
+    tell_progress(job, mission_, ProgressUnit::second, to_seconds(job.now() - since_));
     if (to_seconds(job.now() - since_) < brief_->settings.watch.time_s) {
       return;
     }

@@ -16,6 +16,8 @@ constexpr double least_speed_m_s = 0.05;  // Chosen: near zero, energy per metre
 constexpr double smoothing = 0.1;  // Chosen: the load beside the map is a mean over some seconds.
 constexpr double too_slow = 1e3;   // A factor on the price of settings that respond too late: any
                                    // other is cheaper, but one of them is better than none.
+// After a stop, half of the map under way and the next one pass before a frame taken at rest is in.
+constexpr double maps_per_stop = 1.5;
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own speed limit many settings differ by milliwatts only. Among them the search
@@ -51,16 +53,8 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   EnergySearch search{settings, levels, std::move(*points), computer};
   search.in_force_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
                       knobs.value("cpu.frequency_hz")};
-  search.points_.prune(4, [&](const double* at, std::vector<double>& costs) {
-    const MapSetting setting{at[resolution], at[range], at[clock_axis]};
-    if (setting.range_m > levels[search.level(setting.resolution_m)].most_range_m) {
-      costs.assign(4, std::numeric_limits<double>::infinity());
-      return;
-    }
-    const double latency_s = search.predicted_s(setting);
-    costs = {setting.resolution_m, -setting.range_m, latency_s,
-             search.computer_.power(Hertz{setting.clock_hz}, search.busy_cores(setting, latency_s))
-                 .value()};
+  search.points_.keep_if([&](const double* at) {
+    return at[range] <= levels[search.level(at[resolution])].most_range_m;
   });
   search.estimates_.resize(search.points_.size());
   for (std::size_t point = 0; point < search.points_.size(); ++point) {
@@ -228,7 +222,8 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
                 : 0.0) +
       (around.failed_plans_per_m != nullptr
            ? (*around.failed_plans_per_m)[at_level] * settings_.failed_plan_s * hover_w
-           : 0.0);
+           : 0.0) +
+      around.stops_per_m * maps_per_stop * latency_s * hover_w;
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));
@@ -267,9 +262,14 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
   EnergyEstimate best;
   best.joules_per_m = std::numeric_limits<double>::infinity();
   best.response_s = std::numeric_limits<double>::infinity();
+  best.setting.resolution_m = std::numeric_limits<double>::infinity();
   for (const EnergyEstimate& estimated : estimates_) {
-    if (estimated.joules_per_m <= (1.0 + equal) * least_j && std::isfinite(least_j) &&
-        estimated.response_s < best.response_s) {
+    const bool is_finer = estimated.setting.resolution_m < best.setting.resolution_m;
+    const bool is_coarser = estimated.setting.resolution_m > best.setting.resolution_m;
+    const bool is_sooner = estimated.response_s < best.response_s;
+    const bool is_equal = estimated.joules_per_m <= (1.0 + equal) * least_j;
+    if (is_equal && std::isfinite(least_j) &&
+        (around.prefers_fine ? is_finer || (!is_coarser && is_sooner) : is_sooner)) {
       best = estimated;
     }
   }
@@ -304,10 +304,15 @@ MapSetting EnergySearch::idle(
 }
 
 void EnergySearch::put_in_force(const MapSetting& setting, MissionTime now) {
-  if (setting != in_force_) {
-    in_force_ = setting;
-    in_force_since_ = now;
+  if (setting == in_force_) {
+    return;
   }
+  in_force_ = setting;
+  in_force_since_ = now;
+  // The ticket assumes the clock that it was issued at; `note_clock` sees what is granted.
+  bound_.widen(
+      ticket_, level(setting.resolution_m),
+      from_seconds(predicted_s({setting.resolution_m, setting.range_m, issued_at_.value()})));
 }
 
 }  // namespace flyball

@@ -89,6 +89,14 @@ void LatencyBound::regrant(Ticket ticket, double factor) {
   }
 }
 
+void LatencyBound::widen(Ticket ticket, std::size_t level, Duration predicted) {
+  const double bound_s = to_seconds(bound(level, predicted));
+  if (Open* open = find(ticket); open != nullptr && bound_s > open->bound_s) {
+    open->level = level;
+    open->bound_s = bound_s;
+  }
+}
+
 void LatencyBound::settle(Ticket ticket, MissionTime ended) {
   if (const Open* open = find(ticket)) {
     close(static_cast<std::size_t>(open - open_.data()), ended > open->expires());

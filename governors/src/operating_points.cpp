@@ -27,16 +27,6 @@ Status check(const KnobAxis& axis, const KnobSettings& knobs) {
   return Done{};
 }
 
-/// At least as good everywhere and better somewhere; or equal everywhere (the earlier one stays).
-bool covers(const double* one, const double* other, std::size_t criteria) {
-  for (std::size_t i = 0; i < criteria; ++i) {
-    if (one[i] > other[i]) {
-      return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 Result<OperatingPoints> OperatingPoints::lattice(std::vector<KnobAxis> axes,
@@ -68,25 +58,10 @@ Result<OperatingPoints> OperatingPoints::lattice(std::vector<KnobAxis> axes,
   return points;
 }
 
-void OperatingPoints::prune(std::size_t criteria, const Judge& judge) {
-  const std::size_t count = size();
-  std::vector<double> costs;
-  costs.reserve(count * criteria);
-  std::vector<double> row(criteria);
-  for (std::size_t point = 0; point < count; ++point) {
-    judge(values(point), row);
-    costs.insert(costs.end(), row.begin(), row.end());
-  }
+void OperatingPoints::keep_if(const std::function<bool(const double* values)>& keeps) {
   std::vector<double> kept;
-  for (std::size_t point = 0; point < count; ++point) {
-    const double* mine = costs.data() + point * criteria;
-    bool dominated = false;
-    for (std::size_t other = 0; other < count && !dominated; ++other) {
-      const double* theirs = costs.data() + other * criteria;
-      const bool goes_first = other < point || !covers(mine, theirs, criteria);
-      dominated = other != point && covers(theirs, mine, criteria) && goes_first;
-    }
-    if (!dominated) {
+  for (std::size_t point = 0; point < size(); ++point) {
+    if (keeps(values(point))) {
       kept.insert(kept.end(), values(point), values(point) + axes_.size());
     }
   }

@@ -5,6 +5,7 @@
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace flyball {
@@ -30,7 +31,7 @@ Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
   if (!settings) {
     return settings.error();
   }
-  settings->spacing_m = limits->spacing_m();
+  settings->spacing_m = std::max(settings->spacing_m, limits->spacing_m());
   const auto levels =
       limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
   auto search = EnergySearch::make(*settings, levels, limits->ranges_m(), knobs, *power);

@@ -10,6 +10,7 @@
 #include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
+#include "ablation.h"
 #include "limited_search.h"
 #include <cmath>
 #include <optional>
@@ -35,15 +36,18 @@ class MissionEnergy final : public flyball::Policy,
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
         {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
     all.insert(all.end(), own.begin(), own.end());
+    all.push_back(flyball::Ablation::parameter());
     return all;
   }
 
-  flyball::Status start(const flyball::Parameters& given,
+  flyball::Status start(const flyball::Parameters& all,
                         const flyball::KnobSettings& knobs,
                         const flyball::BoardModel& board) override {
+    without_.emplace(all);
+    const flyball::Parameters given = without_->begins_with(all, parameters());
     deceleration_m_s2_ = given.number("deceleration_m_s2");
-    auto made = flyball::LimitedSearch::make(std::string{self}, given, knobs, board,
-                                             search_settings(given));
+    auto made = flyball::LimitedSearch::make(std::string{self}, given, knobs,
+                                             without_->begins_with(board), search_settings(given));
     if (!made) {
       return made.error();
     }
@@ -52,13 +56,17 @@ class MissionEnergy final : public flyball::Policy,
     return flyball::Done{};
   }
 
-  [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
+  [[nodiscard]] flyball::Decision decide(const Observation& all) noexcept override {
+    constexpr std::size_t every_step = 1000;  // More than any computer has clocks.
+    const Observation seen = without_->seen(all);
     search_->learn(seen);
     const auto within_s = limits_->idle_map_s(seen);
     const MapSetting& home = limits_->home();
-    const MapSetting best = within_s ? search_->idle(home.resolution_m, home.range_m, *within_s,
-                                                     limits_->idle_raised_by(), seen.now)
-                                     : search_->choose(surroundings(seen), seen.now).setting;
+    const std::size_t raised_by =
+        without_->keeps_top_clock() ? every_step : limits_->idle_raised_by();
+    const MapSetting best =
+        within_s ? search_->idle(home.resolution_m, home.range_m, *within_s, raised_by, seen.now)
+                 : search_->choose(surroundings(seen), seen.now).setting;
     return limits_->wish(seen, best);
   }
 
@@ -74,9 +82,9 @@ class MissionEnergy final : public flyball::Policy,
  private:
   static constexpr const char* self = "policy \"mission_energy\"";
 
-  [[nodiscard]] static flyball::Result<flyball::EnergySearchSettings> search_settings(
-      const flyball::Parameters& given) {
-    flyball::EnergySearchSettings settings;
+  [[nodiscard]] flyball::Result<flyball::EnergySearchSettings> search_settings(
+      const flyball::Parameters& given) const {
+    flyball::EnergySearchSettings settings = without_->begins_with(flyball::EnergySearchSettings{});
     settings.bound.alpha = given.number("alpha");
     settings.learn_s = given.number("learn_s");
     if (const double margin = given.number("margin"); margin != 0.0) {
@@ -96,10 +104,12 @@ class MissionEnergy final : public flyball::Policy,
     if (deceleration_m_s2_ > 0.0) {
       around.deceleration_m_s2 = deceleration_m_s2_;
     }
+    without_->limit(around, limits_->ranges_m());
     return around;
   }
 
   double deceleration_m_s2_{};
+  std::optional<flyball::Ablation> without_{};
   std::optional<flyball::MissionLimits> limits_{};
   std::optional<flyball::EnergySearch> search_{};
 };

@@ -166,12 +166,25 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   const Passability::Verdict gaps = passability_.judge(seen);
   const bool near = seen.speed_limit_m_s <= narrow_m_s_;
   Surroundings around = limits_of(seen);
-  around.coarsest_m = levels_m_[gaps.coarsest_level];
+  around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], under_ceiling_m(seen));
   around.least_range_m = gaps.look_m;
   around.needs_top_clock = gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise;
+  stops_.note(seen);
+  around.stops_per_m = stops_.per_m();
   is_lattice_ ? limit_lattice(seen, near, in_force, around)
               : limit_two_levels(seen, near, in_force, around);
   return around;
+}
+
+// In cells that the ceiling fills down to the vehicle, every plan would begin in an occupied cell.
+// Cells of size r >= q reach at most r - q farther down than the map's own cells of q.
+double MissionLimits::under_ceiling_m(const Observation& seen) const {
+  double largest_m = levels_m_.front();
+  for (const double cells_m : levels_m_) {
+    const double lost_m = std::max(0.0, cells_m - seen.map_resolution_m);
+    largest_m = seen.headroom_m == 0.0 || seen.headroom_m > lost_m ? cells_m : largest_m;
+  }
+  return largest_m;
 }
 
 void MissionLimits::limit_lattice(const Observation& seen,
@@ -216,6 +229,8 @@ void MissionLimits::limit_two_levels(const Observation& seen,
                                      const MapSetting& in_force,
                                      Surroundings& around) const {
   constexpr double no_limit = std::numeric_limits<double>::max();
+  // Another map begins with every change of the cells, and a plan in small ones finds every gap.
+  around.prefers_fine = true;
   const bool fine = around.coarsest_m <= levels_m_.front();
   // Far away, noise opens and closes gaps, so narrow ones are looked at from nearby only.
   const bool from_nearby = (fine || near) && !(around.least_range_m > 0.0);

@@ -14,6 +14,7 @@
 
 #include "failed_plans.h"
 #include "passability.h"
+#include "stops.h"
 #include "visibility.h"
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@
 namespace flyball {
 
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
+/// - The ceiling above the vehicle, which larger cells would fill down to it.
 /// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
 ///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
 ///   the rate of failures at each level is a price of its cells (`FailedPlans`).
@@ -87,6 +89,7 @@ class MissionLimits {
                         const MapSetting& in_force,
                         Surroundings& around) const;
   [[nodiscard]] Passability passability(const Parameters& given) const;
+  [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
   [[nodiscard]] double noise_free_m(double resolution_m) const;
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
   [[nodiscard]] double fine_budget(const Observation& seen) const;
@@ -106,6 +109,7 @@ class MissionLimits {
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
+  Stops stops_{};
   FailedPlans failed_;
   bool seeks_door_{};  ///< A plan has failed near a narrow place.
 };

@@ -4,8 +4,15 @@
 namespace flyball {
 
 BoardModel board_model_of(const PlatformModel& platform) {
-  return {platform.max_cores, platform.frequencies, platform.switching_time, platform.power,
-          platform.thermal};
+  BoardModel board;
+  board.max_cores = platform.max_cores;
+  board.frequencies = platform.frequencies;
+  board.switching_time = platform.switching_time;
+  board.power = platform.power;
+  board.thermal = platform.thermal;
+  board.gpu = platform.gpu;
+  board.memory_contention = platform.memory_contention;
+  return board;
 }
 
 }  // namespace flyball

@@ -14,14 +14,21 @@
 
 namespace flyball {
 
+/// Which servers a job waits for.
+enum class Place : std::uint8_t { board, gpu, edge };
+
 struct Job {
   std::uint64_t id{};  ///< In the order of release.
+  Place place{Place::board};
   bool has_started{};
+  bool is_in_transit{};  ///< Its inputs or its outputs are on the link.
+  bool is_done{};        ///< On the edge computer, and its outputs are on the way.
   bool is_told_to_stop{};
   JobRecord record{};
 
   double left{1.0};     ///< Share of the work that is still to do.
   double one_core_s{};  ///< Time of the whole work on one core at the present clock.
+  double shared{1.0};   ///< Share of that time in which several cores can work side by side.
   double share{};       ///< Cores granted now.
   double speed{};       ///< How many times faster than one core that is.
   double busy_s{};      ///< Core time so far.

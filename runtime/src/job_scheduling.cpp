@@ -10,6 +10,7 @@
 #include "realtime/cpu_meter.h"
 #include "virtual_computer.h"
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace flyball {
@@ -24,28 +25,100 @@ void VirtualComputer::request_dispatch() {
 void VirtualComputer::dispatch() {
   is_dispatch_pending = false;
   advance();
-  const std::vector<int> urgent = nodes_by_urgency();
+  send_inputs();
+  serve(Place::board, queue.now() < stalled_until ? 0.0 : free_cores());
+  serve_gpu();
+  if (edge) {
+    serve(Place::edge, edge->model.point.cores);
+  }
+}
+
+void VirtualComputer::serve(Place place, double cores) {
+  const std::vector<int> urgent = nodes_by_urgency(place);
+  std::vector<double> shares = shares_of(urgent, cores);
+  // A job that has computed may leave cores to others: only then it is known what they would bring.
+  while (compute_new(urgent, shares)) {
+    shares = shares_of(urgent, cores);
+  }
+  const double busy = (place == Place::board ? taken_cores : 0.0) +
+                      std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (std::size_t i = 0; i < urgent.size(); ++i) {
+    const int node = urgent[i];
+    if (!has_moved(node)) {
+      const Job& job = *nodes[index(node)].job;
+      apply_share(node, shares[i],
+                  platform_of(node).slowdown(price_list(node, job.record.work), clock_of(place),
+                                             busy - shares[i]));
+    }
+  }
+}
+
+std::vector<double> VirtualComputer::shares_of(const std::vector<int>& urgent,
+                                               double cores) const {
   std::vector<CoreClaim> claims;
   claims.reserve(urgent.size());
   for (const int node : urgent) {
     claims.push_back({spec(node).priority, useful_cores(node)});
   }
-  const bool is_stalled = queue.now() < stalled_until;
-  const std::vector<double> shares = share_cores(claims, is_stalled ? 0.0 : free_cores());
+  return share_cores(claims, cores);
+}
+
+bool VirtualComputer::compute_new(const std::vector<int>& urgent,
+                                  const std::vector<double>& shares) {
+  bool is_any = false;
   for (std::size_t i = 0; i < urgent.size(); ++i) {
     if (shares[i] > 0.0 && !nodes[index(urgent[i])].job->has_started) {
       compute(urgent[i]);
+      is_any = true;
     }
   }
-  for (std::size_t i = 0; i < urgent.size(); ++i) {
-    apply_share(urgent[i], shares[i]);
+  return is_any;
+}
+
+/// One job at a time: the most urgent of those that wait. It is not interrupted.
+void VirtualComputer::serve_gpu() {
+  const std::vector<int> urgent = nodes_by_urgency(Place::gpu);
+  if (urgent.empty()) {
+    return;
+  }
+  const auto running = std::find_if(urgent.begin(), urgent.end(), [this](int node) {
+    return nodes[index(node)].job->share > 0.0;
+  });
+  const int next = running != urgent.end() ? *running : urgent.front();
+  if (!nodes[index(next)].job->has_started) {
+    compute(next);
+  }
+  if (!has_moved(next)) {
+    apply_share(next, 1.0);
   }
 }
 
-std::vector<int> VirtualComputer::nodes_by_urgency() const {
+bool VirtualComputer::has_moved(int node) {
+  Job& job = *nodes[index(node)].job;
+  if (!job.has_started || job.place == Place::edge) {
+    return false;
+  }
+  const Place place =
+      platform.runs_on_gpu(price_list(node, job.record.work)) ? Place::gpu : Place::board;
+  if (place == job.place) {
+    return false;
+  }
+  job.place = place;
+  request_dispatch();
+  return true;
+}
+
+bool VirtualComputer::is_gpu_busy() const {
+  return std::any_of(nodes.begin(), nodes.end(), [](const NodeState& node) {
+    return node.job && node.job->place == Place::gpu && node.job->share > 0.0;
+  });
+}
+
+std::vector<int> VirtualComputer::nodes_by_urgency(Place place) const {
   std::vector<int> urgent;
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    if (nodes[index(node)].job) {
+    const auto& job = nodes[index(node)].job;
+    if (job && job->place == place && !job->is_in_transit) {
       urgent.push_back(node);
     }
   }
@@ -57,9 +130,18 @@ std::vector<int> VirtualComputer::nodes_by_urgency() const {
 }
 
 double VirtualComputer::useful_cores(int node) const {
-  const NodeSpec& wanted = spec(node);
   // A second core that brings nothing is left to others.
-  return platform.speedup(wanted.cost, 2.0) > 1.0 ? wanted.threads : 1.0;
+  return speed_on(node, 2.0) > 1.0 ? spec(node).threads : 1.0;
+}
+
+// Of a job that has not computed yet, nobody knows how much of it is shared.
+double VirtualComputer::speed_on(int node, double cores) const {
+  const std::optional<Job>& job = nodes[index(node)].job;
+  const bool is_known = job && job->has_started;
+  const double together = platform_of(node).speedup(
+      is_known ? price_list(node, job->record.work) : spec(node).cost, cores);
+  const double shared = is_known ? job->shared : 1.0;
+  return together > 1.0 && shared < 1.0 ? 1.0 / (1.0 - shared + shared / together) : together;
 }
 
 void VirtualComputer::compute(int node) {
@@ -83,6 +165,18 @@ void VirtualComputer::compute(int node) {
   job.outputs = std::move(context.outputs);
   job.at_end = std::move(context.last_actions);
   job.one_core_s = to_seconds(time_on_one_core(node, job.record.work));
+  if (job.record.work.tells_shared()) {
+    const double shared_s = to_seconds(time_on_one_core(node, job.record.work.shared()));
+    job.shared = job.one_core_s > 0.0 ? shared_s / job.one_core_s : 0.0;
+  }
+}
+
+Hertz VirtualComputer::clock_of(Place place) const {
+  return place == Place::edge ? edge->model.point.frequency : point.frequency;
+}
+
+const Platform& VirtualComputer::platform_of(int node) const {
+  return nodes[index(node)].job->place == Place::edge ? *edge->model.platform : platform;
 }
 
 const std::string& VirtualComputer::price_list(int node, const Work& work) const {
@@ -91,13 +185,18 @@ const std::string& VirtualComputer::price_list(int node, const Work& work) const
 
 Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
   const std::string& kernel = price_list(node, work);
-  return kernel.empty() ? Duration::zero() : platform.job_time(kernel, work, point.frequency);
+  if (kernel.empty()) {
+    return Duration::zero();
+  }
+  return nodes[index(node)].job->place == Place::edge
+             ? edge->job_time(kernel, work)
+             : platform.job_time(kernel, work, point.frequency);
 }
 
-void VirtualComputer::apply_share(int node, double share) {
+void VirtualComputer::apply_share(int node, double share, double slowdown) {
   Job& job = *nodes[index(node)].job;
-  const double speed =
-      share <= 1.0 ? share : platform.speedup(price_list(node, job.record.work), share);
+  const double undisturbed = share <= 1.0 ? share : speed_on(node, share);
+  const double speed = undisturbed / slowdown;
   if (job.has_end && speed == job.speed) {
     job.share = share;
     return;  // its end stays exactly where it is
@@ -131,6 +230,7 @@ void VirtualComputer::advance() {
   }
   busy_core_s += busy_cores() * elapsed_s;
   busiest_core_s += std::min(1.0, busy_cores()) * elapsed_s;
+  busy_gpu_s += is_gpu_busy() ? elapsed_s : 0.0;
   for (NodeState& node : nodes) {
     if (node.job && node.job->has_started) {
       node.job->advance(elapsed_s);
@@ -146,11 +246,11 @@ double VirtualComputer::free_cores() const {
                   point.cores - std::max(0.0, taken_cores - idle));
 }
 
-/// Of the whole computer.
+/// Of the whole computer on board.
 double VirtualComputer::busy_cores() const {
   double sum = taken_cores;
   for (const NodeState& node : nodes) {
-    sum += node.job ? node.job->share : 0.0;
+    sum += node.job && node.job->place == Place::board ? node.job->share : 0.0;
   }
   return sum;
 }
@@ -158,7 +258,7 @@ double VirtualComputer::busy_cores() const {
 void VirtualComputer::rescale_running_jobs() {
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
     auto& job = nodes[index(node)].job;
-    if (job && job->has_started) {
+    if (job && job->has_started && job->place != Place::edge) {
       job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
       job->has_end = false;  // at the same share it still ends at another time
     }

@@ -34,6 +34,11 @@ class MessageExchange {
   [[nodiscard]] std::optional<MissionTime> owed_since(int node) const;
   /// The job that was owed for the oldest trigger will not run.
   void drop_trigger(int node);
+  /// The newest message of a topic; version 0: there is none.
+  [[nodiscard]] const VersionedMessage& newest(int topic) const {
+    return topics_[static_cast<std::size_t>(topic)].newest;
+  }
+  [[nodiscard]] std::uint64_t version(int topic) const { return newest(topic).version; }
   /// Messages that were pushed out before a job could read them.
   [[nodiscard]] std::uint64_t drops() const { return drops_; }
 

@@ -65,6 +65,48 @@ ObservationField optional(ObservationField one) {
   return one;
 }
 
+template <Stage stage>
+ObservationField job_s(const char* name) {
+  return {
+      name,
+      [](const Observation& seen) { return to_seconds(seen.stage(stage).latency); },
+      [](Observation& seen, double value) { seen.stage(stage).latency = nearest_duration(value); },
+      true,
+      "s",
+      "From the trigger to the result of this stage's newest job"};
+}
+
+template <Stage stage>
+ObservationField load(const char* name) {
+  return {name,
+          [](const Observation& seen) { return seen.stage(stage).load; },
+          [](Observation& seen, double value) { seen.stage(stage).load = value; },
+          true,
+          "1",
+          "Cores that the jobs of this stage kept busy which ended since the last decision"};
+}
+
+template <Stage stage>
+ObservationField gigacycles(const char* name) {
+  return {name,
+          [](const Observation& seen) { return seen.stage(stage).gigacycles; },
+          [](Observation& seen, double value) { seen.stage(stage).gigacycles = value; },
+          true,
+          "1e9",
+          "Clock cycles that this stage's newest job took"};
+}
+
+ObservationField progress_unit_field() {
+  return {"progress_unit",
+          [](const Observation& seen) { return static_cast<double>(seen.progress_unit); },
+          [](Observation& seen, double value) {
+            seen.progress_unit = static_cast<ProgressUnit>(std::clamp(whole<int>(value), 0, 4));
+          },
+          true,
+          "1",
+          "Unit of the progress: 0 none is told, 1 m, 2 m^2, 3 m^3, 4 s"};
+}
+
 ObservationField phase_field() {
   return {"phase",
           [](const Observation& seen) { return static_cast<double>(seen.phase); },
@@ -79,7 +121,7 @@ ObservationField phase_field() {
 }  // namespace
 
 // A member that is missing below is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 232, "a new member belongs into observation_fields() too");
+static_assert(sizeof(Observation) == 432, "a new member belongs into observation_fields() too");
 
 const std::vector<ObservationField>& observation_fields() {
   using O = Observation;
@@ -137,6 +179,33 @@ const std::vector<ObservationField>& observation_fields() {
           "Lowest temperature at which the computer loses clocks; 0: nobody says")),
       seconds<&O::map_age>("map_age_s",
                            "Since the frame of the newest map was captured; 0: nobody says"),
+      optional(field<&O::headroom_m>(
+          "headroom_m", "m", "From the top of the body up to an obstacle in the map, at most 5")),
+      progress_unit_field(),
+      optional(field<&O::progress>(
+          "progress", "1", "What the mission has achieved since take-off, in progress_unit")),
+      optional(scalar<&O::cpu_power>("cpu_power_w", "W", "Power of the processors' rail")),
+      optional(scalar<&O::gpu_power>("gpu_power_w", "W", "Power of the graphics processor's rail")),
+      optional(scalar<&O::memory_power>("memory_power_w", "W", "Power of the memory's rail")),
+      optional(scalar<&O::soc_power>("soc_power_w", "W", "Power of the rest of the chip")),
+      job_s<Stage::map>("map_job_s"),
+      load<Stage::map>("map_load"),
+      gigacycles<Stage::map>("map_gigacycles"),
+      job_s<Stage::plan>("plan_job_s"),
+      load<Stage::plan>("plan_load"),
+      gigacycles<Stage::plan>("plan_gigacycles"),
+      job_s<Stage::detect>("detect_job_s"),
+      load<Stage::detect>("detect_load"),
+      gigacycles<Stage::detect>("detect_gigacycles"),
+      job_s<Stage::track>("track_job_s"),
+      load<Stage::track>("track_load"),
+      gigacycles<Stage::track>("track_gigacycles"),
+      job_s<Stage::localize>("localize_job_s"),
+      load<Stage::localize>("localize_load"),
+      gigacycles<Stage::localize>("localize_gigacycles"),
+      job_s<Stage::explore>("explore_job_s"),
+      load<Stage::explore>("explore_load"),
+      gigacycles<Stage::explore>("explore_gigacycles"),
   };
   return all;
 }

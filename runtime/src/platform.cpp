@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/assert.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace flyball {
@@ -32,10 +33,32 @@ Duration ModeledPlatform::job_time(std::string_view kernel,
       at_one_ghz_s += item.count * price->second;
     }
   }
-  const double time_s = cost.scale * at_one_ghz_s * (cost.a / in_ghz(frequency) + cost.b);
+  const double time_s = cost.scale * at_one_ghz_s * (cost.a / in_ghz(frequency) + waiting(cost));
   // 1e9 s are 30 years: a count that large is a broken kernel, and nanoseconds would overflow.
   FLYBALL_ASSERT(time_s >= 0.0 && time_s < 1e9, "time_s=%g of one job", time_s);
   return from_seconds(time_s);
+}
+
+double ModeledPlatform::waiting(const KernelCost& cost) const {
+  return cost.on_gpu && model_.gpu ? cost.b / in_ghz(model_.gpu->clock) : cost.b;
+}
+
+bool ModeledPlatform::runs_on_gpu(std::string_view kernel) const {
+  const auto entry = model_.kernels.find(kernel);
+  return model_.gpu && entry != model_.kernels.end() && entry->second.on_gpu;
+}
+
+Watts ModeledPlatform::gpu_power() const {
+  return Watts{model_.gpu ? model_.gpu->busy_w : 0.0};
+}
+
+double ModeledPlatform::slowdown(std::string_view kernel, Hertz clock, double other_cores) const {
+  const auto entry = model_.kernels.find(kernel);
+  if (entry == model_.kernels.end() || entry->second.on_gpu || !(other_cores > 0.0)) {
+    return 1.0;
+  }
+  const auto& [a, b] = std::pair{entry->second.a, entry->second.b};
+  return 1.0 + b * model_.memory_contention * other_cores / (a / in_ghz(clock) + b);
 }
 
 double ModeledPlatform::speedup(std::string_view kernel, double cores) const {
@@ -52,7 +75,9 @@ bool ModeledPlatform::knows(std::string_view kernel) const {
 }
 
 Watts ModeledPlatform::power(const OperatingPoint& point, double busy_cores) const {
-  return model_.power.power(point.frequency, busy_cores);
+  const double cores_on = std::max<double>(point.cores, busy_cores);
+  return model_.power.power(point.frequency, busy_cores,
+                            std::max(0.0, model_.max_cores - cores_on));
 }
 
 Watts PowerCost::core_power(Hertz clock) const {
@@ -70,9 +95,9 @@ Hertz PowerCost::memory_clock(Hertz clock) const {
   return memory;
 }
 
-Watts PowerCost::power(Hertz clock, double busy_cores) const {
-  const double cpu_w =
-      cpu_constant_w + cpu_linear_w * in_ghz(clock) + busy_cores * core_power(clock).value();
+Watts PowerCost::power(Hertz clock, double busy_cores, double cores_off) const {
+  const double cpu_w = cpu_constant_w - cores_off * idle_core_w + cpu_linear_w * in_ghz(clock) +
+                       busy_cores * core_power(clock).value();
   const double ram_w = memory_w + memory_linear_w * in_ghz(memory_clock(clock));
   return Watts{board_w + converter * (soc_w + ram_w + cpu_w)};
 }

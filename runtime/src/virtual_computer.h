@@ -7,6 +7,7 @@
 
 #include "flyball/runtime/virtual_executor.h"
 
+#include "edge_computer.h"
 #include "job.h"
 #include "message_exchange.h"
 #include "node_job.h"
@@ -20,7 +21,8 @@ struct NodeState {
   explicit NodeState(const NodeSpec& spec) : context{spec, nullptr} {}
 
   std::optional<Job> job{};
-  NodeJob context;  ///< Of the job that computes, for a moment of mission time.
+  bool is_offloaded{};  ///< From its next job on.
+  NodeJob context;      ///< Of the job that computes, for a moment of mission time.
 };
 
 struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
@@ -46,8 +48,17 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   // Scheduling.
   void request_dispatch();
   void dispatch();
+  void serve(Place place, double cores);
+  void serve_gpu();
+  /// How many of so many cores each of these nodes gets.
+  [[nodiscard]] std::vector<double> shares_of(const std::vector<int>& urgent, double cores) const;
+  /// Starts those that get a core for the first time; false: none of them was new.
+  bool compute_new(const std::vector<int>& urgent, const std::vector<double>& shares);
   void compute(int node);
-  void apply_share(int node, double share);
+  /// @param slowdown  By others that use the memory, at least 1.
+  void apply_share(int node, double share, double slowdown = 1.0);
+  /// The job of `node`, which has been computed, waits for other servers than its node's kernel.
+  [[nodiscard]] bool has_moved(int node);
   void schedule_end(int node);
   void advance();
   void set_operating_point(const OperatingPoint& wanted);
@@ -55,12 +66,32 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   void apply(const OperatingPoint& granted);
   void rescale_running_jobs();
   [[nodiscard]] double free_cores() const;
+  /// Where the job of `node` runs.
+  [[nodiscard]] const Platform& platform_of(int node) const;
+  [[nodiscard]] Hertz clock_of(Place place) const;
   /// The kernel whose price list counts for a node's work.
   [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
   [[nodiscard]] double useful_cores(int node) const;
-  [[nodiscard]] std::vector<int> nodes_by_urgency() const;
+  /// How many times faster than on one core the node's job is on `cores`.
+  [[nodiscard]] double speed_on(int node, double cores) const;
+  /// Those whose jobs wait for these servers, or have them.
+  [[nodiscard]] std::vector<int> nodes_by_urgency(Place place) const;
   [[nodiscard]] double busy_cores() const;
+  [[nodiscard]] bool is_gpu_busy() const;
+
+  // The edge computer: offloading.cpp.
+  void place(int node, bool on_edge);
+  [[nodiscard]] Place place_of(int node) const;
+  /// Computes the offloaded jobs that have not begun, and sends what they have read.
+  void send_inputs();
+  void send_inputs(int node);
+  /// The job of `node` has been computed on the edge computer, and its outputs go to the vehicle.
+  void send_outputs(int node);
+  /// Puts the job of `node` into transit, and calls `then` when it has arrived.
+  void travel(int node, MissionTime arrival, void (VirtualComputer::*then)(int node));
+  void arrive(int node);
+  [[nodiscard]] double input_bytes(int node);
 
   /// Schedules `action` for as long as this executor lives: the queue outlives it.
   void at(MissionTime time, EventOrder order, std::function<void(VirtualComputer&)> action);
@@ -75,14 +106,17 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   double taken_cores;    ///< Busy with somebody else's work.
   MessageExchange exchange;
   std::deque<NodeState> nodes{};
+  std::optional<EdgeComputer> edge{};
   /// Of each topic. Deques: a listener may add another one while it runs.
   std::vector<std::deque<std::function<void(const Message&)>>> listeners;
+  std::function<Message(int topic, const Message&)> filter{};  ///< Empty: all messages pass.
   std::deque<std::function<void(const JobRecord&)>> job_listeners;
   std::deque<std::function<void(int, OnMiss)>> miss_listeners;
   std::uint64_t jobs_released{};
   std::uint64_t dropped_periods{};
   double busy_core_s{};
   double busiest_core_s{};
+  double busy_gpu_s{};
   MissionTime advanced_to{};
   MissionTime stalled_until{};
   bool is_dispatch_pending{};

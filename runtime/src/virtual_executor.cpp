@@ -60,7 +60,11 @@ void VirtualComputer::trigger_periodically(int node) {
   }
 }
 
-void VirtualComputer::publish(int topic, const Message& message) {
+void VirtualComputer::publish(int topic, const Message& published) {
+  const Message message = filter ? filter(topic, published) : published;
+  if (!message) {
+    return;
+  }
   for (const int node : exchange.put(topic, message, queue.now())) {
     if (!nodes[index(node)].job) {
       release(node, queue.now());
@@ -76,6 +80,7 @@ void VirtualComputer::publish(int topic, const Message& message) {
 void VirtualComputer::release(int node, MissionTime at_time) {
   Job job;
   job.id = jobs_released++;
+  job.place = place_of(node);
   job.record.node = node;
   job.record.released = at_time;
   if (const Duration deadline = spec(node).deadline; deadline > Duration::zero()) {
@@ -138,6 +143,10 @@ void VirtualComputer::end_job(int node) {
     kill_job(node);
     return;
   }
+  if (const Job& ended = *nodes[index(node)].job; ended.place == Place::edge && !ended.is_done) {
+    send_outputs(node);
+    return;
+  }
   const Job job = take_job(node);
   release_next(node);
   for (const auto& action : job.at_end) {
@@ -145,6 +154,9 @@ void VirtualComputer::end_job(int node) {
   }
   for (const auto& [topic, message] : job.outputs) {
     publish(topic, message);
+    if (job.place == Place::edge) {
+      edge->knows(topic, exchange.version(topic));
+    }
   }
   tell(job.record);
 }
@@ -175,6 +187,10 @@ VirtualExecutor::VirtualExecutor(const Graph& graph,
 }
 
 VirtualExecutor::~VirtualExecutor() = default;
+
+void VirtualExecutor::filter_messages(std::function<Message(int topic, const Message&)> filter) {
+  computer_->filter = std::move(filter);
+}
 
 void VirtualExecutor::on_job(std::function<void(const JobRecord&)> listener) {
   computer_->job_listeners.push_back(std::move(listener));
@@ -212,6 +228,25 @@ double VirtualExecutor::busy_cores() const {
 
 std::uint64_t VirtualExecutor::drops() const {
   return computer_->exchange.drops() + computer_->dropped_periods;
+}
+
+void VirtualExecutor::connect_edge(const EdgeModel& edge) {
+  computer_->edge.emplace(edge, computer_->graph.topics().size());
+}
+
+void VirtualExecutor::place(int node, bool on_edge) {
+  computer_->place(node, on_edge);
+}
+
+DeviceUse VirtualExecutor::device_use() const {
+  DeviceUse use;
+  const double since_s = to_seconds(computer_->queue.now() - computer_->advanced_to);
+  use.gpu_s = computer_->busy_gpu_s + (computer_->is_gpu_busy() ? since_s : 0.0);
+  if (computer_->edge) {
+    use.sending_s = computer_->edge->up.on_air_s(computer_->queue.now());
+    use.receiving_s = computer_->edge->down.on_air_s(computer_->queue.now());
+  }
+  return use;
 }
 
 void VirtualExecutor::stop() {

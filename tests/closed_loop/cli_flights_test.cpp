@@ -210,6 +210,46 @@ TEST(CliFlights, a_tournament_goes_on_where_it_was_stopped) {
   EXPECT_FALSE(fs::exists(flyball.place.path("t/near"))) << "records go when they are counted";
 }
 
+TEST(CliFlights, a_tournament_finds_the_best_single_setting_in_hindsight) {
+  const FlyballProgram flyball;
+  const std::string line = "tournament --worlds " + short_world(flyball, "near") +
+                           " --policies fixed_fine,fixed_coarse --pairs fixed_fine:fixed_best "
+                           "--hindsight --seeds 1 --jobs 2 --out t --json";
+  const auto held = flyball.run(line);
+  ASSERT_EQ(held.exit_code, 0) << held.errors;
+  const auto world = nlohmann::json::parse(held.output)[0];
+  EXPECT_GE(world["fixed_best"]["tried"], 24);
+  const auto& rows = world["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  ASSERT_EQ(rows[2]["policy"], "fixed_best");
+  EXPECT_LE(rows[2]["energy_total_j"]["median"], rows[0]["energy_total_j"]["median"])
+      << "the first one is on the grid";
+  const std::string preset = world["fixed_best"]["preset"];
+  EXPECT_EQ(flyball.run("run " + flyball.place.path("near.toml") + " --out r --policy " + preset)
+                .exit_code,
+            0);
+  const auto again = flyball.run(line);
+  EXPECT_EQ(again.output, held.output);
+  EXPECT_NE(again.errors.find("32 of 32 flights are known from before"), std::string::npos)
+      << again.errors;
+}
+
+TEST(CliFlights, a_tournament_flies_a_policy_without_each_of_its_parts) {
+  const FlyballProgram flyball;
+  const auto held = flyball.run("tournament --worlds " + short_world(flyball, "near") +
+                                " --ablate --seeds 1 --jobs 2 --out t --json");
+  ASSERT_EQ(held.exit_code, 0) << held.errors;
+  const auto told = nlohmann::json::parse(held.output);
+  const auto& rows = told["worlds"][0]["rows"];
+  EXPECT_EQ(rows[0]["policy"], "mission_energy");
+  EXPECT_EQ(rows.size(), told["parts"].size() + 1);
+  EXPECT_EQ(rows[1]["policy"],
+            "mission_energy_without_" + told["parts"][0]["part"].get<std::string>());
+  EXPECT_EQ(told["parts"][0]["pairs"], 1);
+  EXPECT_NE(flyball.place.content("t/tournament.html").find("What each part earns"),
+            std::string::npos);
+}
+
 TEST(CliFlights, tuning_writes_the_setting_that_took_the_least_energy) {
   const FlyballProgram flyball;
   const auto tuned = flyball.run("tune " + short_world(flyball, "near") +

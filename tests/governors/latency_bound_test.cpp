@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/latency_bound.h"
 
+#include "flyball/governors/energy_search.h"
 #include "flyball/runtime/random.h"
 
 #include <cmath>
@@ -94,6 +95,36 @@ TEST(QuantileTracker, finds_the_quantile_of_what_does_not_change) {
   EXPECT_NEAR(static_cast<double>(tracker.misses()) / 20000.0, 0.1, 0.01);
 }
 
+/// Misses of levels that a flight uses for 50 maps each, over 200 flights.
+double misses_of_short_levels(const std::function<double(RandomStream&)>& error) {
+  RandomStream draw{10, "bound"};
+  std::uint64_t misses = 0;
+  for (int flight = 0; flight < 200; ++flight) {
+    QuantileTracker tracker{EnergySearchSettings{}.bound};
+    (void)mean_miss(tracker, 50, [&](double) { return error(draw); });
+    misses += tracker.misses();
+  }
+  return static_cast<double>(misses) / (200.0 * 50.0);
+}
+
+// Quantiles of recorded errors: 95 % of them are below .2 to .4.
+TEST(QuantileTracker, a_level_that_is_seldom_used_keeps_the_share_too) {
+  EXPECT_LE(misses_of_short_levels([](RandomStream& draw) { return 0.15 * draw.normal(); }), 0.05);
+  EXPECT_LE(misses_of_short_levels([](RandomStream& draw) {
+              return 0.05 * draw.normal() + (draw.uniform() < 0.1 ? draw.uniform(0.0, 1.0) : 0.0);
+            }),
+            0.07)
+      << "heavy tail";
+  double scene = 0.0;
+  EXPECT_LE(misses_of_short_levels([&](RandomStream& draw) {
+              // A change of scene every 25 maps, which the prediction follows with a gain of .1.
+              scene = draw.uniform() < 0.04 ? 0.5 * draw.normal() : 0.9 * scene;
+              return scene + 0.06 * draw.normal();
+            }),
+            0.07)
+      << "drift";
+}
+
 TEST(LatencyBound, multiplies_the_prediction_by_the_margin_of_the_level) {
   LatencyBound bound{2, 4, {0.05, 0.05, 0.2}};
   bound.tracker(1).restore(std::log(2.0));
@@ -143,6 +174,21 @@ TEST(LatencyBound, moves_with_the_clock_that_was_granted) {
   bound.settle(job, at_s(0.24));
   EXPECT_EQ(bound.tracker(0).misses(), 0U);
   EXPECT_EQ(bound.tracker(0).decisions(), 1U);
+}
+
+TEST(LatencyBound, a_change_of_setting_leaves_the_longer_bound_at_its_own_level) {
+  LatencyBound bound{2, 4, {0.05, 0.05, 0.0}};
+  const auto longer = bound.issue(0, at_s(0.0), 100ms);
+  bound.widen(longer, 1, 300ms);
+  bound.settle(longer, at_s(0.2));
+  EXPECT_EQ(bound.tracker(0).decisions(), 0U);
+  EXPECT_EQ(bound.tracker(1).decisions(), 1U);
+  EXPECT_EQ(bound.tracker(1).misses(), 0U);
+  const auto shorter = bound.issue(0, at_s(1.0), 100ms);
+  bound.widen(shorter, 1, 50ms);
+  bound.settle(shorter, at_s(1.09));
+  EXPECT_EQ(bound.tracker(0).decisions(), 1U);
+  EXPECT_EQ(bound.tracker(0).misses(), 0U);
 }
 
 TEST(LatencyBound, levels_learn_apart) {

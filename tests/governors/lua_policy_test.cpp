@@ -117,6 +117,25 @@ TEST_F(LuaPolicy, is_told_what_the_computer_draws_and_where_it_gets_too_hot) {
   EXPECT_EQ(806.4e6, kit::wish_for(wished, "cpu.frequency_hz"));
 }
 
+TEST_F(LuaPolicy, is_told_the_price_of_cores) {
+  const auto policy = open(
+      "function start(given, knobs, board)\n"
+      "  off, slower = board.off_core_w, board.memory_contention\n"
+      "end\n"
+      "function decide(seen)\n"
+      "  return {['map.range_m'] = off, ['map.rate_hz'] = slower}\n"
+      "end");
+  ASSERT_TRUE(policy.ok()) << policy.error().message;
+  BoardModel board = conformance_board();
+  board.power->converter = 1.25;
+  board.power->idle_core_w = 8.0;
+  board.memory_contention = 20.0;
+  ASSERT_TRUE(kit::start(**policy, {}, conformance_knobs(), board).ok());
+  const Decision wished = (*policy)->decide({});
+  EXPECT_EQ(10.0, kit::wish_for(wished, "map.range_m"));
+  EXPECT_EQ(20.0, kit::wish_for(wished, "map.rate_hz"));
+}
+
 TEST_F(LuaPolicy, is_not_told_what_nobody_knows) {
   const auto policy = open(
       "function start(given, knobs, board)\n"

@@ -35,33 +35,13 @@ TEST(OperatingPoints, are_all_combinations_the_last_axis_fastest) {
   EXPECT_EQ(points.values(5)[1], 2e9);
 }
 
-TEST(OperatingPoints, keep_only_what_is_not_dominated) {
+TEST(OperatingPoints, keep_what_a_rule_accepts) {
   OperatingPoints points = six();
-  // The slow clock costs less and computes as fast as the other: the fast one has no reason.
-  points.prune(2, [](const double* values, std::vector<double>& costs) {
-    costs[0] = values[0];
-    costs[1] = values[1];
-  });
-  ASSERT_EQ(points.size(), 1U);  // finest and slowest is best by both
-  EXPECT_EQ(points.values(0)[0], 0.15);
-  EXPECT_EQ(points.values(0)[1], 1e9);
-}
-
-TEST(OperatingPoints, keep_what_trades_one_criterion_for_another) {
-  OperatingPoints points = six();
-  points.prune(3, [](const double* values, std::vector<double>& costs) {
-    costs[0] = values[0];                                  // coarser sees less
-    costs[1] = 1.0 / (values[0] * values[0] * values[1]);  // time
-    costs[2] = values[1];                                  // power
-  });
-  EXPECT_EQ(points.size(), 6U);
-}
-
-TEST(OperatingPoints, of_equal_points_the_first_stays) {
-  OperatingPoints points = six();
-  points.prune(1, [](const double* /*values*/, std::vector<double>& costs) { costs[0] = 1.0; });
-  ASSERT_EQ(points.size(), 1U);
-  EXPECT_EQ(points.values(0)[0], 0.15);
+  points.keep_if([](const double* values) { return values[0] > 0.2 && values[1] > 1.5e9; });
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points.values(0)[0], 0.3);
+  EXPECT_EQ(points.values(1)[0], 0.6);
+  EXPECT_EQ(points.values(1)[1], 2e9);
 }
 
 TEST(OperatingPoints, refuse_what_no_knob_can_be) {

@@ -7,6 +7,7 @@
 #include "flyball/runtime/virtual_executor.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,8 @@ inline double ms(MissionTime t) {
   return ms(t.time_since_epoch());
 }
 
-/// `serial`, `memory` (half of its time does not scale with the clock) and `amdahl` (80 %
-/// parallel).
+/// `serial`, `memory` (half of its time does not scale with the clock), `amdahl` (80 % parallel) and
+/// `race` (all of what is shared).
 inline PlatformModel rig_model(double switching_ms) {
   PlatformModel model;
   model.name = "rig";
@@ -33,6 +34,7 @@ inline PlatformModel rig_model(double switching_ms) {
   model.kernels["serial"] = {{{"ms", 1e-3}}, 1.0, 1.0, 0.0, 0.0};
   model.kernels["memory"] = {{{"ms", 1e-3}}, 1.0, 0.5, 0.5, 0.0};
   model.kernels["amdahl"] = {{{"ms", 1e-3}}, 1.0, 1.0, 0.0, 0.8};
+  model.kernels["race"] = {{{"ms", 1e-3}}, 1.0, 1.0, 0.0, 1.0};
   return model;
 }
 
@@ -45,6 +47,7 @@ struct RigJob {
   OnMiss on_miss{OnMiss::warn};
   std::size_t capacity{1};
   double stop_latency_ms{};
+  std::optional<double> shared_ms{};  ///< Of `time_ms`, what several cores can share.
 };
 
 /// Nodes that a message starts. Each publishes, as an output, how many jobs it has computed.
@@ -72,7 +75,10 @@ struct ComputerRig {
       taken.push_back(message ? *message : -1);
       context.publish(out, static_cast<int>(taken.size()));
       Work work;
-      work.add("ms", job.time_ms);
+      work.add("ms", job.time_ms - job.shared_ms.value_or(0.0));
+      if (job.shared_ms) {
+        work.add_shared("ms", *job.shared_ms);
+      }
       return work;
     });
     return node;

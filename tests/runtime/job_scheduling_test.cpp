@@ -138,6 +138,55 @@ TEST(JobScheduling, threads_of_a_serial_kernel_leave_the_other_cores_free) {
   EXPECT_NEAR(rig.computer->busy_core_s(), 0.1, 1e-9);
 }
 
+/// Searches that race: 20 ms alone, then four times 40 ms side by side.
+RigJob race(int priority = 0) {
+  RigJob job{180.0, priority, "race", 4};
+  job.shared_ms = 160.0;
+  return job;
+}
+
+TEST(JobScheduling, a_race_takes_the_time_of_one_search_where_each_has_a_core) {
+  for (const int cores : {1, 2, 4}) {
+    ComputerRig rig;
+    const int job = rig.add(race());
+    rig.start(cores);
+    rig.trigger(job, 0.0);
+    rig.run();
+    EXPECT_NEAR(rig.end_ms(job), 20.0 + 160.0 / cores, end_tolerance_ms) << cores;
+    EXPECT_EQ(rig.of(job).work.count("ms"), 180.0);
+  }
+}
+
+TEST(JobScheduling, a_race_goes_on_with_the_cores_that_others_leave_idle) {
+  ComputerRig rig;
+  const int other = rig.add({50.0, 1});
+  const int job = rig.add(race());
+  rig.start(2);
+  rig.trigger(other, 0.0);
+  rig.trigger(job, 0.0);
+  rig.run();
+  // Alone on one core for 50 ms of 180; then twice as fast as Amdahl lets 1/9 of it be serial.
+  const double s2 = 1.0 / (1.0 / 9.0 + 8.0 / 9.0 / 2.0);
+  EXPECT_NEAR(rig.end_ms(other), 50.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.end_ms(job), 50.0 + 130.0 / s2, end_tolerance_ms);
+}
+
+TEST(JobScheduling, a_job_of_several_threads_that_shares_nothing_leaves_the_other_cores_free) {
+  ComputerRig rig;
+  RigJob straight{50.0, 1, "race", 4};
+  straight.shared_ms = 0.0;
+  const int job = rig.add(straight);
+  const int other = rig.add({50.0, 0});
+  rig.start(2);
+  rig.trigger(job, 0.0);
+  rig.trigger(other, 0.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(job), 50.0, end_tolerance_ms);
+  EXPECT_EQ(rig.of(other).started, at_ms(0.0));
+  EXPECT_NEAR(rig.end_ms(other), 50.0, end_tolerance_ms);
+  EXPECT_NEAR(rig.computer->busy_core_s(), 0.1, 1e-9);
+}
+
 TEST(JobScheduling, a_faster_clock_half_way_speeds_up_the_rest) {
   ComputerRig rig;
   const int a = rig.add({100.0});

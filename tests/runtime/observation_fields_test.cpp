@@ -25,6 +25,16 @@ TEST(ObservationFields, carry_an_observation_over_bit_for_bit) {
   seen.cores = -1;
   seen.frequency = Hertz{2.0352e9};
   seen.rotor_power = Watts{251.7};
+  seen.progress_unit = ProgressUnit::second;
+  seen.progress = 17.25;
+  seen.cpu_power = Watts{1.0};
+  seen.gpu_power = Watts{2.0};
+  seen.memory_power = Watts{3.0};
+  seen.soc_power = Watts{4.0};
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    const double x = 1.0 + static_cast<double>(i);
+    seen.stages[i] = {Duration{7 + static_cast<std::int64_t>(i)}, x, 0.5 * x};
+  }
   Observation copy;
   for (const ObservationField& field : observation_fields()) {
     field.set(copy, field.get(seen));
@@ -36,6 +46,14 @@ TEST(ObservationFields, carry_an_observation_over_bit_for_bit) {
   EXPECT_EQ(seen.latency, copy.latency);
   EXPECT_EQ(seen.latency_bound, copy.latency_bound);
   EXPECT_EQ(seen.map_age, copy.map_age);
+  EXPECT_EQ(seen.progress_unit, copy.progress_unit);
+  EXPECT_EQ(seen.progress, copy.progress);
+  EXPECT_EQ(seen.soc_power.value(), copy.soc_power.value());
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    EXPECT_EQ(seen.stages[i].latency, copy.stages[i].latency) << i;
+    EXPECT_EQ(seen.stages[i].load, copy.stages[i].load) << i;
+    EXPECT_EQ(seen.stages[i].gigacycles, copy.stages[i].gigacycles) << i;
+  }
   EXPECT_EQ(seen.map_revision, copy.map_revision);
   EXPECT_EQ(seen.deadline_misses, copy.deadline_misses);
 }
@@ -66,6 +84,7 @@ TEST(ObservationFields, take_nonsense_of_a_damaged_record_without_harm) {
       field.set(seen, value);
     }
     EXPECT_LE(static_cast<int>(seen.phase), 3);
+    EXPECT_LE(static_cast<int>(seen.progress_unit), 4);
   }
 }
 

@@ -72,6 +72,34 @@ TEST(PlatformFile, is_read_number_by_number) {
   EXPECT_EQ(octomap.seconds_per.at("updates"), 1e-6);
 }
 
+TEST(PlatformFile, may_have_a_gpu_and_a_price_of_idle_cores_and_of_contention) {
+  const ScratchFolder scratch;
+  std::string text = with("board_w = 1.0", "board_w = 1.0\nidle_core_w = 0.02");
+  text.replace(text.find("[power]"), 7,
+               "memory_contention = 0.3\n[gpu]\nclock_hz = 1e9\nbusy_w = 4\n[power]");
+  text.replace(text.find("scale = 2.0"), 11, "scale = 2.0\non = \"gpu\"");
+  const auto model = load_platform(scratch.file("board.toml", text));
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->power.idle_core_w, 0.02);
+  EXPECT_EQ(model->memory_contention, 0.3);
+  ASSERT_TRUE(model->gpu);
+  EXPECT_EQ(model->gpu->clock, Hertz{1e9});
+  EXPECT_EQ(model->gpu->busy_w, 4.0);
+  EXPECT_TRUE(model->kernels.at("octomap").on_gpu);
+}
+
+TEST(PlatformFile, whose_gpu_or_idle_cores_cannot_be_is_refused) {
+  EXPECT_NE(failure_of(with("scale = 2.0", "on = \"gpu\""))
+                .find("kernels.octomap.on = \"gpu\" needs a [gpu] table"),
+            std::string::npos);
+  EXPECT_NE(failure_of(with("scale = 2.0", "on = \"moon\""))
+                .find("kernels.octomap.on = \"moon\" must be \"cores\" or \"gpu\""),
+            std::string::npos);
+  EXPECT_NE(failure_of(with("board_w = 1.0", "board_w = 1.0\nidle_core_w = 0.06"))
+                .find("power.idle_core_w times max_cores is more than power.cpu_constant_w"),
+            std::string::npos);
+}
+
 TEST(PlatformFile, that_is_missing_is_named_with_the_way_out) {
   const auto model = load_platform("no/such/board.toml");
   ASSERT_FALSE(model);

@@ -3,8 +3,6 @@
 #include "cli/sweep/on_slurm.h"
 
 #include "flyball/records/report.h"
-#include "flyball/runtime/program.h"
-#include "flyball/studies/comparison.h"
 
 #include "cli/claimed_folder.h"
 #include "cli/sweep/slurm.h"
@@ -22,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Where tasks and the waiting command meet.
 struct Meeting {
-  explicit Meeting(const SweepRequest& request) : folder{request.batch.folder + "/slurm"} {}
+  explicit Meeting(const std::string& shared) : folder{shared + "/slurm"} {}
   std::string folder;
   [[nodiscard]] std::string missing() const { return folder + "/missing.txt"; }
   /// Holds the number of the array that was started last, until it has been awaited.
@@ -53,37 +51,6 @@ std::vector<std::size_t> share_of(const std::vector<std::size_t>& missing,
     share.push_back(missing[i]);
   }
   return share;
-}
-
-/// Everything but where and in which part, as it was asked for.
-std::vector<std::string> part_command(const SweepRequest& request) {
-  std::string seeds = seeds_text(request.plan.seeds);
-  seeds.erase(std::remove(seeds.begin(), seeds.end(), ' '), seeds.end());
-  std::string policies;
-  for (const std::string& policy : request.plan.policies) {
-    policies += (policies.empty() ? "" : ",") + policy;
-  }
-  std::vector<std::string> words{program_file(), "sweep",  request.flight.scenario,
-                                 "--policies",   policies, "--seeds",
-                                 seeds,          "--out",  request.batch.folder};
-  for (const SweepAxis& axis : request.plan.axes) {
-    std::string values;
-    for (const std::string& value : axis.values) {
-      values += (values.empty() ? "" : ",") + value;
-    }
-    words.insert(words.end(), {"--over", axis.key + "=" + values});
-  }
-  for (const std::string& setting : request.flight.settings) {
-    words.insert(words.end(), {"--set", setting});
-  }
-  for (const std::string& library : request.flight.plugins.libraries()) {
-    words.insert(words.end(), {"--kernels", library});
-  }
-  if (request.batch.keeps_records) {
-    words.emplace_back("--keep-records");
-  }
-  words.emplace_back("--part");
-  return words;
 }
 
 /// False when a signal came meanwhile.
@@ -161,14 +128,14 @@ std::optional<int> await_and_collect(const Meeting& meeting, FlightStore& store)
 }
 
 /// Starts an array for these flights. @return Its number.
-Result<std::string> start_array(const SweepRequest& request,
+Result<std::string> start_array(const FlightArray& flights,
                                 const Meeting& meeting,
-                                const std::vector<std::size_t>& missing,
-                                std::size_t processors) {
+                                const std::vector<std::size_t>& missing) {
   // A few for each processor: a task that is killed loses little, and starting one costs seconds.
   constexpr std::size_t tasks_for_each = 4;
   constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize unless set otherwise.
-  const std::size_t tasks = std::min({missing.size(), tasks_for_each * processors, most_tasks});
+  const std::size_t tasks =
+      std::min({missing.size(), tasks_for_each * flights.processors, most_tasks});
   std::string lines;
   for (const std::size_t number : missing) {
     lines += std::to_string(number) + "\n";
@@ -176,8 +143,7 @@ Result<std::string> start_array(const SweepRequest& request,
   if (const Status written = write_file(meeting.missing(), lines); !written) {
     return written.error();
   }
-  Result<std::string> array =
-      submit({"flyball-sweep", part_command(request), tasks, meeting.folder});
+  Result<std::string> array = submit({"flyball", flights.command, tasks, meeting.folder});
   if (array) {
     const Status written =
         write_file(meeting.array(), *array + "\n" + std::to_string(tasks) + "\n");
@@ -210,11 +176,10 @@ Error still_missing(const Meeting& meeting, std::size_t count) {
 
 }  // namespace
 
-std::optional<int> fly_on_slurm(const SweepRequest& request,
-                                std::size_t processors,
+std::optional<int> fly_on_slurm(const FlightArray& array,
                                 FlightStore& store,
                                 const std::vector<StoredFlight*>& flights) {
-  const Meeting meeting{request};
+  const Meeting meeting{array.folder};
   if (const auto prepared = prepare_folder(meeting.folder); !prepared) {
     return refuse({prepared.error()});
   }
@@ -233,13 +198,13 @@ std::optional<int> fly_on_slurm(const SweepRequest& request,
       return exit_mission_failed;
     }
     missing_before = missing.size();
-    if (const auto array = start_array(request, meeting, missing, processors); !array) {
-      return refuse({array.error()});
+    if (const auto started = start_array(array, meeting, missing); !started) {
+      return refuse({started.error()});
     }
   }
 }
 
-int fly_part(const SweepRequest& request, const std::string& part) {
+int fly_part(const StoredBatch& batch, const std::string& part, const PlanFlight& plan) {
   unsigned long task = 0;
   unsigned long tasks = 0;
   int end = 0;
@@ -250,17 +215,14 @@ int fly_part(const SweepRequest& request, const std::string& part) {
     return refuse(
         {{ErrorCode::invalid_input, "--part " + part + " is no part; give for example 2/8"}});
   }
-  const Meeting meeting{request};
-  SweepRequest own = request;
-  own.batch.jobs = 1;
+  const Meeting meeting{batch.folder};
+  StoredBatch own = batch;
+  own.jobs = 1;
   // Tasks that removed each other's empty folders would get in each other's way.
-  own.batch.folder = request.batch.keeps_records ? request.batch.folder : meeting.part(task);
+  own.folder = batch.keeps_records ? batch.folder : meeting.part(task);
   std::vector<StoredFlight> flights;
   for (const std::size_t number : share_of(read_numbers(meeting.missing()), task, tasks)) {
-    auto planned = number < flight_count(own)
-                       ? plan_sweep_flight(own, number)
-                       : std::vector<Error>{{ErrorCode::invalid_input,
-                                             meeting.missing() + " is of another sweep"}};
+    auto planned = plan(number, own.folder);
     if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
       return refuse(*errors);
     }
@@ -274,7 +236,7 @@ int fly_part(const SweepRequest& request, const std::string& part) {
   if (!store) {
     return refuse({store.error()});
   }
-  return unfinished(fly_stored(own.batch, *store, pointers_to(flights))).value_or(exit_success);
+  return unfinished(fly_stored(own, *store, pointers_to(flights))).value_or(exit_success);
 }
 
 }  // namespace flyball

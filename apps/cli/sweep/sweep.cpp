@@ -3,6 +3,7 @@
 #include "flyball/studies/sweep.h"
 
 #include "flyball/records/report.h"
+#include "flyball/runtime/program.h"
 
 #include "cli/claimed_folder.h"
 #include "cli/commands.h"
@@ -129,7 +130,11 @@ int fly_and_show(const SweepRequest& request,
                  std::optional<std::size_t> slurm_processors) {
   const std::vector<StoredFlight*> all = pointers_to(flights);
   if (slurm_processors) {
-    if (const auto code = fly_on_slurm(request, *slurm_processors, store, all)) {
+    std::vector<std::string> task = sweep_words(request);
+    task.front() = program_file();
+    task.insert(task.end(), {"--out", request.batch.folder, "--part"});
+    const FlightArray array{request.batch.folder, std::move(task), *slurm_processors};
+    if (const auto code = fly_on_slurm(array, store, all)) {
       return *code;
     }
   } else if (const auto code = unfinished(fly_stored(request.batch, store, all))) {
@@ -145,7 +150,12 @@ int sweep(const SweepOptions& options) {
   }
   const SweepRequest& request = std::get<SweepRequest>(read);
   if (!options.part.empty()) {
-    return fly_part(request, options.part);
+    return fly_part(request.batch, options.part,
+                    [&](std::size_t number, const std::string& folder) {
+                      SweepRequest part = request;
+                      part.batch.folder = folder;
+                      return plan_sweep_flight(part, number);
+                    });
   }
   auto planned = plan_sweep(request);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {

@@ -47,6 +47,32 @@ void add_new(const std::vector<Error>& errors, std::vector<Error>& all) {
   }
 }
 
+/// `1..3` or `1,4,9`, as `--seeds` reads it.
+std::string seeds_word(const SweepRequest& request) {
+  std::string seeds = seeds_text(request.plan.seeds);
+  seeds.erase(std::remove(seeds.begin(), seeds.end(), ' '), seeds.end());
+  return seeds;
+}
+
+/// With commas between them.
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ",") + word;
+  }
+  return text;
+}
+
+/// What all flights of a request have in common.
+void add_common(const SweepRequest& request, std::vector<std::string>& words) {
+  for (const std::string& setting : request.flight.settings) {
+    words.insert(words.end(), {"--set", setting});
+  }
+  for (const std::string& library : request.flight.plugins.libraries()) {
+    words.insert(words.end(), {"--kernels", library});
+  }
+}
+
 }  // namespace
 
 std::size_t flight_count(const SweepRequest& request) {
@@ -57,6 +83,11 @@ std::variant<StoredFlight, std::vector<Error>> plan_sweep_flight(const SweepRequ
                                                                  std::size_t number) {
   const std::vector<SweepPoint> points = points_of(request.plan.axes, request.plan.policies);
   const std::vector<std::uint64_t>& seeds = request.plan.seeds;
+  if (number >= flight_count(request)) {
+    return std::vector<Error>{
+        {ErrorCode::invalid_input,
+         "the array is of another sweep than that of " + request.flight.scenario}};
+  }
   const SweepPoint& point = points[number / seeds.size()];
   const std::string settings = point.settings(request.plan.axes);
   const std::string folder =
@@ -123,25 +154,35 @@ std::string command_of(const StoredFlight& flight) {
 }
 
 std::vector<std::string> point_commands(const SweepRequest& request) {
-  std::string seeds = seeds_text(request.plan.seeds);
-  seeds.erase(std::remove(seeds.begin(), seeds.end(), ' '), seeds.end());
   std::vector<std::string> commands;
   for (const SweepPoint& point : points_of(request.plan.axes, request.plan.policies)) {
-    std::vector<std::string> words{"flyball",    "compare",    request.flight.scenario,
-                                   "--policies", point.policy, "--seeds",
-                                   seeds};
-    for (const std::string& setting : request.flight.settings) {
-      words.insert(words.end(), {"--set", setting});
-    }
+    std::vector<std::string> words{"flyball",    "compare", request.flight.scenario, "--policies",
+                                   point.policy, "--seeds", seeds_word(request)};
+    add_common(request, words);
     for (const Override& setting : varied_at(request, point)) {
       words.insert(words.end(), {"--set", setting.key_and_value});
-    }
-    for (const std::string& library : request.flight.plugins.libraries()) {
-      words.insert(words.end(), {"--kernels", library});
     }
     commands.push_back(shell_text(words));
   }
   return commands;
+}
+
+std::vector<std::string> sweep_words(const SweepRequest& request) {
+  std::vector<std::string> words{"flyball",
+                                 "sweep",
+                                 request.flight.scenario,
+                                 "--policies",
+                                 joined(request.plan.policies),
+                                 "--seeds",
+                                 seeds_word(request)};
+  for (const SweepAxis& axis : request.plan.axes) {
+    words.insert(words.end(), {"--over", axis.key + "=" + joined(axis.values)});
+  }
+  add_common(request, words);
+  if (request.batch.keeps_records) {
+    words.emplace_back("--keep-records");
+  }
+  return words;
 }
 
 }  // namespace flyball

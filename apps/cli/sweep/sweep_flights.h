@@ -24,6 +24,7 @@ struct SweepRequest {
 /// All flights of a sweep by number: seed by seed within a point, point by point.
 [[nodiscard]] std::size_t flight_count(const SweepRequest& request);
 /// Reads and checks the scenario of one flight.
+/// @error `invalid_input`, also for a number that no flight has.
 [[nodiscard]] std::variant<StoredFlight, std::vector<Error>> plan_sweep_flight(
     const SweepRequest& request, std::size_t number);
 /// All of them; every mistake once.
@@ -34,6 +35,9 @@ struct SweepRequest {
 [[nodiscard]] std::string command_of(const StoredFlight& flight);
 /// `flyball compare ...` for each point: the same flights side by side.
 [[nodiscard]] std::vector<std::string> point_commands(const SweepRequest& request);
+
+/// `flyball sweep ...` that flies all of them, without where to.
+[[nodiscard]] std::vector<std::string> sweep_words(const SweepRequest& request);
 
 /// The words as a shell reads them back: in quotes where needed.
 [[nodiscard]] std::string shell_text(const std::vector<std::string>& words);

@@ -77,6 +77,7 @@ double KnownShare::percent(const OccupancyView& map) {
       front_.push_back(cell);
     }
   }
+  known_m3_ = static_cast<double>(known) * cell_m_ * cell_m_ * cell_m_;
   const std::size_t free_cells = front_.size();
   std::size_t looked_at = 0;
   while (looked_at < front_.size()) {  // Free cells first, then what they reach, in that order.
@@ -85,6 +86,19 @@ double KnownShare::percent(const OccupancyView& map) {
   const std::size_t reachable = front_.size() - free_cells;
   const auto all = static_cast<double>(known + reachable);
   return known == 0 ? 0.0 : 100.0 * static_cast<double>(known) / all;
+}
+
+double known_area_m2(const OccupancyView& map, const Aabb& volume_W, double z_m, double square_m) {
+  FLYBALL_ASSERT(square_m > 0.0, "squares of %g m", square_m);
+  const std::size_t columns = cells_along(volume_W.max.x() - volume_W.min.x(), square_m);
+  const std::size_t rows = cells_along(volume_W.max.y() - volume_W.min.y(), square_m);
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < columns * rows; ++i) {
+    const Vec3 p_W{volume_W.min.x() + square_m * (static_cast<double>(i % columns) + 0.5),
+                   volume_W.min.y() + square_m * (static_cast<double>(i / columns) + 0.5), z_m};
+    known += map.state(p_W) == CellState::unknown ? 0U : 1U;
+  }
+  return static_cast<double>(known) * square_m * square_m;
 }
 
 }  // namespace flyball

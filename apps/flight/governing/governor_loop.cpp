@@ -19,11 +19,23 @@ constexpr double density_radius_m = 6.0;
 constexpr double density_half_band_m = 0.3;
 // Chosen: farther obstacles than this make no difference to any policy.
 constexpr double nearest_limit_m = 20.0;
+constexpr double headroom_limit_m = 5.0;    // Chosen: four times the largest cells.
+constexpr double headroom_step_m = 0.05;    // A third of the finest cells.
 constexpr double path_width_reach_m = 8.0;  // A little farther than the delivery camera's range.
 // Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
 // wide.
 constexpr std::array<double, 3> density_places_m{4.0, 8.0, 12.0};
 constexpr std::array<double, 5> limit_places_m{4.0, 8.0, 12.0, 16.0, 20.0};
+constexpr std::string_view offload = "offload.";  // And the name of a node.
+constexpr std::array<std::pair<const char*, Stage>, 8> stage_names{
+    {{"map", Stage::map},
+     {"plan", Stage::plan},
+     {"detect", Stage::detect},
+     {"track_buffered", Stage::track},
+     {"track_real_time", Stage::track},
+     {"see", Stage::localize},
+     {"slam_load", Stage::localize},
+     {"explore", Stage::explore}}};
 constexpr int govern_priority = 90;  // It takes no time on the modeled computer.
 
 /// On the path, or its end.
@@ -55,11 +67,37 @@ double density_ahead(const NavigatorState& navigator, const OccupancyView& map) 
   return most;
 }
 
+/// Over the whole body. By bisection, because a taller box never holds less.
+double headroom_m(const Vec3& p_W, const Cylinder& body, const OccupancyView& map) {
+  const Vec3 half{body.radius_m, body.radius_m, 0.0};
+  const Vec3 top_W = p_W + Vec3::UnitZ() * body.half_height_m;
+  double free_m = 0.0;
+  double blocked_m = headroom_limit_m;
+  if (!map.has_occupied({top_W - half, top_W + half + Vec3::UnitZ() * blocked_m})) {
+    return headroom_limit_m;
+  }
+  while (blocked_m - free_m > headroom_step_m) {
+    const double middle_m = 0.5 * (free_m + blocked_m);
+    const bool is_free = !map.has_occupied({top_W - half, top_W + half + Vec3::UnitZ() * middle_m});
+    (is_free ? free_m : blocked_m) = middle_m;
+  }
+  return blocked_m;
+}
+
 }  // namespace
 
 GovernorInputs governor_inputs(const Graph& graph) {
-  return {graph.find<NavigatorState>("navigator"), graph.find<MapRevision>("map_revision"),
-          Duration{}, nullptr};
+  GovernorInputs inputs;
+  inputs.navigator = graph.find<NavigatorState>("navigator");
+  inputs.map = graph.find<MapRevision>("map_revision");
+  for (std::size_t node = 0; node < graph.nodes().size(); ++node) {
+    for (const auto& [name, stage] : stage_names) {
+      if (graph.nodes()[node].spec.name == name) {
+        inputs.stages[static_cast<std::size_t>(stage)].push_back(static_cast<int>(node));
+      }
+    }
+  }
+  return inputs;
 }
 
 GovernorLoop::GovernorLoop(const FlightParts& parts,
@@ -174,6 +212,7 @@ GovernorLoop::Surroundings GovernorLoop::newest(JobContext& job) const {
 void GovernorLoop::look_around(JobContext& job) {
   const auto state = job.latest(parts_.mission.state);
   seen_.phase = state ? state->phase : MissionPhase::wait;
+  observe_progress(job);
   const auto [navigator, map] = newest(job);
   if (navigator) {
     observe_flight(*navigator);
@@ -186,6 +225,13 @@ void GovernorLoop::look_around(JobContext& job) {
     if (inputs_.future != nullptr) {
       governor_.foretell(inputs_.future->look(*navigator, {*parts_.brief, knobs_, *map->map}));
     }
+  }
+}
+
+void GovernorLoop::observe_progress(JobContext& job) {
+  if (const auto progress = job.latest(parts_.mission.progress)) {
+    seen_.progress_unit = progress->unit;
+    seen_.progress = progress->value;
   }
 }
 
@@ -209,6 +255,7 @@ void GovernorLoop::observe_map(const NavigatorState& navigator, const OccupancyV
   seen_.density_ahead = density_ahead(navigator, map);
   observe_gaps(navigator, map);
   seen_.nearest_obstacle_m = map.nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
+  seen_.headroom_m = headroom_m(p_W, parts_.brief->narrow_body(), map);
 }
 
 void GovernorLoop::observe_gaps(const NavigatorState& navigator, const OccupancyView& map) {
@@ -239,6 +286,7 @@ void GovernorLoop::observe_computer(MissionTime now) {
   last_busy_core_s_ = board.busy_core_s;
   last_busiest_core_s_ = board.busiest_core_s;
   last_ = now;
+  observe_stages(elapsed_s);
   seen_.deadline_misses = static_cast<std::uint32_t>(board.deadline_misses - last_misses_);
   last_misses_ = board.deadline_misses;
   seen_.queue_drops = static_cast<std::uint32_t>(board.drops - last_drops_);
@@ -248,10 +296,33 @@ void GovernorLoop::observe_computer(MissionTime now) {
   seen_.cores = board.granted.cores;
   seen_.frequency = board.granted.frequency;
   seen_.computer_power = board.computer_power;
+  seen_.cpu_power = board.rails.cpu;
+  seen_.gpu_power = board.rails.gpu;
+  seen_.memory_power = board.rails.memory;
+  seen_.soc_power = board.rails.soc;
   seen_.rotor_power = board.rotor_power;
   seen_.battery_percent = board.battery_percent;
   seen_.temperature_c = board.temperature_c;
   seen_.trip_c = board.trip_c;
+}
+
+/// Of a stage with several nodes, their loads add up, and the slowest counts for the rest.
+void GovernorLoop::observe_stages(double elapsed_s) {
+  for (std::size_t stage = 0; stage < stage_count; ++stage) {
+    StageUse& use = seen_.stages[stage];
+    use = {};
+    double core_s = 0.0;
+    for (const int node : inputs_.stages[stage]) {
+      const NodeUse used = board_.use_of(node);
+      core_s += used.busy_core_s;
+      if (used.latency >= use.latency) {
+        use.latency = used.latency;
+        use.gigacycles = used.gigacycles;
+      }
+    }
+    use.load = elapsed_s > 0.0 ? (core_s - last_stage_core_s_[stage]) / elapsed_s : 0.0;
+    last_stage_core_s_[stage] = core_s;
+  }
 }
 
 /// Tells once of each knob whose wished value is not legal in this mission: a mapper may know no
@@ -316,6 +387,23 @@ void GovernorLoop::apply(JobContext& job, const Decision& decision) {
     knobs_.computer = board_.read().granted;
     has_new_knobs_ = true;
   }
+  place_nodes();
+}
+
+/// Each knob `offload.<node>` says where the next jobs of this node run.
+void GovernorLoop::place_nodes() {
+  for (const KnobSpec& spec : knobs_.knobs.specs()) {
+    if (spec.name.rfind(offload, 0) != 0) {
+      continue;
+    }
+    const std::string node = spec.name.substr(offload.size());
+    const bool on_edge = knobs_.value(spec.name) != 0.0;
+    if (const auto placed = placed_.find(node);
+        placed == placed_.end() || placed->second != on_edge) {
+      placed_[node] = on_edge;
+      board_.place(node, on_edge);
+    }
+  }
 }
 
 void add_governor(Graph& graph,
@@ -326,7 +414,7 @@ void add_governor(Graph& graph,
   spec.name = "govern";
   spec.trigger = OnPeriod{inputs.period, Duration{}};
   spec.priority = govern_priority;
-  spec.reads = {parts.mission.state.index};
+  spec.reads = {parts.mission.state.index, parts.mission.progress.index};
   if (inputs.navigator) {
     spec.reads.push_back(inputs.navigator->index);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
@@ -34,6 +35,8 @@ MapTerms terms_of(const KnobsInForce& knobs, const Brief& brief) {
   terms.frame_interval = mapped_s > taken_s ? from_seconds(mapped_s) : Duration{};
   const bool needs_fixes = brief.sees_its_place && located_s > taken_s;
   terms.fix_interval = needs_fixes ? from_seconds(located_s) : Duration{};
+  terms.is_offloaded =
+      knobs.knobs.spec("offload.map") != nullptr && knobs.value("offload.map") != 0.0;
   return terms;
 }
 
@@ -69,8 +72,8 @@ FramePrice frame_price(const Brief& brief) {
 // The oldest measurement is forgotten, because a policy that never asks for the same range twice
 // would fill the memory.
 void MeasuredShares::add(MissionTime now, const MapTerms& terms, double share) {
-  const auto key =
-      std::make_tuple(terms.cores, terms.resolution_m, terms.range_m, terms.frame_interval);
+  const auto key = std::make_tuple(terms.is_offloaded, terms.cores, terms.resolution_m,
+                                   terms.range_m, terms.frame_interval);
   if (windows_.find(key) == windows_.end() && windows_.size() >= most_windows) {
     windows_.erase(std::min_element(
         windows_.begin(), windows_.end(),
@@ -88,9 +91,12 @@ double MeasuredShares::bound(const MapTerms& terms) const {
   // Cells first, then range, then cores, then the interval between frames.
   using Apart = std::tuple<double, double, double, Duration>;
   std::optional<Apart> nearest;
-  double share = 1.0;
+  double share = terms.is_offloaded ? std::numeric_limits<double>::infinity() : 1.0;
   for (const auto& [key, window] : windows_) {
-    const auto& [cores, resolution_m, range_m, frame_interval] = key;
+    const auto& [is_offloaded, cores, resolution_m, range_m, frame_interval] = key;
+    if (is_offloaded != terms.is_offloaded) {
+      continue;
+    }
     const double times_fewer = static_cast<double>(cores) / terms.cores;
     const Apart apart{std::abs(std::log(resolution_m / terms.resolution_m)),
                       std::abs(std::log(range_m / terms.range_m)), std::abs(std::log(times_fewer)),

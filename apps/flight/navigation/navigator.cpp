@@ -314,6 +314,8 @@ Setpoint Navigator::tick(MissionTime now,
   resume_after_search(now, where);
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
+  // The same view would fail again.
+  follower_.look_for_way_to(failures_ > 0 && !back_.is_active() ? goal_W_ : std::nullopt);
   const PathReference reference = follower_.tick(now, dt, error_W);
   if (back_.is_active()) {
     go_back(now, dt, error_W.norm());

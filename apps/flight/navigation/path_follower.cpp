@@ -82,6 +82,7 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
   free_until_m_ = {};
   stalled_since_.reset();
+  looked_s_ = 0.0;
 }
 
 SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) const {
@@ -228,7 +229,9 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
     turn(dt_s, now);
   }
-  if (face_yaw_rad_ && stands_still()) {
+  if (wants_way_to_W_ && !has_path()) {
+    look_for_way(*wants_way_to_W_, dt_s);
+  } else if (face_yaw_rad_ && stands_still()) {
     turn_towards(*face_yaw_rad_, dt_s);
   }
   odometer_.emplace_back(now, travelled_m_);
@@ -256,6 +259,15 @@ void PathFollower::turn_towards(double yaw_rad, double dt_s) {
   const double error = wrap_angle(yaw_rad - yaw_rad_);
   yaw_rad_ =
       wrap_angle(yaw_rad_ + std::clamp(error, -yaw_rate_rad_s * dt_s, yaw_rate_rad_s * dt_s));
+}
+
+// What lies in the way was perhaps seen in large cells, or not at all: it is looked at again.
+void PathFollower::look_for_way(const Vec3& to_W, double dt_s) {
+  const Vec3 direction_W = to_W - hover_W_;
+  looked_s_ += dt_s;
+  if (direction_W.head<2>().norm() > 0.1) {
+    turn_towards(yaw_of(direction_W) + look_aside_rad * std::sin(looked_s_), dt_s);
+  }
 }
 
 void PathFollower::turn(double dt_s, MissionTime now) {

@@ -2,6 +2,7 @@
 #include "flyball/flight/navigation/plan_with_tubes.h"
 
 #include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/navigation/plan_race.h"
 #include "flyball/runtime/random.h"
 
 #include <algorithm>
@@ -110,11 +111,9 @@ class Search {
   bool try_with(const Cylinder& body, int iterations) {
     request_.body = body;
     request_.max_iterations = iterations;
-    Plan plan = planner_.plan(request_, situation_.map);
-    for (const auto& item : plan.work.items()) {
-      work_.add(item.name, item.count);
-    }
-    work_.charge_as(plan.work.charged_as());
+    const int searches = situation_.brief.settings.planner.searches;
+    Plan plan = race_of(searches, planner_, request_, situation_.map);
+    add(work_, plan.work);
     const bool found = !plan.waypoints_W.empty();
     if (found || plan_.waypoints_W.empty()) {
       plan_ = std::move(plan);

@@ -61,6 +61,20 @@ void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> c
   });
 }
 
+/// Bytes of the whole map as an octree that says free, occupied or unknown: OctoMap's binary format
+/// writes two bits for each child of a node, and so 2 (1 + 1/8 + 1/64 + ...) bits for each cell if
+/// no eight of them are joined to a larger one.
+double octree_bytes(const Mapper& mapper, double resolution_m) {
+  constexpr double bits_per_cell = 16.0 / 7.0;
+  double cells = 0.0;
+  for (const MapLevel& level : mapper.contents().levels) {
+    if (level.cell_m <= resolution_m) {  // The last of them is the level that is mapped at.
+      cells = static_cast<double>(level.known_cells);
+    }
+  }
+  return cells * bits_per_cell / 8.0;
+}
+
 /// Owns the mapper while the graph runs; others get revisions.
 class Map {
  public:
@@ -99,8 +113,11 @@ class Map {
       return Work{};
     }
     mapper_->commit();
-    job.publish(topics_.map,
-                MapRevision{++number_, frame.captured, settings.resolution_m, mapper_->revision()});
+    MapRevision revision{++number_, frame.captured, settings.resolution_m, mapper_->revision()};
+    if (brief_->settings.has_edge) {
+      revision.bytes = octree_bytes(*mapper_, settings.resolution_m);
+    }
+    job.publish(topics_.map, std::move(revision));
     return *work;
   }
 

@@ -5,6 +5,7 @@
 #include "flyball/studies/comparison.h"
 #include "flyball/studies/sweep.h"
 
+#include "studies/plots/csv.h"
 #include "studies/sweep/flight_figures.h"
 #include <algorithm>
 
@@ -14,31 +15,6 @@ namespace flyball {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// As JSON writes it: the shortest text that reads back to the same number.
-std::string number_text(double value) {
-  return Json(value).dump();
-}
-
-/// RFC 4180: in quotes where it holds a comma, a quote or a new line.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string{c};
-  }
-  return quoted + "\"";
-}
-
-std::string csv_row(const std::vector<std::string>& fields) {
-  std::string row;
-  for (const std::string& field : fields) {
-    row += (row.empty() ? "" : ",") + csv_field(field);
-  }
-  return row + "\n";
-}
 
 std::vector<std::string> point_head(const Sweep& sweep) {
   std::vector<std::string> head{"policy"};
@@ -140,9 +116,9 @@ std::string cells_csv(const Sweep& sweep) {
     fields.insert(fields.end(), {std::to_string(cell.n), std::to_string(cell.succeeded),
                                  failures_text(cell), cell.command});
     for (const auto& value : cell.figures) {
-      fields.push_back(value ? number_text(value->median) : "");
-      fields.push_back(value ? number_text(value->lo) : "");
-      fields.push_back(value ? number_text(value->hi) : "");
+      fields.push_back(value ? csv_number(value->median) : "");
+      fields.push_back(value ? csv_number(value->lo) : "");
+      fields.push_back(value ? csv_number(value->hi) : "");
     }
     csv += csv_row(fields);
   }
@@ -165,7 +141,7 @@ std::string flights_csv(const Sweep& sweep) {
     for (const std::string& name : sweep.figures) {
       const auto found = std::find_if(figures.begin(), figures.end(),
                                       [&name](const auto& figure) { return figure.first == name; });
-      fields.push_back(found == figures.end() ? "" : number_text(found->second));
+      fields.push_back(found == figures.end() ? "" : csv_number(found->second));
     }
     csv += csv_row(fields);
   }

@@ -151,6 +151,31 @@ void FlyballGovernor::observe_loop() {
     signals_.derive("busy_cores", load.busy_cores);
     signals_.derive("busiest_core_load", load.busiest_core);
     signals_.derive("deadline_misses", stages_.take_misses());
+    observe_stages();
+  }
+}
+
+/// Of stages with the names that policies know.
+void FlyballGovernor::observe_stages() {
+  constexpr std::array<std::array<const char*, 4>, 6> known{{
+      {"map", "map_job_s", "map_load", "map_gigacycles"},
+      {"plan", "plan_job_s", "plan_load", "plan_gigacycles"},
+      {"detect", "detect_job_s", "detect_load", "detect_gigacycles"},
+      {"track", "track_job_s", "track_load", "track_gigacycles"},
+      {"localize", "localize_job_s", "localize_load", "localize_gigacycles"},
+      {"explore", "explore_job_s", "explore_load", "explore_gigacycles"},
+  }};
+  const auto clock = knobs_.index("cpu.frequency_hz");
+  const double ghz = clock ? knobs_.all()[*clock].in_force * 1e-9 : 0.0;
+  for (const auto& [name, job_s, load, gigacycles] : known) {
+    for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
+      const auto last = stages_.duration(stage);
+      if (last && stages_.spec(stage).name == name) {
+        signals_.derive(job_s, flyball::to_seconds(*last));
+        signals_.derive(load, stages_.load(stage));
+        signals_.derive(gigacycles, flyball::to_seconds(*last) * ghz);
+      }
+    }
   }
 }
 

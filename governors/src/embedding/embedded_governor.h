@@ -47,6 +47,7 @@ struct FlyballGovernor final {
   std::int32_t check_stage(std::uint32_t stage);
   void add_frame(flyball::Duration latency);
   void observe_loop();
+  void observe_stages();
   void observe_knobs();
   void answer(const flyball::Decision& decision, const flyball::Observation& seen);
   [[nodiscard]] double safe_speed_m_s(const flyball::Observation& seen) const;

@@ -67,7 +67,8 @@ StageTimes::Load StageTimes::take_load(MissionTime now) {
     if (one.begun) {
       one.busy += now - std::max(*one.begun, *load_since_);
     }
-    load.busy_cores += ratio(one.busy, elapsed);
+    one.load = ratio(one.busy, elapsed);
+    load.busy_cores += one.load;
   }
   for (const Stage& one : stages_) {
     Duration of_thread{};

@@ -57,6 +57,8 @@ class StageTimes {
   [[nodiscard]] std::uint32_t take_misses();
   /// Since the last call, or since the first stage began.
   [[nodiscard]] Load take_load(MissionTime now);
+  /// Cores that a stage kept busy, as of the last call of `take_load`.
+  [[nodiscard]] double load(std::size_t stage) const { return stages_[stage].load; }
 
  private:
   struct Frame {
@@ -70,6 +72,7 @@ class StageTimes {
     Frame input{};    ///< What the stage before it finished last.
     Frame frame{};    ///< What it works on.
     Duration busy{};  ///< Since the load was taken.
+    double load{};
     std::vector<double> counts{};
   };
   [[nodiscard]] bool is_first(std::size_t stage) const;

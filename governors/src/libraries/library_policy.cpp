@@ -97,6 +97,18 @@ FlyballObservation observation_of(const Observation& seen) {
   told.temperature_c = seen.temperature_c;
   told.trip_c = seen.trip_c;
   told.map_age_ns = seen.map_age.count();
+  told.headroom_m = seen.headroom_m;
+  told.progress_unit = static_cast<std::uint32_t>(seen.progress_unit);
+  told.progress = seen.progress;
+  told.cpu_power_w = seen.cpu_power.value();
+  told.gpu_power_w = seen.gpu_power.value();
+  told.memory_power_w = seen.memory_power.value();
+  told.soc_power_w = seen.soc_power.value();
+  static_assert(flyball_stage_count == stage_count);
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    const StageUse& stage = seen.stages[i];
+    told.stages[i] = {stage.latency.count(), stage.load, stage.gigacycles};
+  }
   return told;
 }
 

@@ -86,7 +86,7 @@ void push_heat(lua_State* state, const ThermalModel& heat) {
 }  // namespace
 
 void push_board(lua_State* state, const BoardModel& board) {
-  lua_createtable(state, 0, 4);
+  lua_createtable(state, 0, 6);
   if (board.max_cores > 0) {
     set_number(state, "cores", board.max_cores);
   }
@@ -98,6 +98,12 @@ void push_board(lua_State* state, const BoardModel& board) {
       lua_rawseti(state, -2, static_cast<lua_Integer>(i) + 1);
     }
     lua_setfield(state, -2, "clocks");
+  }
+  if (board.power && board.power->idle_core_w > 0.0) {
+    set_number(state, "off_core_w", board.power->off_core_power().value());
+  }
+  if (board.memory_contention > 0.0) {
+    set_number(state, "memory_contention", board.memory_contention);
   }
   if (board.thermal) {
     push_heat(state, *board.thermal);

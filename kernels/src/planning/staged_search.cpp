@@ -80,7 +80,10 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   if (checker.is_flyable(request.start_W, request.goal_W)) {
     plan.waypoints_W = {request.start_W, request.goal_W};
   } else {
+    const double before = checker.queries();
     found = search_all(request, search, checker);
+    plan.searching.add("iterations", found.iterations);
+    plan.searching.add("collision_queries", checker.queries() - before);
     if (!found.points_W.empty()) {
       plan.waypoints_W = simplify(std::move(found.points_W), checker, request.bounds_W,
                                   RandomStream{request.seed, "path_simplifier"});

@@ -3,6 +3,8 @@
 
 #include "board/sysfs_text.h"
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -105,6 +107,28 @@ std::optional<Watts> PowerMeter::power() const {
     sum_w += reading.value;
   }
   return Watts{sum_w / static_cast<double>(readings_.size())};
+}
+
+RailPower power_by_rail(const LinuxSystem& system, const std::vector<PowerRail>& rails) {
+  constexpr std::array<std::pair<const char*, Watts RailPower::*>, 4> parts{
+      {{"CPU", &RailPower::cpu},
+       {"GPU", &RailPower::gpu},
+       {"DDR", &RailPower::memory},
+       {"SOC", &RailPower::soc}}};
+  RailPower sum;
+  for (const PowerRail& rail : rails) {
+    Watts RailPower::*part = nullptr;
+    int named = 0;
+    for (const auto& [name, member] : parts) {
+      const bool is_named = rail.label.find(name) != std::string::npos;
+      part = is_named ? member : part;
+      named += is_named ? 1 : 0;
+    }
+    if (const auto power = named == 1 ? rail_power(system, rail) : std::nullopt) {
+      sum.*part = sum.*part + *power;
+    }
+  }
+  return sum;
 }
 
 std::optional<Heat> closest_heat(const LinuxSystem& system,

@@ -4,6 +4,7 @@
 /// @file
 /// What a board draws and how hot it is, from the best meter that it has.
 
+#include "flyball/runtime/board.h"
 #include "flyball/runtime/board/board_file.h"
 #include "flyball/runtime/board/board_inventory.h"
 #include "flyball/runtime/time.h"
@@ -44,6 +45,11 @@ class PowerMeter {
   double total_j_{};
   std::deque<Reading> readings_{};
 };
+
+/// By the names of rails: VDD_SYS_CPU, VDD_SYS_GPU, VDD_SYS_DDR, VDD_SYS_SOC on a Jetson TX2. A
+/// rail whose name tells of several parts (VDD_CPU_GPU_CV) counts for none of them.
+[[nodiscard]] RailPower power_by_rail(const LinuxSystem& system,
+                                      const std::vector<PowerRail>& rails);
 
 /// The zone that is closest to losing clocks.
 struct Heat {

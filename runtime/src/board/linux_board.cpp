@@ -238,6 +238,7 @@ Hertz LinuxBoard::State::believed_clock() const {
 }
 
 void LinuxBoard::State::read_power() {
+  reading.rails = power_by_rail(system, found.rails);
   power.sample(now);
   if (const auto drawn = power.power()) {
     reading.computer_power = *drawn;

@@ -18,6 +18,7 @@ OperatingPoint RealtimeBoard::grant(const OperatingPoint& wanted) {
 
 void RealtimeBoard::connect(Executor& executor) {
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
+  nodes_.connect(executor);
   executor_ = &executor;
 }
 

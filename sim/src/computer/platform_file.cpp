@@ -43,6 +43,7 @@ PowerCost read_power(TableReader& reader, std::vector<std::string>& problems) {
   power.core_linear_w = reader.number("core_linear_w", 0.0, 1000.0);
   power.core_cubic_w = reader.number("core_cubic_w", 0.0, 1000.0);
   power.memory_linear_w = reader.number_or("memory_linear_w", 0.0, 0.0, 1000.0);
+  power.idle_core_w = reader.number_or("idle_core_w", 0.0, 0.0, 1000.0);
   power.memory_clocks = read_memory_clocks(reader, problems);
   if (power.memory_linear_w > 0.0 && power.memory_clocks.empty()) {
     reader.complain("memory_linear_w", "needs memory_clocks");
@@ -57,6 +58,11 @@ KernelCost read_kernel(TableReader& reader, std::vector<std::string>& problems) 
   cost.a = reader.number_or("a", 1.0, 0.0, 1e3);
   cost.b = reader.number_or("b", 0.0, 0.0, 1e3);
   cost.parallel_fraction = reader.number_or("parallel_fraction", 0.0, 0.0, 1.0);
+  const std::string on = reader.text_or("on", "cores");
+  if (on != "cores" && on != "gpu") {
+    reader.complain("on", "= \"" + on + "\" must be \"cores\" or \"gpu\"");
+  }
+  cost.on_gpu = on == "gpu";
   if (const toml::table* prices = reader.table("seconds_per")) {
     TableReader items{*prices, reader.path("seconds_per"), problems};
     for (const auto& [key, node] : *prices) {
@@ -115,6 +121,31 @@ ThermalModel read_thermal(TableReader& reader, std::vector<std::string>& problem
   return thermal;
 }
 
+GpuModel read_gpu(TableReader& reader) {
+  GpuModel gpu;
+  gpu.clock = Hertz{reader.number("clock_hz", 1e6, 1e11)};
+  gpu.busy_w = reader.number("busy_w", 0.0, 1000.0);
+  reader.reject_unknown();
+  return gpu;
+}
+
+/// Each core that is off takes its idle power off the constant one.
+void check_idle_cores(const PlatformModel& model, TableReader& reader) {
+  if (model.max_cores * model.power.idle_core_w > model.power.cpu_constant_w) {
+    reader.complain("power.idle_core_w",
+                    "times max_cores is more than power.cpu_constant_w, of which it is a part");
+  }
+}
+
+/// Kernels that run on a GPU need one.
+void check_gpu(const PlatformModel& model, TableReader& reader) {
+  for (const auto& [name, cost] : model.kernels) {
+    if (cost.on_gpu && !model.gpu) {
+      reader.complain("kernels." + name + ".on", "= \"gpu\" needs a [gpu] table");
+    }
+  }
+}
+
 PlatformModel read_model(const toml::table& file, std::vector<std::string>& problems) {
   TableReader reader{file, "", problems};
   PlatformModel model;
@@ -145,6 +176,15 @@ PlatformModel read_model(const toml::table& file, std::vector<std::string>& prob
       model.thermal = read_thermal(items, problems);
     }
   }
+  if (file.contains("gpu")) {
+    if (const toml::table* gpu = reader.table("gpu")) {
+      TableReader items{*gpu, "gpu", problems};
+      model.gpu = read_gpu(items);
+    }
+  }
+  model.memory_contention = reader.number_or("memory_contention", 0.0, 0.0, 100.0);
+  check_idle_cores(model, reader);
+  check_gpu(model, reader);
   reader.reject_unknown();
   return model;
 }

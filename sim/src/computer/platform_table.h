@@ -42,6 +42,10 @@ class TableReader {
     return node != nullptr ? node->value<std::string>().value_or("") : "";
   }
 
+  std::string text_or(const std::string& key, const std::string& fallback) {
+    return table_.contains(key) ? text(key) : fallback;
+  }
+
   std::vector<double> numbers(const std::string& key, double min, double max) {
     std::vector<double> values;
     const toml::node* node = require(key);

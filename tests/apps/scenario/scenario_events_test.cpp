@@ -111,6 +111,15 @@ until_s = 4
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 6) << said;
 }
 
+TEST(ScenarioEvents, a_bit_flip_names_its_topic_and_may_name_a_number) {
+  EXPECT_EQ(said_of("[[events]]\nkind = \"bit_flip\"\nat_s = 3\ntopic = \"setpoint\"\n"
+                    "variable = \"vx\"\ndraw = 7\n"),
+            "");
+  EXPECT_NE(said_of("[[events]]\nkind = \"bit_flip\"\nat_s = 3\nfactor = 2\n")
+                .find("events.1.topic is missing: a bit_flip needs it"),
+            std::string::npos);
+}
+
 TEST(ScenarioEvents, what_the_platform_cannot_do_is_refused) {
   EXPECT_NE(
       said_of("[[events]]\nkind = \"slowdown\"\nat_s = 1\nfactor = 3\nkernels = \"octomop\"\n")

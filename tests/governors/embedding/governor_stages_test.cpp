@@ -42,6 +42,22 @@ TEST_F(GovernorStages, tell_the_latency_from_the_first_to_the_last) {
   EXPECT_NEAR(0.2, loop_.signal("mapping.duration_s"), 1e-9);
 }
 
+TEST(GovernorStageSignals, tell_policies_of_stages_whose_names_they_know) {
+  GovernedLoop loop;
+  loop.add(loop.cell_knob());
+  loop.add(loop.clock_knob());
+  loop.add(GovernedLoop::stage("map"));
+  loop.add(GovernedLoop::stage("other"));
+  ASSERT_EQ(flyball_governor_ok, loop.open(loop.settings("density"))) << loop.error();
+  flyball_governor_begin(loop.governor, 0, 1.0);
+  flyball_governor_end(loop.governor, 0, 1.2, nullptr, 0);
+  loop.decide(2.0);
+  EXPECT_NEAR(0.2, loop.signal("map_job_s"), 1e-9);
+  EXPECT_NEAR(0.2, loop.signal("map_load"), 1e-9);
+  EXPECT_NEAR(0.2, loop.signal("map_gigacycles"), 1e-9) << "at 1 GHz";
+  EXPECT_EQ(0.0, loop.signal("plan_job_s"));
+}
+
 TEST_F(GovernorStages, bound_latency_by_the_worst_of_twenty_frames_and_a_tenth) {
   open();
   double t_s = 0.0;

@@ -33,6 +33,19 @@ TEST(PowerMeter, takes_the_input_rail_and_no_sum) {
   }
 }
 
+TEST(PowerByRail, tells_the_parts_that_have_a_rail_of_their_own) {
+  const Metered tx2{fake::plant_tx2_r28};
+  const RailPower parts = power_by_rail(*tx2.system, discover_board(*tx2.system).rails);
+  EXPECT_DOUBLE_EQ(parts.cpu.value(), 0.840);
+  EXPECT_DOUBLE_EQ(parts.gpu.value(), 0.152);
+  EXPECT_DOUBLE_EQ(parts.memory.value(), 0.611);
+  EXPECT_DOUBLE_EQ(parts.soc.value(), 0.534);
+  const Metered orin{fake::plant_orin};  // Its rail VDD_CPU_GPU_CV is that of three parts.
+  const RailPower shared = power_by_rail(*orin.system, discover_board(*orin.system).rails);
+  EXPECT_EQ(shared.cpu.value(), 0.0);
+  EXPECT_GT(shared.soc.value(), 1.0);
+}
+
 TEST(PowerMeter, averages_over_a_second) {
   const Metered board{fake::plant_tx2_r28};
   const std::string file = "/sys/bus/i2c/drivers/ina3221x/0-0041/iio:device1/in_power0_input";

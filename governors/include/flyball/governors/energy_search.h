@@ -33,7 +33,9 @@ struct EnergySearchSettings {
   double spacing_m{};
   double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of
                              ///< RoboRun's blocks with the space beside it.
-  QuantileTracker::Settings bound{0.05, 0.05, 0.1};
+  /// The first margin is about what the errors of a flight come to, and each late map widens it by
+  /// 15 %: with .05 and .1, a level of some 50 maps spent most of its misses on the way to there.
+  QuantileTracker::Settings bound{0.05, 0.15, 0.4};
   ClockScaling clock{0.9, 0.05};
   double learn_s{};  ///< Latency is learned until this mission time; 0: always.
 };
@@ -64,7 +66,9 @@ struct Surroundings {
   /// For each level, finest first: how many plans fail in its cells per metre of path, because they
   /// close gaps that nobody has seen yet; null: none. It stays the owner's.
   const std::vector<double>* failed_plans_per_m{};
+  double stops_per_m{};    ///< How often the vehicle stops and waits for a map taken at rest.
   double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
+  bool prefers_fine{};     ///< Of settings that cost the same, smaller cells are taken.
   WaitingShare waits{};    ///< Raises the price of lower clocks.
   bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
 };
@@ -80,7 +84,7 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least energy per metre of progress
 ///
-///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans
+///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans + stops
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
 /// Here v is the speed of MAVBench's eq. 2 for the calibrated bound on latency, and d is the
@@ -91,7 +95,7 @@ struct EnergyEstimate {
 /// speed.
 ///
 /// Among settings that take less than a thousandth more than the best, the search takes the one
-/// with the shortest response. It learns latency and rotor power from observations, and also how
+/// with the shortest response, or one with the smallest cells if those are preferred. It learns latency and rotor power from observations, and also how
 /// much power the computer may take before it gets too hot (`ThermalLimit`); clocks beyond that are
 /// not chosen. Nothing allocates after `make`.
 class EnergySearch {

@@ -85,6 +85,9 @@ class LatencyBound {
   /// The platform granted something else: the prediction becomes `factor` times the one issued, and
   /// the bound moves with it. @pre `factor > 0`.
   void regrant(Ticket ticket, double factor);
+  /// The setting has changed while the job is out, and the job may have begun under either one: the
+  /// longer of the two bounds counts, at its own level. @pre As of `issue`.
+  void widen(Ticket ticket, std::size_t level, Duration predicted);
   /// The job ended; a hit if it did so before its bound expired. Does nothing when the miss has
   /// been declared. A job that was killed is not settled: it expires.
   void settle(Ticket ticket, MissionTime ended);

@@ -19,9 +19,8 @@ struct KnobAxis {
   std::vector<double> values;
 };
 
-/// Every combination of some knobs' values, pruned to those that are not dominated: a point goes
-/// when another one is at least as good by every criterion and better by one; of equal ones the
-/// first stays. What a policy then searches is short, and looking through it allocates nothing.
+/// Every combination of some knobs' values. What a policy then searches is short, and looking
+/// through it allocates nothing.
 class OperatingPoints {
  public:
   /// All combinations, the last axis changing fastest.
@@ -31,10 +30,8 @@ class OperatingPoints {
                                          const KnobSettings& knobs,
                                          std::size_t limit = 100000);
 
-  /// Writes what a point costs (each: less is better) into `criteria`, of fixed size.
-  using Judge = std::function<void(const double* values, std::vector<double>& criteria)>;
-  /// @cost O(n^2) in the points that are kept, O(n kept) in all.
-  void prune(std::size_t criteria, const Judge& judge);
+  /// Leaves out the points whose values this refuses.
+  void keep_if(const std::function<bool(const double* values)>& keeps);
 
   [[nodiscard]] std::size_t size() const { return values_.size() / axes_.size(); }
   [[nodiscard]] const std::vector<KnobAxis>& axes() const { return axes_; }

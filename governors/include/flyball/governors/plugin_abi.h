@@ -28,7 +28,7 @@ extern "C" {
 #endif
 
 enum {
-  flyball_abi_version = 4,   /* Goes up when a structure grows. */
+  flyball_abi_version = 5,   /* Goes up when a structure grows. */
   flyball_wish_capacity = 16 /* For good: the array stands inside a structure. */
 };
 
@@ -134,6 +134,24 @@ typedef struct FlyballStart {
   const FlyballBoard* board; /* NULL: nothing is known. */
 } FlyballStart;
 
+/** As `flyball::Stage`, the places in `FlyballObservation::stages`. */
+enum {
+  flyball_stage_map = 0,
+  flyball_stage_plan = 1,
+  flyball_stage_detect = 2,
+  flyball_stage_track = 3,
+  flyball_stage_localize = 4,
+  flyball_stage_explore = 5,
+  flyball_stage_count = 6 /* For good: the array stands inside a structure. */
+};
+
+/** As `flyball::StageUse`; for good, too. */
+typedef struct FlyballStage {
+  int64_t latency_ns;
+  double load;
+  double gigacycles;
+} FlyballStage;
+
 /** What a decision knows; as `flyball::Observation`, where every member is explained. */
 typedef struct FlyballObservation {
   uint32_t struct_size;
@@ -172,6 +190,17 @@ typedef struct FlyballObservation {
   /* Version 2 ends here. */
 
   int64_t map_age_ns;
+  /* Version 4 ends here. */
+
+  double headroom_m;
+  uint32_t progress_unit; /* As `flyball::ProgressUnit`: 0 none, 1 m, 2 m^2, 3 m^3, 4 s. */
+  uint32_t reserved;
+  double progress;
+  double cpu_power_w;
+  double gpu_power_w;
+  double memory_power_w;
+  double soc_power_w;
+  FlyballStage stages[flyball_stage_count];
 } FlyballObservation;
 
 typedef struct FlyballWish {

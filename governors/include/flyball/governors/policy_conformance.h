@@ -106,6 +106,14 @@ struct PolicyCandidate {
     seen.temperature_c = draw.uniform(20.0, 90.0);
     seen.trip_c = draw.uniform(0.0, 1.0) < 0.5 ? 0.0 : draw.uniform(60.0, 95.0);
     seen.map_age = seen.latency + from_seconds(draw.uniform(0.0, 1.0));
+    seen.headroom_m = draw.uniform(0.0, 5.0);
+    seen.progress_unit = static_cast<ProgressUnit>(draw.next() % 5);
+    seen.progress = 0.25 * static_cast<double>(i);
+    seen.cpu_power = Watts{draw.uniform(0.0, 0.5) * seen.computer_power.value()};
+    for (StageUse& stage : seen.stages) {
+      stage = {from_seconds(draw.uniform(0.0, 3.0)), draw.uniform(0.0, 2.0),
+               draw.uniform(0.0, 6.0)};
+    }
   }
   return all;
 }
@@ -132,6 +140,9 @@ struct PolicyCandidate {
     seen.latency = seen.latency_bound = seen.map_age = std::chrono::hours{x < 0.0 ? -24 : 24};
     seen.deadline_misses = seen.queue_drops = seen.planner_failures = most;
     seen.cores = x < 0.0 ? -1 : 1 << 30;
+    seen.headroom_m = seen.progress = x;
+    seen.cpu_power = seen.gpu_power = seen.memory_power = seen.soc_power = Watts{x};
+    seen.stages.fill({seen.latency, x, x});
     all.push_back(seen);
   }
   return all;

@@ -7,10 +7,12 @@
 
 #include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/platform.h"
+#include "flyball/runtime/time.h"
 #include "flyball/runtime/units.h"
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace flyball {
@@ -36,11 +38,28 @@ struct BoardModel {
   std::optional<PowerCost> power{};       ///< Input power of the whole computer.
   std::optional<ThermalModel> thermal{};  ///< Empty: it is not known to get too hot.
   VehicleModel vehicle{};
+  std::optional<GpuModel> gpu{};  ///< Empty: there is none, or nothing is known of it.
+  double memory_contention{};     ///< See `PlatformModel`; 0: not known.
 };
 
 /// What a platform's file says of the board; what work costs in time is left to be learned in
 /// flight.
 [[nodiscard]] BoardModel board_model_of(const PlatformModel& platform);
+
+/// Power of parts of the computer; 0 where the board has no meter for that part alone.
+struct RailPower {
+  Watts cpu{};
+  Watts gpu{};
+  Watts memory{};
+  Watts soc{};  ///< The rest of the chip.
+};
+
+/// What a node has taken of the computer. A job counts when it has ended.
+struct NodeUse {
+  double busy_core_s{};  ///< Core-seconds since the start.
+  Duration latency{};    ///< Of the newest job, from release to end.
+  double gigacycles{};   ///< Of the newest job, in 10^9, at the clock that it began with.
+};
 
 /// One look at every meter.
 struct BoardReading {
@@ -50,6 +69,7 @@ struct BoardReading {
   std::uint64_t drops{};    ///< Messages and triggers since the start; see `Executor::drops`.
   std::uint64_t deadline_misses{};  ///< Of jobs, since the start.
   Watts computer_power{};
+  RailPower rails{};  ///< In `computer_power` too.
   Watts rotor_power{};
   double battery_percent{};
   double temperature_c{};  ///< 0: there is no sensor.
@@ -64,8 +84,13 @@ class Board {
   virtual ~Board() = default;
 
   [[nodiscard]] virtual BoardReading read() const = 0;
+  /// Zero for a node that never ran, and where nobody counts.
+  [[nodiscard]] virtual NodeUse use_of(int /*node*/) const { return {}; }
   /// What is granted may be less; the next reading tells.
   virtual void request(const OperatingPoint& point) = 0;
+  /// Jobs of this node run on the edge computer from the next one on, or on board again. Nothing
+  /// happens where there is no such node or no such computer.
+  virtual void place(std::string_view /*node*/, bool /*on_edge*/) {}
 };
 
 }  // namespace flyball

@@ -51,4 +51,9 @@ struct ColourFrame {
   DeferredImage image{};
 };
 
+/// On a link: three bytes for each pixel.
+[[nodiscard]] inline double wire_bytes(const ColourFrame& frame) {
+  return 3.0 * frame.camera.width_px * frame.camera.height_px;
+}
+
 }  // namespace flyball

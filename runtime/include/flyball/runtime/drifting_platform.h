@@ -53,6 +53,15 @@ class DriftingPlatform final : public Platform {
   [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override {
     return now()->power(point, busy_cores);
   }
+  [[nodiscard]] bool runs_on_gpu(std::string_view kernel) const override {
+    return now()->runs_on_gpu(kernel);
+  }
+  [[nodiscard]] Watts gpu_power() const override { return now()->gpu_power(); }
+  [[nodiscard]] double slowdown(std::string_view kernel,
+                                Hertz clock,
+                                double other_cores) const override {
+    return now()->slowdown(kernel, clock, other_cores);
+  }
   [[nodiscard]] Duration switching_time() const override { return nominal_.switching_time; }
   [[nodiscard]] OperatingPoint granted(const OperatingPoint& wanted) const override;
   [[nodiscard]] double taken_cores() const override { return strain_.taken_cores; }

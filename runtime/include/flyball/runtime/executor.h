@@ -4,6 +4,7 @@
 /// @file
 /// Runs a graph: on a modeled computer in mission time, or on threads in real time.
 
+#include "flyball/runtime/edge.h"
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/platform.h"
 
@@ -68,6 +69,10 @@ class Executor {
       listener(*static_cast<const T*>(message.get()));
     });
   }
+  /// Calls `filter` with each message before it appears on its topic, and puts its answer there
+  /// instead; null: the message is lost. For simulated faults, so that only a modeled computer does
+  /// it.
+  virtual void filter_messages(std::function<Message(int topic, const Message&)> /*filter*/) {}
   virtual void on_job(std::function<void(const JobRecord&)> listener) = 0;
   /// A job passed its deadline, told at that moment, once. Under `skip` it is killed next.
   virtual void on_miss(std::function<void(int node, OnMiss)> listener) = 0;
@@ -77,6 +82,11 @@ class Executor {
   virtual void set_operating_point(const OperatingPoint& point) = 0;
   /// What is granted, which may be less than was set.
   [[nodiscard]] virtual OperatingPoint operating_point() const = 0;
+  /// Jobs of `node` run on the edge computer from the next one on, or on board again. Without an
+  /// edge computer all stay on board.
+  virtual void place(int /*node*/, bool /*on_edge*/) {}
+  /// Of devices beside the cores, as far as they are modeled.
+  [[nodiscard]] virtual DeviceUse device_use() const { return {}; }
   /// What the platform grants, or what work costs on it, is different from now on.
   virtual void platform_changed() = 0;
   /// Core-seconds of work done since the start.

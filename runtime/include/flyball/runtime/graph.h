@@ -5,6 +5,7 @@
 /// A workload as nodes that talk by typed topics and services; the same graph for every executor.
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/numbers.h"
 #include "flyball/runtime/realtime/message_pool.h"
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/work.h"
@@ -14,11 +15,22 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <typeindex>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace flyball {
+
+/// Whether T tells its numbers.
+template <class T, class = void>
+inline constexpr bool tells_numbers = false;
+template <class T>
+inline constexpr bool tells_numbers<
+    T,
+    std::void_t<decltype(visit_numbers(std::declval<T&>(), std::declval<NumberVisitor&>()))>> =
+    true;
 
 /// Handle of a topic that carries T.
 template <class T>
@@ -40,7 +52,22 @@ struct TopicSpec {
   std::string name;
   std::type_index type;
   std::size_t capacity{1};  ///< 1: latest value. More: a queue; the oldest is dropped and counted.
+  double (*wire_bytes)(const void* message){};  ///< Of one message on a link to another computer.
+  /// Makes a copy and shows its numbers to the visitor, who may change them; null where the type of
+  /// the messages does not tell them.
+  Message (*with_numbers)(const void* message, NumberVisitor& visitor){};
 };
+
+/// How many bytes a message takes on a link: `wire_bytes` of its type, where the type's header
+/// declares one, else its size in memory.
+template <class T>
+auto bytes_on_wire(const T& message, int /*preferred*/) -> decltype(wire_bytes(message)) {
+  return wire_bytes(message);
+}
+template <class T>
+double bytes_on_wire(const T& /*message*/, long /*otherwise*/) {
+  return static_cast<double>(sizeof(T));
+}
 
 enum class OnMiss : std::uint8_t {
   warn,   ///< Count it.
@@ -70,8 +97,9 @@ struct NodeSpec {
   /// Under `skip`, how long a job that was told to stop goes on at most: the longest time between
   /// two questions of its body (`JobContext::should_stop`). A modeled computer works so long on it.
   Duration stop_latency{};
-  /// Cores that the job can use at once; every shipped kernel uses one. The modeled computer then
-  /// gives it so many, and `Platform::speedup` says what they bring.
+  /// Cores that the job can use at once; every shipped kernel uses one, unless planners race. The
+  /// modeled computer then gives it so many, and `Platform::speedup` says what they bring to the
+  /// part of the work that they share (`Work::add_shared`).
   int threads{1};
   /// Topics besides the trigger. A job that touches one that is not declared is a broken
   /// precondition: the printed graph tells the truth. Each node reads a queue at its own pace.
@@ -136,7 +164,10 @@ class Graph {
   /// @pre `name` is new, `capacity >= 1`.
   template <class T>
   Topic<T> topic(std::string name, std::size_t capacity = 1) {
-    return {add_topic({std::move(name), typeid(T), capacity})};
+    const auto wire_bytes = [](const void* message) {
+      return bytes_on_wire(*static_cast<const T*>(message), 0);
+    };
+    return {add_topic({std::move(name), typeid(T), capacity, wire_bytes, with_numbers_of<T>()})};
   }
   template <class Request, class Response>
   Service<Request, Response> service(const std::string& name, std::size_t capacity = 4) {
@@ -159,6 +190,19 @@ class Graph {
   [[nodiscard]] std::string to_dot() const;
 
  private:
+  /// What `TopicSpec::with_numbers` does; null for a type that does not tell its numbers.
+  template <class T>
+  static constexpr auto with_numbers_of() -> Message (*)(const void*, NumberVisitor&) {
+    if constexpr (tells_numbers<T>) {
+      return [](const void* message, NumberVisitor& visitor) -> Message {
+        auto copy = std::make_shared<T>(*static_cast<const T*>(message));
+        visit_numbers(*copy, visitor);
+        return copy;
+      };
+    } else {
+      return nullptr;
+    }
+  }
   int add_topic(TopicSpec spec);
   /// -1: there is none.
   [[nodiscard]] int find_topic(const std::string& name, std::type_index type) const;

@@ -6,10 +6,12 @@
 
 #include "flyball/runtime/deferred.h"
 #include "flyball/runtime/geometry.h"
+#include "flyball/runtime/numbers.h"
 #include "flyball/runtime/time.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace flyball {
@@ -73,6 +75,29 @@ struct PointCloudFrame {
   std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
 };
 
+/// On a link: 16 bits of millimetres for each pixel, as RGB-D cameras send them.
+[[nodiscard]] inline double wire_bytes(const DepthFrame& frame) {
+  return 2.0 * frame.pixels * (1.0 + static_cast<double>(frame.sides.size()));
+}
+/// On a link: three 32-bit numbers for each point. Makes the points.
+[[nodiscard]] inline double wire_bytes(const PointCloudFrame& frame) {
+  const PointCloud& cloud = frame.cloud_C.value();
+  return 12.0 * static_cast<double>(cloud.hits_C.size() + cloud.clear_C.size());
+}
+
+/// Its points. The image, from which a mapper might make them again, is left out.
+inline void visit_numbers(PointCloudFrame& frame, NumberVisitor& visitor) {
+  PointCloud cloud = frame.cloud_C.value();
+  for (auto* points : {&cloud.hits_C, &cloud.clear_C}) {
+    for (Eigen::Vector3f& point : *points) {
+      visit_vector(visitor, {"x", "y", "z"}, Quantity::reach, point);
+    }
+  }
+  cloud.camera.reset();
+  frame.cloud_C = Deferred<PointCloud>::of(std::move(cloud));
+  frame.pixels.reset();
+}
+
 /// Where the vehicle truly is: only a simulator can say, and only a localizer that stands in for a
 /// perfect one (`LocalizerInputs::truth`) is told.
 struct TruePose {
@@ -100,6 +125,13 @@ struct PoseEstimate {
   Vec3 v_WB{Vec3::Zero()};
 };
 
+inline void visit_numbers(PoseEstimate& pose, NumberVisitor& visitor) {
+  Vec3 p_W = pose.X_WB.translation();
+  visit_vector(visitor, {"x", "y", "z"}, Quantity::position, p_W);
+  pose.X_WB.translation() = p_W;
+  visit_vector(visitor, {"vx", "vy", "vz"}, Quantity::velocity, pose.v_WB);
+}
+
 /// What the companion computer streams to the flight controller.
 struct Setpoint {
   MissionTime stamp{};
@@ -109,5 +141,13 @@ struct Setpoint {
   double yaw_rad{};
   double yaw_rate_rad_s{};
 };
+
+inline void visit_numbers(Setpoint& setpoint, NumberVisitor& visitor) {
+  visit_vector(visitor, {"x", "y", "z"}, Quantity::position, setpoint.p_WB);
+  visit_vector(visitor, {"vx", "vy", "vz"}, Quantity::velocity, setpoint.v_WB);
+  visit_vector(visitor, {"ax", "ay", "az"}, Quantity::acceleration, setpoint.a_WB);
+  visitor.visit("yaw", Quantity::angle, setpoint.yaw_rad);
+  visitor.visit("yaw_rate", Quantity::rate, setpoint.yaw_rate_rad_s);
+}
 
 }  // namespace flyball

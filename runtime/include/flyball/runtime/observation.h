@@ -7,6 +7,8 @@
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/units.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace flyball {
@@ -14,6 +16,21 @@ namespace flyball {
 /// `unset` is no phase of a flight. An observation must say what the vehicle does, because a policy
 /// lowers the clock while lower latency would not make the vehicle faster.
 enum class MissionPhase : std::uint8_t { take_off, cruise, land, wait, unset };
+
+/// In what a mission counts its progress. `none`: it does not say.
+enum class ProgressUnit : std::uint8_t { none, metre, square_metre, cubic_metre, second };
+
+/// Stages of the computation that have knobs, or cost much. `localize` is that of camera images.
+enum class Stage : std::uint8_t { map, plan, detect, track, localize, explore };
+inline constexpr std::size_t stage_count = 6;
+
+/// What a stage takes of the computer. All are 0 where there is no such stage, or nobody measures.
+struct StageUse {
+  Duration latency{};   ///< Of its newest job, from its trigger to its result.
+  double load{};        ///< Cores that it kept busy since the last decision. A job counts when it
+                        ///< ends, so after a long one this may be more than there are.
+  double gigacycles{};  ///< Clock cycles of its newest job, in 10^9: its work, whatever the clock.
+};
 
 struct Observation {
   MissionTime now{};
@@ -52,6 +69,20 @@ struct Observation {
   double trip_c{};     ///< The lowest temperature at which it loses clocks; 0: nobody says, and the
                        ///< temperature says nothing either.
   Duration map_age{};  ///< Since the frame of the newest map was captured; 0: nobody says.
+  double headroom_m{};  ///< From the top of the body up to an obstacle in the map, at most 5; 0:
+                        ///< nobody says.
+  ProgressUnit progress_unit{};
+  double progress{};  ///< Since take-off, in this unit, as far as the vehicle itself can tell.
+  Watts cpu_power{};  ///< Of the processors' rail; these four are 0 where the board has no such
+  Watts gpu_power{};  ///< meter, and they are in `computer_power` too.
+  Watts memory_power{};
+  Watts soc_power{};  ///< Of the rest of the chip.
+  std::array<StageUse, stage_count> stages{};
+
+  [[nodiscard]] const StageUse& stage(Stage one) const {
+    return stages[static_cast<std::size_t>(one)];
+  }
+  [[nodiscard]] StageUse& stage(Stage one) { return stages[static_cast<std::size_t>(one)]; }
 };
 
 }  // namespace flyball

@@ -46,8 +46,20 @@ class Platform {
   /// Amdahl speed-up of `kernel` on `cores` (may be fractional); 1 for at most one core.
   [[nodiscard]] virtual double speedup(std::string_view kernel, double cores) const = 0;
   [[nodiscard]] virtual bool knows(std::string_view kernel) const = 0;
-  /// Input power of the whole computer with `busy_cores` busy on average.
+  /// Input power of the whole computer with `busy_cores` busy on average. Cores that the operating
+  /// point leaves out are off unless somebody else works on them.
   [[nodiscard]] virtual Watts power(const OperatingPoint& point, double busy_cores) const = 0;
+  /// Whether `kernel` runs on the GPU, which serves one job at a time and lets it end.
+  [[nodiscard]] virtual bool runs_on_gpu(std::string_view /*kernel*/) const { return false; }
+  /// What the GPU adds to the input power of the computer while it works.
+  [[nodiscard]] virtual Watts gpu_power() const { return Watts{}; }
+  /// How many times longer `kernel` takes while so many other cores work, with whom it shares the
+  /// memory; at least 1.
+  [[nodiscard]] virtual double slowdown(std::string_view /*kernel*/,
+                                        Hertz /*clock*/,
+                                        double /*other_cores*/) const {
+    return 1.0;
+  }
   /// How long a change of the clock takes; jobs stand still meanwhile.
   [[nodiscard]] virtual Duration switching_time() const = 0;
   /// What is granted when `wanted` is asked for: a board that is too hot grants less.
@@ -58,13 +70,20 @@ class Platform {
   [[nodiscard]] virtual double taken_cores() const { return 0.0; }
 };
 
-/// One kernel's price list: t = scale * sum_i n_i c_i (a / f_GHz + b) / S(cores).
+/// One kernel's price list: t = scale * sum_i n_i c_i (a / f_GHz + b) / S(cores). On the GPU b is
+/// divided by its clock in GHz, and a follows the clock of the cores that feed it.
 struct KernelCost {
   std::map<std::string, double, std::less<>> seconds_per{};  ///< c_i by work name, at 1 GHz.
   double scale{1.0};
   double a{1.0};               ///< Share that scales with the clock [GHz].
   double b{};                  ///< Share that does not (memory).
   double parallel_fraction{};  ///< 0: the kernel runs on one core only.
+  bool on_gpu{};
+};
+
+struct GpuModel {
+  Hertz clock{};    ///< It is never changed.
+  double busy_w{};  ///< Added to the computer's input power while a job runs; idle, it is off.
 };
 
 /// From this clock of the cores on, the memory's clock is so much: boards raise both together.
@@ -86,10 +105,15 @@ struct PowerCost {
   double core_cubic_w{};
   double memory_linear_w{};
   std::vector<MemoryClock> memory_clocks{};  ///< Ascending; none: f_m = 0.
+  /// What a core that is on takes even if it idles, on its own rail; a part of `cpu_constant_w`,
+  /// which is that of all cores.
+  double idle_core_w{};
 
-  [[nodiscard]] Watts power(Hertz clock, double busy_cores) const;
+  [[nodiscard]] Watts power(Hertz clock, double busy_cores, double cores_off = 0.0) const;
   /// f_m at this clock of the cores.
   [[nodiscard]] Hertz memory_clock(Hertz clock) const;
+  /// What the input power falls by for each core that is switched off.
+  [[nodiscard]] Watts off_core_power() const { return Watts{converter * idle_core_w}; }
   /// What one busy core adds on its own rail, before the converter.
   [[nodiscard]] Watts core_power(Hertz clock) const;
 };
@@ -102,6 +126,10 @@ struct PlatformModel {
   PowerCost power{};
   std::map<std::string, KernelCost, std::less<>> kernels{};
   std::optional<ThermalModel> thermal{};  ///< Empty: it never gets too hot.
+  std::optional<GpuModel> gpu{};          ///< Empty: there is none.
+  /// By so much of itself the share of each kernel that waits for memory, b, grows for each other
+  /// core that works.
+  double memory_contention{};
 };
 
 /// A platform that is nothing but its numbers.
@@ -120,10 +148,18 @@ class ModeledPlatform final : public Platform {
   [[nodiscard]] double speedup(std::string_view kernel, double cores) const override;
   [[nodiscard]] bool knows(std::string_view kernel) const override;
   [[nodiscard]] Watts power(const OperatingPoint& point, double busy_cores) const override;
+  [[nodiscard]] bool runs_on_gpu(std::string_view kernel) const override;
+  [[nodiscard]] Watts gpu_power() const override;
+  [[nodiscard]] double slowdown(std::string_view kernel,
+                                Hertz clock,
+                                double other_cores) const override;
   [[nodiscard]] Duration switching_time() const override { return model_.switching_time; }
   [[nodiscard]] const PlatformModel& model() const { return model_; }
 
  private:
+  /// The share of the time that waits for memory, at the clock that it depends on.
+  [[nodiscard]] double waiting(const KernelCost& cost) const;
+
   PlatformModel model_;
 };
 

@@ -30,10 +30,19 @@ class VirtualExecutor final : public Executor {
   VirtualExecutor(const VirtualExecutor&) = delete;
   VirtualExecutor& operator=(const VirtualExecutor&) = delete;
 
+  void filter_messages(std::function<Message(int topic, const Message&)> filter) override;
   void on_job(std::function<void(const JobRecord&)> listener) override;
   void on_miss(std::function<void(int node, OnMiss)> listener) override;
   void set_operating_point(const OperatingPoint& point) override;
   [[nodiscard]] OperatingPoint operating_point() const override;
+  /// There is an edge computer from now on. A job of a node that is placed there computes when it
+  /// is released, with what it reads then. What it has read travels to the edge computer, unless it
+  /// was sent before or made there; the job is served there as on board, and its outputs travel
+  /// back. Meanwhile it takes nothing of the cores on board. The first job after its node's move
+  /// also sends the newest messages that the node had published: the state of a mapper is its map.
+  void connect_edge(const EdgeModel& edge);
+  void place(int node, bool on_edge) override;
+  [[nodiscard]] DeviceUse device_use() const override;
   /// Running jobs go on at new rates.
   void platform_changed() override;
   [[nodiscard]] double busy_core_s() const override;

@@ -25,6 +25,16 @@ TEST(KnownShare, counts_what_can_still_be_reached_through_unknown_space) {
   map.fill({Vec3{0, 0, 0}, Vec3{1.0, 2.0, 1.0}}, CellState::free);
   KnownShare share{volume, 0.1};
   EXPECT_NEAR(share.percent(map), 25.0, 1e-9);
+  EXPECT_NEAR(share.known_m3(), 2.0, 1e-9);
+}
+
+TEST(KnownArea, counts_the_squares_that_are_known_at_a_height) {
+  kit::GridMap map = unknown_map();
+  EXPECT_EQ(known_area_m2(map, volume, 0.45, 0.2), 0.0);
+  map.fill({Vec3{0, 0, 0}, Vec3{1.0, 2.0, 0.5}}, CellState::free);
+  map.fill({Vec3{1.0, 0, 0}, Vec3{1.2, 2.0, 1.0}}, CellState::occupied);
+  EXPECT_NEAR(known_area_m2(map, volume, 0.45, 0.2), 2.4, 1e-9);
+  EXPECT_NEAR(known_area_m2(map, volume, 0.75, 0.2), 0.4, 1e-9) << "above what is free";
 }
 
 TEST(KnownShare, forgets_what_is_enclosed_by_known_surfaces) {

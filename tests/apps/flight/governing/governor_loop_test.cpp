@@ -3,6 +3,8 @@
 #include "flyball/flight/governing/governor_loop.h"
 
 #include "short_delivery.h"
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +49,32 @@ TEST(GovernorLoop, records_what_each_decision_knew) {
     observations += row.channel == "observation" ? 1 : 0;
   }
   EXPECT_EQ(observations, record.summary.decisions);
+}
+
+TEST(GovernorLoop, sees_the_missions_progress_and_what_its_stages_take) {
+  const Scenario scenario = kit::short_delivery();
+  const MissionRecord record = kit::flown(scenario);
+  std::map<std::string, double> last;
+  double progress_m = 0.0;
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& [name, value] : row.fields) {
+      if (const auto* number = std::get_if<double>(&value);
+          number && row.channel == "observation") {
+        last[std::string{name}] = *number;
+      }
+    }
+    EXPECT_GE(last["progress"], progress_m);
+    progress_m = last["progress"];
+  }
+  EXPECT_EQ(last["progress_unit"], static_cast<double>(ProgressUnit::metre));
+  // The way flown holds take-offs, landings and detours besides.
+  EXPECT_LT(progress_m, record.summary.distance_m);
+  EXPECT_GT(progress_m, 0.6 * record.summary.distance_m);
+  EXPECT_GT(last["map_job_s"], 0.0);
+  EXPECT_GT(last["map_gigacycles"], 0.0);
+  EXPECT_GT(last["plan_job_s"], 0.0);
+  EXPECT_EQ(last["detect_job_s"], 0.0);
+  EXPECT_GT(last["headroom_m"], 0.0);
 }
 
 TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_own_pace) {

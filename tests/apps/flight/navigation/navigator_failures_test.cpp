@@ -45,5 +45,28 @@ TEST(NavigatorFailures, waits_for_smaller_cells_after_a_plan_that_failed_in_larg
   }
 }
 
+/// It hovers at the origin and looks east.
+TEST(NavigatorFailures, looks_towards_its_goal_and_to_both_sides_after_a_plan_that_failed) {
+  Trip trip;
+  trip.set_goal(Vec3{0, 20, 1.5});
+  trip.tick(100);
+  EXPECT_EQ(trip.navigator.state().yaw_rad, 0.0) << "no plan has failed";
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
+  double least_rad = 3.0;
+  double most_rad = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    trip.tick(1);
+    most_rad = std::max(most_rad, trip.navigator.state().yaw_rad);
+    if (most_rad > 2.0) {
+      least_rad = std::min(least_rad, trip.navigator.state().yaw_rad);
+    }
+  }
+  constexpr double north_rad = 1.5707963267948966;
+  EXPECT_GT(most_rad, north_rad + 0.7);
+  EXPECT_LT(least_rad, north_rad - 0.7);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -67,6 +67,15 @@ struct KnobChoices {
   bool localizer_rate{};               ///< Whether there is `localizer.rate_hz`.
 };
 
+/// Which nodes run on an edge computer at the start: 0 on board, 1 on the edge. A knob of the same
+/// name moves each of them in flight.
+struct OffloadSettings {
+  int plan{};
+  int map{};
+  int detect{};
+  int explore{};
+};
+
 struct MapSettings {
   double resolution_m{0.15};  ///< Default of the knob; a policy sets it in flight.
   double range_m{7.0};
@@ -77,6 +86,9 @@ struct PlannerSettings {
   /// Iterations for one request. More would be spent on a map that is seconds old; a new request on
   /// the newest map is worth more.
   int budget{4000};
+  /// So many searches, which differ in their random draws, race each other on cores of their own;
+  /// the first that finds a path ends them all. They share the budget.
+  int searches{1};
   /// A goal farther away is approached through intermediate places; 0: it is planned to at once.
   double horizon_m{};
 };
@@ -136,6 +148,7 @@ struct FlightSettings {
   double fix_error_m{};
   KernelSettings kernels{};
   KnobChoices knobs{};
+  bool has_edge{};  ///< Whether there is an edge computer to which nodes may move.
   MapSettings map{};
   PlannerSettings planner{};
   ScanSettings scan{};

@@ -49,6 +49,14 @@ struct MissionState {
   MissionPhase phase{MissionPhase::wait};
 };
 
+/// What the mission has achieved since take-off, as far as the vehicle itself can tell: metres
+/// nearer to its goals, ground photographed or searched, volume known, time that somebody was
+/// tracked. It never falls by turning back. A policy may ask what a unit of it costs.
+struct MissionProgress {
+  ProgressUnit unit{};
+  double value{};
+};
+
 /// A node, or the referee, says that the mission is over. The first message counts.
 struct MissionEnd {
   MissionTime at{};
@@ -66,6 +74,7 @@ struct LogRow {
 struct MissionTopics {
   Topic<KnobsInForce> knobs;
   Topic<MissionState> state;
+  Topic<MissionProgress> progress;
   Topic<MissionEnd> end;      ///< A queue: several nodes may say so.
   Topic<MissionEnd> outcome;  ///< The end that counts.
   Topic<LogRow> log;          ///< A queue that the node `record` reads.
@@ -87,6 +96,8 @@ void log(JobContext& job,
          std::vector<Field> fields);
 /// A row of channel `event`.
 void log_event(JobContext& job, const MissionTopics& topics, const std::string& what);
+/// @pre The node declares that it writes `progress`.
+void tell_progress(JobContext& job, const MissionTopics& topics, ProgressUnit unit, double value);
 /// @pre The node declares that it writes `end`.
 void end_mission(JobContext& job,
                  const MissionTopics& topics,

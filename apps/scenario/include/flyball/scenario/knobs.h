@@ -19,5 +19,8 @@ namespace flyball {
 ///        whose first value is not legal, or too many of them.
 [[nodiscard]] Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario,
                                                            const Platform& platform);
+/// With the platform that the scenario names.
+/// @error Those of its file, too.
+[[nodiscard]] Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario);
 
 }  // namespace flyball

@@ -45,18 +45,43 @@ struct PlatformSettings {
   double start_temperature_c{};  ///< 0: as warm as it is after it has idled for long.
 };
 
+/// A computer that is not on board, at the other end of a radio link.
+struct EdgeSettings {
+  std::string platform{"none"};     ///< Whose prices count there, at its highest clock with all its
+                                    ///< cores; none: there is no such computer.
+  double speed_factor{1.0};         ///< It is so many times faster than that.
+  double bandwidth_mbit_s{1000.0};  ///< The paper's 1 Gb/s.
+  double latency_s{0.001};          ///< One way. An estimate for a wireless network on site.
+  double jitter_s{};                ///< A message takes up to so much longer.
+  double loss{};                    ///< Share of packets.
+  double timeout_s{0.2};            ///< Least time-out of TCP in Linux (TCP_RTO_MIN).
+  /// A wireless card with three antennas that sends: 2.1 W, measured (Halperin et al., Demystifying
+  /// 802.11n power consumption, HotPower 2010).
+  double radio_send_w{2.1};
+  double radio_receive_w{1.6};  ///< An estimate: three quarters of sending.
+  double radio_idle_w{0.8};     ///< An estimate for one antenna that listens.
+};
+
+/// What guards the messages on board against soft errors.
+struct FaultSettings {
+  std::string detector{"none"};  ///< `none`, `range`, `rate` or `both`: see `Plausibility`.
+};
+
 /// Something that happens to the companion computer in flight; which members count is a matter of
 /// the kind.
 struct ComputerEvent {
-  std::string kind{};          ///< `slowdown`, `co_runner` or `cooling`.
-  double at_s{};               ///< Mission time.
-  double until_s{};            ///< 0: it lasts.
-  double factor{1.0};          ///< Slowdown: kernels take so many times what the file says.
-  std::string kernels{"all"};  ///< Slowdown: these only, with commas between them.
-  double cores{};              ///< Co-runner: kept busy.
-  double memory_share{};       ///< Co-runner: of the memory's bandwidth.
-  double resistance_k_w{8.0};  ///< Cooling: from the computer to the air.
-  double ambient_c{40.0};      ///< Cooling: of the air.
+  std::string kind{};           ///< `slowdown`, `co_runner`, `cooling` or `bit_flip`.
+  double at_s{};                ///< Mission time.
+  double until_s{};             ///< 0: it lasts.
+  double factor{1.0};           ///< Slowdown: kernels take so many times what the file says.
+  std::string kernels{"all"};   ///< Slowdown: these only, with commas between them.
+  double cores{};               ///< Co-runner: kept busy.
+  double memory_share{};        ///< Co-runner: of the memory's bandwidth.
+  double resistance_k_w{8.0};   ///< Cooling: from the computer to the air.
+  double ambient_c{40.0};       ///< Cooling: of the air.
+  std::string topic{};          ///< Bit flip: in the next message here.
+  std::string variable{"any"};  ///< Bit flip: in a number of this name, or in any.
+  double draw{};                ///< Bit flip: with the seed, settles which number and which bit.
 };
 
 struct Scenario {
@@ -81,6 +106,9 @@ struct Scenario {
   SearchSettings search{};
   WatchSettings watch{};
   PlatformSettings platform{};
+  EdgeSettings edge{};
+  OffloadSettings offload{};
+  FaultSettings faults{};
   GovernorSettings governor{};
   std::vector<ComputerEvent> events{};
 };

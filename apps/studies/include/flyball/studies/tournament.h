@@ -6,6 +6,7 @@
 /// is.
 
 #include "flyball/studies/comparison.h"
+#include "flyball/studies/hindsight.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -77,6 +78,7 @@ struct WorldResult {
   std::vector<PairedDifference> pairs{};        ///< Those that were asked for, and flew here.
   std::vector<DecisionFigures> decisions{};     ///< In the order of the comparison's rows.
   std::vector<BoundFigures> latency_bounds{};   ///< Of policies that make some.
+  std::optional<Hindsight> hindsight{};         ///< What the row `fixed_best` is; empty: no row.
   /// Whether one of the policies' energies is set against a bound.
   [[nodiscard]] bool has_bound() const;
   /// Whether one of the computers could have become too hot.
@@ -94,7 +96,9 @@ struct WorldResult {
 [[nodiscard]] std::string to_json(const std::vector<WorldResult>& worlds);
 [[nodiscard]] std::string to_text(const std::vector<WorldResult>& worlds);
 /// One file without network: for each world its tables, one plot per quantity and energy over time.
+/// @param summary  HTML that stands above the worlds.
 [[nodiscard]] std::string tournament_page(const std::string& title,
-                                          const std::vector<WorldResult>& worlds);
+                                          const std::vector<WorldResult>& worlds,
+                                          const std::string& summary = {});
 
 }  // namespace flyball

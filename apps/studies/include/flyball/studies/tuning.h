@@ -6,6 +6,7 @@
 /// combinations.
 
 #include "flyball/records/summary.h"
+#include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 
 #include <map>
@@ -32,6 +33,8 @@ struct Candidate {
   [[nodiscard]] int failures() const;
   /// Over succeeded flights; 0 without one.
   [[nodiscard]] double mean_energy_j() const;
+  /// The same.
+  [[nodiscard]] double median_energy_j() const;
 };
 
 /// Every combination of the values; without parameters a single empty one.
@@ -53,7 +56,12 @@ struct TuningRound {
 /// The preset as a file.
 [[nodiscard]] std::string preset_text(const std::string& policy,
                                       const std::string& description,
+                                      const std::map<std::string, ParameterValue>& parameters);
+[[nodiscard]] std::string preset_text(const std::string& policy,
+                                      const std::string& description,
                                       const Candidate& candidate);
+/// `range_m=7 resolution_m=0.15`
+[[nodiscard]] std::string parameters_text(const Candidate& candidate);
 
 /// The candidates, best first, as a table for a terminal.
 [[nodiscard]] std::string to_text(const std::vector<Candidate>& ranked);

@@ -7,6 +7,7 @@
 
 #include "flyball/runtime/board/linux_board.h"
 #include "flyball/runtime/executor.h"
+#include "flyball/runtime/node_meter.h"
 
 #include <atomic>
 #include <cstdint>
@@ -48,12 +49,14 @@ class RealtimeBoard final : public Board {
   /// What the board's own meters said last: clock, watts and heat. Asks neither board nor executor.
   [[nodiscard]] BoardReading meters() const;
   [[nodiscard]] BoardReading read() const override;
+  [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
   void request(const OperatingPoint& point) override;
 
  private:
   LinuxBoard& board_;
   std::atomic<Executor*> executor_{};
   std::atomic<std::uint64_t> deadline_misses_{};
+  NodeMeter nodes_{};
   std::mutex board_mutex_{};  ///< Of `board_` and the next three.
   OperatingPoint requested_{0, {}};
   Duration refreshed_at_{};

@@ -24,6 +24,13 @@ struct ExploreAnswer {
   ExploreStep step{};
 };
 
+/// On a link: views that were had and places that were not reached, beside the members of fixed
+/// size.
+[[nodiscard]] inline double wire_bytes(const ExploreQuery& query) {
+  return static_cast<double>(sizeof(ExploreQuery) + query.request.taken.size() * sizeof(Viewpoint) +
+                             query.request.unreachable_W.size() * sizeof(Vec3));
+}
+
 /// The request to the explorer from a viewpoint, with field of view, body and limits of the
 /// mission.
 [[nodiscard]] ExploreRequest explore_request(const Brief& brief, const Viewpoint& from);

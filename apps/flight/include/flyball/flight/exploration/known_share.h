@@ -23,6 +23,8 @@ class KnownShare {
   /// 0 to 100; 0 while nothing is known.
   /// @cost One look-up in the map for each cell of the volume.
   [[nodiscard]] double percent(const OccupancyView& map);
+  /// Free or occupied, at the last call of `percent`.
+  [[nodiscard]] double known_m3() const { return known_m3_; }
 
  private:
   enum class Mark : std::uint8_t { unknown, known_free, known_solid, reachable };
@@ -34,8 +36,18 @@ class KnownShare {
   std::size_t columns_;
   std::size_t rows_;
   std::size_t layers_;
+  double known_m3_{};
   std::vector<Mark> marks_;
   std::vector<std::size_t> front_;  ///< Cells whose neighbours are still to be looked at.
 };
+
+/// How much of a volume's ground plan is known at the height `z_m`, by the middles of squares.
+///
+/// @pre `square_m > 0`.
+/// @cost One look-up in the map for each square.
+[[nodiscard]] double known_area_m2(const OccupancyView& map,
+                                   const Aabb& volume_W,
+                                   double z_m,
+                                   double square_m);
 
 }  // namespace flyball

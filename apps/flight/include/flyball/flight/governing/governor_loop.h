@@ -13,6 +13,8 @@
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
 
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -41,11 +43,13 @@ class ForesightSource {
 struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
   std::optional<Topic<MapRevision>> map{};
-  Duration period{};          ///< Between decisions.
+  std::array<std::vector<int>, stage_count> stages{};  ///< The nodes of each.
+  Duration period{};                                   ///< Between decisions.
   ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
-/// The topics `navigator` and `map_revision` of a graph, where it has them.
+/// The topics `navigator` and `map_revision` of a graph and the nodes of its stages, where it has
+/// them.
 [[nodiscard]] GovernorInputs governor_inputs(const Graph& graph);
 
 /// Belongs to the node `govern` while the graph runs; what it counted may be asked afterwards.
@@ -86,11 +90,14 @@ class GovernorLoop {
   void observe_map(const NavigatorState& navigator, const OccupancyView& map);
   void observe_gaps(const NavigatorState& navigator, const OccupancyView& map);
   void observe_computer(MissionTime now);
+  void observe_stages(double elapsed_s);
+  void observe_progress(JobContext& job);
   void decide(JobContext& job);
   void publish_knobs(JobContext& job);
   void record(JobContext& job, bool is_whole);
   void record_bounds(JobContext& job);
   void apply(JobContext& job, const Decision& decision);
+  void place_nodes();
   void note_moved_wishes(JobContext& job);
   void note_fallback(JobContext& job);
 
@@ -101,6 +108,7 @@ class GovernorLoop {
   Board& board_;
   GovernorInputs inputs_;
   OperatingPoint asked_;
+  std::map<std::string, bool> placed_{};  ///< Whether a node that may move is on the edge.
   Observation seen_{};
   std::vector<double> told_{};  ///< The members of `seen_` as they were last recorded.
   ChoiceMemory choices_{};
@@ -108,6 +116,7 @@ class GovernorLoop {
   MissionTime last_{};
   double last_busy_core_s_{};
   double last_busiest_core_s_{};
+  std::array<double, stage_count> last_stage_core_s_{};
   std::uint64_t last_drops_{};
   std::uint64_t last_misses_{};
   std::uint64_t decisions_{};

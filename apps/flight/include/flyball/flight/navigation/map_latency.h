@@ -29,10 +29,11 @@ struct MapTerms {
   Duration frame_interval{};
   /// The same of the frames by which the vehicle knows its place.
   Duration fix_interval{};
+  bool is_offloaded{};  ///< The map is made on an edge computer.
   friend bool operator==(const MapTerms& a, const MapTerms& b) {
     return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock == b.clock &&
            a.cores == b.cores && a.frame_interval == b.frame_interval &&
-           a.fix_interval == b.fix_interval;
+           a.fix_interval == b.fix_interval && a.is_offloaded == b.is_offloaded;
   }
   friend bool operator!=(const MapTerms& a, const MapTerms& b) { return !(a == b); }
 };
@@ -57,7 +58,8 @@ class MeasuredShares {
  public:
   void add(MissionTime now, const MapTerms& terms, double share);
   /// 1.1 times the largest of these settings, or of the nearest ones that were measured; 1 if none
-  /// were: the price itself.
+  /// were: the price itself. An edge computer may be at the end of any link, so that its times say
+  /// nothing of those on board, nor these of its; until it has been measured there is no bound.
   [[nodiscard]] double bound(const MapTerms& terms) const;
 
  private:
@@ -65,8 +67,8 @@ class MeasuredShares {
     LatencyWindow shares{Duration{}};  ///< A second stands for 1.
     MissionTime newest{};
   };
-  /// By cores, cell size, range and interval between frames.
-  std::map<std::tuple<int, double, double, Duration>, Window> windows_{};
+  /// By place, cores, cell size, range and interval between frames.
+  std::map<std::tuple<bool, int, double, double, Duration>, Window> windows_{};
 };
 
 /// A bound is the largest measured share times the price of the settings in force, so that it

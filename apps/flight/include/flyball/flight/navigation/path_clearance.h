@@ -6,6 +6,7 @@
 
 #include "flyball/flight/navigation/path_follower.h"
 #include "flyball/flight/perception/map_revision.h"
+#include "flyball/runtime/numbers.h"
 
 #include <optional>
 
@@ -18,5 +19,14 @@ struct PathClearance {
   std::optional<double> blocked_at_m{};  ///< Arc length of the first occupied place.
   TierDistances free_until_m{};
 };
+
+inline void visit_numbers(PathClearance& clearance, NumberVisitor& visitor) {
+  if (clearance.blocked_at_m) {
+    visitor.visit("blocked_at", Quantity::distance, *clearance.blocked_at_m);
+  }
+  for (double& free_until_m : clearance.free_until_m) {
+    visitor.visit("free_until", Quantity::distance, free_until_m);
+  }
+}
 
 }  // namespace flyball

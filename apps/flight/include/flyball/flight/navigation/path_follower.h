@@ -70,6 +70,10 @@ class PathFollower {
   /// At the path's end, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
+  /// While it hovers without a path, the camera looks towards this place and to both sides of it;
+  /// none: as `face` says.
+  void look_for_way_to(const std::optional<Vec3>& p_W) { wants_way_to_W_ = p_W; }
+
   /// Measures the known-free distance again, after the path has changed.
   void refresh_known_free(const OccupancyView& map);
   /// The known-free distances of this path, measured by the node `check` in a newer map.
@@ -131,6 +135,7 @@ class PathFollower {
   [[nodiscard]] double braked_speed(double dt_s) const;
   void turn(double dt_s, MissionTime now);
   [[nodiscard]] std::optional<double> wanted_yaw_rad(MissionTime now);
+  void look_for_way(const Vec3& to_W, double dt_s);
   [[nodiscard]] double distance_since(MissionTime captured) const;
 
   [[nodiscard]] double speed_limit_at(const Vec3& p_W) const {
@@ -154,6 +159,8 @@ class PathFollower {
   MissionTime newest_capture_{};
   std::optional<MissionTime> stalled_since_{};
   std::optional<double> face_yaw_rad_{};
+  std::optional<Vec3> wants_way_to_W_{};
+  double looked_s_{};  ///< For how long it has looked for a way.
   std::deque<std::pair<MissionTime, double>> odometer_{};
 };
 

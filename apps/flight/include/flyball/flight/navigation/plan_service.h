@@ -5,6 +5,7 @@
 /// The messages between the navigator and what plans for it.
 
 #include "flyball/flight/navigation/known_path.h"
+#include "flyball/runtime/numbers.h"
 #include "flyball/runtime/trajectory.h"
 
 #include <cstdint>
@@ -39,6 +40,23 @@ struct PlanAnswer {
   double iterations{};
 };
 
+/// On a link: a path's way-points, beside the members of fixed size.
+[[nodiscard]] inline double wire_bytes(const PlanQuery& query) {
+  const std::size_t known = query.known ? query.known->waypoints_W.size() : 0;
+  return static_cast<double>(sizeof(PlanQuery) + known * sizeof(Vec3));
+}
+[[nodiscard]] inline double wire_bytes(const PlanAnswer& answer) {
+  return static_cast<double>(sizeof(PlanAnswer) + answer.waypoints_W.size() * sizeof(Vec3) +
+                             answer.failure.size());
+}
+
+/// Its way-points.
+inline void visit_numbers(PlanAnswer& answer, NumberVisitor& visitor) {
+  for (Vec3& p_W : answer.waypoints_W) {
+    visit_vector(visitor, {"x", "y", "z"}, Quantity::position, p_W);
+  }
+}
+
 struct PlannedPath {
   std::uint64_t id{};
   Trajectory trajectory{};
@@ -47,5 +65,14 @@ struct PlannedPath {
   KnownPath path{};     ///< The path that the trajectory follows.
   double iterations{};  ///< Iterations that the search took.
 };
+
+/// Where each piece of its trajectory begins; the polynomials' other coefficients stay.
+inline void visit_numbers(PlannedPath& planned, NumberVisitor& visitor) {
+  for (PolynomialPiece& piece : planned.trajectory.pieces) {
+    Vec3 begin_W = piece.c.col(0);
+    visit_vector(visitor, {"x", "y", "z"}, Quantity::position, begin_W);
+    piece.c.col(0) = begin_W;
+  }
+}
 
 }  // namespace flyball

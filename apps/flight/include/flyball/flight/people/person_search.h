@@ -22,6 +22,11 @@ struct Sightings {
   std::vector<Sighting> people{};
 };
 
+/// On a link: people and their places; the picture is on board.
+[[nodiscard]] inline double wire_bytes(const Sightings& seen) {
+  return static_cast<double>(sizeof(Sightings) + seen.people.size() * sizeof(Sighting));
+}
+
 /// The place in the world of the middle of a box in a colour image. Its distance is the median
 /// depth of the box's inner quarter in a depth image that the level camera in the body's centre
 /// took at the same time.

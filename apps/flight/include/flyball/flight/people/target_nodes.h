@@ -20,6 +20,11 @@ struct Detections {
   std::vector<Detection> people{};
 };
 
+/// On a link: the boxes; the picture is on board.
+[[nodiscard]] inline double wire_bytes(const Detections& seen) {
+  return static_cast<double>(sizeof(Detections) + seen.people.size() * sizeof(Detection));
+}
+
 /// Counts that decide the end of the mission, and figures of quality.
 struct TargetLog {
   int detections{};     ///< Frames in which the person was detected.

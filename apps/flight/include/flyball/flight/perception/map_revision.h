@@ -19,6 +19,11 @@ struct MapRevision {
   /// Never changes. Owners: the message, and readers that go on with this revision while newer ones
   /// come.
   std::shared_ptr<const OccupancyView> map{};
+  double bytes{};  ///< On a link; 0 where there is none.
 };
+
+[[nodiscard]] inline double wire_bytes(const MapRevision& revision) {
+  return revision.bytes;
+}
 
 }  // namespace flyball

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Settings of one policy that fly the same seeds of one scenario, each as a preset in a file.
+
+#include "flyball/studies/tuning.h"
+
+#include "stored_flights.h"
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flyball {
+
+struct RaceSettings {
+  FlightOptions flight{};
+  std::string policy{};
+  std::vector<std::uint64_t> seeds{};
+  std::string presets{};  ///< The folder of the candidates' presets; it is made.
+  std::string flights{};  ///< The folder of the flights' records.
+  StoredBatch batch{};
+};
+
+/// Which of two candidates with the same seeds is better.
+using RaceOrder = bool (*)(const Candidate&, const Candidate&);
+
+class Race {
+ public:
+  /// @param store  Outlives the race.
+  Race(RaceSettings settings, FlightStore& store);
+
+  /// Lets each of the candidates fly the first so many seeds, as far as it has not.
+  /// @return Why they did not all fly, as the exit code that `unfinished` gives, which has said it.
+  [[nodiscard]] std::optional<int> fly(const std::vector<Candidate*>& candidates,
+                                       std::size_t seeds);
+  /// Successive halving; afterwards those that flew all seeds stand in front, best first.
+  /// @return As `fly`.
+  [[nodiscard]] std::optional<int> halve(std::vector<Candidate>& candidates, RaceOrder is_better);
+
+  /// With which it flies as a policy.
+  [[nodiscard]] std::string preset_file(const Candidate& candidate) const;
+  [[nodiscard]] const RaceSettings& settings() const { return settings_; }
+
+ private:
+  struct Heat;
+  [[nodiscard]] Status write_preset(const Candidate& candidate) const;
+  [[nodiscard]] std::variant<std::vector<Heat>, std::vector<Error>> plan(
+      const std::vector<Candidate*>& candidates, std::size_t seeds) const;
+
+  RaceSettings settings_;
+  FlightStore& store_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cli/tournament/tournament_flights.h"
+
+#include <filesystem>
+#include <set>
+#include <utility>
+
+namespace flyball {
+
+std::string out_folder(const TournamentOptions& options) {
+  return options.flight.out.empty() ? "flights/tournament" : options.flight.out;
+}
+
+FlightOptions flight_in(const TournamentOptions& options, const std::string& world) {
+  FlightOptions flight = options.flight;
+  flight.scenario = world;
+  return flight;
+}
+
+std::string folder_of(const TournamentOptions& options, const std::string& world) {
+  return (std::filesystem::path{out_folder(options)} / std::filesystem::path{world}.stem())
+      .string();
+}
+
+std::variant<TournamentFlights, std::vector<Error>> plan_flights(
+    const TournamentOptions& options,
+    const std::vector<Flier>& fliers,
+    const std::vector<std::uint64_t>& seeds) {
+  TournamentFlights entries;
+  std::set<std::string> names;
+  for (const std::string& world : options.worlds) {
+    const FlightOptions flight = flight_in(options, world);
+    for (std::size_t i = 0; i < fliers.size() * seeds.size(); ++i) {
+      const Flier& flier = fliers[i / seeds.size()];
+      auto planned =
+          plan_flight(flight, flier.policy, seeds[i % seeds.size()], folder_of(options, world));
+      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+        return std::move(*errors);
+      }
+      entries.push_back({{std::move(std::get<PlannedFlight>(planned)), "", {}}, flier.row});
+    }
+    if (!names.insert(entries.back().scenario.name).second) {
+      return std::vector{Error{ErrorCode::invalid_input,
+                               "--worlds has two whose name is \"" + entries.back().scenario.name +
+                                   "\"; give each scenario a name of its own"}};
+    }
+  }
+  return entries;
+}
+
+StoredBatch batch_of(const TournamentOptions& options) {
+  return {out_folder(options), options.jobs, options.keeps_records, true};
+}
+
+}  // namespace flyball

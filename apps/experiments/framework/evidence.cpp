@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "experiments/framework/evidence.h"
+
+#include "flyball/runtime/assert.h"
+
+#include "studies/sweep/flight_figures.h"
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+Measured measured_of(const std::vector<double>& values) {
+  return {bootstrap_median(values), static_cast<int>(values.size())};
+}
+
+/// The point's numbers by seed.
+std::map<std::uint64_t, double> by_seed(const Point& point, const Quantity& of) {
+  std::map<std::uint64_t, double> values;
+  for (const Summary* flight : point.flights) {
+    const bool counts = point.counts_failed || flight->status == MissionStatus::succeeded;
+    if (const auto value = counts ? of(*flight) : std::nullopt) {
+      values[flight->seed] = *value;
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+Quantity quantity(const std::string& figure) {
+  return [figure](const Summary& flight) -> std::optional<double> {
+    for (const auto& [name, value] : figures_of(flight)) {
+      if (name == figure) {
+        return value;
+      }
+    }
+    return std::nullopt;
+  };
+}
+
+const Sweep& Evidence::sweep(const std::string& name) const {
+  const auto found = sweeps_.find(name);
+  FLYBALL_ASSERT(found != sweeps_.end(), "no sweep \"%s\"", name.c_str());
+  return found->second;
+}
+
+Point Evidence::at(const std::string& name,
+                   const std::vector<std::string>& values,
+                   const std::string& policy) const {
+  const Sweep& flown = sweep(name);
+  const auto& cells = flown.cells;
+  const auto cell = std::find_if(cells.begin(), cells.end(), [&](const SweepCell& each) {
+    return each.point.values == values && (policy.empty() || each.point.policy == policy);
+  });
+  FLYBALL_ASSERT(cell != cells.end(), "sweep \"%s\" has no such point", name.c_str());
+  Point point;
+  for (const SweepFlight& flight : flown.flights) {
+    if (flight.point == static_cast<std::size_t>(cell - cells.begin())) {
+      point.flights.push_back(&flight.summary);
+    }
+  }
+  return point;
+}
+
+Measured median(const Point& point, const Quantity& of) {
+  std::vector<double> values;
+  for (const auto& [seed, value] : by_seed(point, of)) {
+    values.push_back(value);
+  }
+  return measured_of(values);
+}
+
+Measured ratio(const Point& over, const Point& under, const Quantity& of) {
+  const auto below = by_seed(under, of);
+  std::vector<double> ratios;
+  for (const auto& [seed, value] : by_seed(over, of)) {
+    if (const auto found = below.find(seed); found != below.end() && found->second > 0.0) {
+      ratios.push_back(value / found->second);
+    }
+  }
+  return measured_of(ratios);
+}
+
+Measured success_percent(const Point& point) {
+  if (point.flights.empty()) {
+    return {};
+  }
+  const auto succeeded = std::count_if(
+      point.flights.begin(), point.flights.end(),
+      [](const Summary* flight) { return flight->status == MissionStatus::succeeded; });
+  const double percent =
+      100.0 * static_cast<double>(succeeded) / static_cast<double>(point.flights.size());
+  return {MedianInterval{percent, percent, percent}, static_cast<int>(point.flights.size())};
+}
+
+}  // namespace flyball

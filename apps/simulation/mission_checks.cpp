@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: mission
+#include "simulation/mission_checks.h"
+
+#include <filesystem>
+
+namespace flyball {
+
+Status check_map_name(const std::string& path) {
+  const std::string ending = std::filesystem::path{path}.extension().string();
+  if (path.empty() || ending == ".bt" || ending == ".ot") {
+    return Done{};
+  }
+  return Error{ErrorCode::invalid_input,
+               "map file \"" + path + "\" must end in .bt (free or occupied) or .ot (log-odds)"};
+}
+
+Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {
+  if (!hooks.executor) {
+    return Done{};
+  }
+  std::string key;
+  if (scenario.edge.platform != "none") {
+    key = "edge.platform = \"" + scenario.edge.platform + "\"";
+  } else if (scenario.faults.detector != "none") {
+    key = "faults.detector = \"" + scenario.faults.detector + "\"";
+  }
+  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
+    if (scenario.events[i].kind == "bit_flip") {
+      key = "events." + std::to_string(i + 1) + ".kind = \"bit_flip\"";
+    }
+  }
+  return key.empty() ? Status{Done{}}
+                     : Status{Error{ErrorCode::invalid_input,
+                                    key + " needs the modeled computer; leave it out, or fly " +
+                                        "without --executor realtime"}};
+}
+
+}  // namespace flyball

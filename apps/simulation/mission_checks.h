@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// What is wrong with the hooks of a flight, said before it begins.
+
+#include "flyball/simulation/mission.h"
+
+#include <string>
+
+namespace flyball {
+
+/// Before the flight: after it a wrong name would cost the map.
+[[nodiscard]] Status check_map_name(const std::string& path);
+/// Links and faults exist on a modeled computer only.
+[[nodiscard]] Status check_executor(const Scenario& scenario, const MissionHooks& hooks);
+
+}  // namespace flyball

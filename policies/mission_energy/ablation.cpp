@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ablation.h"
+
+#include "flyball/runtime/assert.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace flyball {
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::max();
+constexpr double wide_open_m = 1e3;  // Farther apart than any camera sees.
+
+}  // namespace
+
+/// A part that is switched by a parameter of the policy says which one, and its value without it.
+struct Ablation::Named {
+  const char* name;
+  Part part;
+  const char* parameter{nullptr};
+  double value{};
+};
+
+const std::vector<Ablation::Named>& Ablation::parts() {
+  static const std::vector<Named> all{
+      {"nothing", Part::none},
+      {"resolution", Part::resolution},
+      {"range", Part::range},
+      {"clock", Part::clock},
+      {"latency_bound", Part::latency_bound, "margin", 1.0},          // The prediction itself.
+      {"latency_learning", Part::latency_learning, "learn_s", 1e-9},  // Over before it begins.
+      {"gaps", Part::gaps},
+      {"visibility", Part::visibility},
+      {"failed_plan_prices", Part::failed_plan_prices},
+      {"rotor_power", Part::rotor_power},
+      {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
+      {"detour_prices", Part::detour_prices},
+      {"switching_price", Part::switching_price},
+      {"finest_reserve", Part::finest_reserve},
+      {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
+      {"noise_limit", Part::noise_limit},
+  };
+  return all;
+}
+
+ParameterSpec Ablation::parameter() {
+  ParameterSpec spec{"without", std::string{parts().front().name}, 0.0, 0.0,
+                     "The part that is left out, to see what it earns."};
+  for (const Named& one : parts()) {
+    spec.choices.emplace_back(one.name);
+  }
+  return spec;
+}
+
+Ablation::Ablation(const Parameters& given) {
+  const std::string& name = given.text("without");
+  const auto found = std::find_if(parts().begin(), parts().end(),
+                                  [&name](const Named& one) { return name == one.name; });
+  FLYBALL_ASSERT(found != parts().end(), "without = %s", name.c_str());
+  part_ = found->part;
+}
+
+Parameters Ablation::begins_with(const Parameters& given,
+                                 const std::vector<ParameterSpec>& specs) const {
+  auto values = given.values();
+  for (const Named& one : parts()) {
+    if (one.part == part_ && one.parameter != nullptr) {
+      values[one.parameter] = one.value;
+    }
+  }
+  auto changed = Parameters::resolve("mission_energy without a part", specs, values);
+  FLYBALL_ASSERT(std::holds_alternative<Parameters>(changed), "part %d", static_cast<int>(part_));
+  return std::get<Parameters>(std::move(changed));
+}
+
+BoardModel Ablation::begins_with(BoardModel board) const {
+  if (part_ == Part::noise_limit && board.vehicle.depth_camera) {
+    board.vehicle.depth_camera->rgbd_noise = false;
+    board.vehicle.depth_camera->extra_noise_m = 0.0;
+  }
+  return board;
+}
+
+EnergySearchSettings Ablation::begins_with(EnergySearchSettings settings) const {
+  if (part_ == Part::detour_prices) {
+    settings.spacing_m = std::numeric_limits<double>::infinity();  // No obstacle ever comes.
+  } else if (part_ == Part::switching_price) {
+    settings.switching_s = 0.0;
+  }
+  return settings;
+}
+
+Observation Ablation::seen(Observation seen) const {
+  if (part_ == Part::gaps) {
+    seen.narrowest_gap_m = wide_open_m;
+    seen.gap_distance_m = 0.0;
+  } else if (part_ == Part::rotor_power) {
+    seen.rotor_power = Watts{0.0};  // From which nothing is learned.
+  }
+  return seen;
+}
+
+void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) const {
+  if (part_ ==
+      Part::resolution) {  // The finest cells pass every gap, so they are the ones to keep.
+    around.coarsest_m = around.finest_m = 0.0;
+  } else if (part_ == Part::range) {
+    around.least_range_m = around.most_range_m = ranges_m[ranges_m.size() / 2];
+  } else if (part_ == Part::clock) {
+    around.needs_top_clock = true;
+  } else if (part_ == Part::visibility) {
+    around.visibility_m = no_limit;
+  } else if (part_ == Part::failed_plan_prices) {
+    around.failed_plans_per_m = nullptr;
+  } else if (part_ == Part::finest_reserve) {
+    around.finest_m = 0.0;
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,266 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Flies mission_energy and its opponents in every cell of a matrix {world} x {price of the map} x
+{RGB-D noise} and prints, cell by cell, what mission_energy takes over the best opponent: the median
+ratio over the seeds where both succeed with its 95 % interval, successes and collisions. Below stand
+the geometric mean over all cells and the cells that miss a bar. Energy is that of the mission; of a
+photography it is energy per second in which the person was tracked.
+
+The best opponent of a cell is the one with the most successes, and among those the one that
+mission_energy comes off worst against. fixed_best, the best single setting in hindsight, is one of them.
+
+Each cell is a `flyball tournament` in a folder of its own, so the same command goes on where it was
+stopped, and a subset first makes the whole go faster later. Seeds from 9000 on are not for development.
+Exits with 1 where a cell misses a bar, with 2 where one could not be flown.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import random
+import sqlite3
+import statistics
+import subprocess
+import sys
+import time
+
+GOVERNOR = "mission_energy"
+BAR_OF_A_CELL = 1.03
+BAR_OF_ALL = 0.95
+
+WORLDS = {
+    "office_as_built": ("delivery_office_as_built", []),
+    "building_079": ("delivery_building_079", []),
+    "mixed_260": ("delivery_mixed", ["world.length_m=260"]),
+    "mixed_600": ("delivery_mixed", ["world.length_m=600"]),
+    "mixed_900": ("delivery_mixed", ["world.length_m=900"]),
+    "congestion": ("delivery_congestion", []),
+    "outdoor_to_indoor": ("delivery_outdoor_to_indoor", []),
+    "city": ("delivery_city", []),
+    "forest": ("delivery_forest", []),
+    "mapping": ("mapping_office", []),
+    "search": ("search_collapsed_building", []),
+    "photography": ("photography_park", []),
+    "scanning": ("scanning_farm", []),
+}
+MAPS = {
+    "stock": ["kernels.mapper=octomap"],
+    "lattice": ["kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=octomap"],
+    "own": ["kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"],
+}
+NOISE = {"clean": ["camera.rgbd_noise=false"], "noisy": ["camera.rgbd_noise=true"]}
+# What a mission makes progress in, where flights that succeed do not all make as much of it.
+PROGRESS = {"photography": "tracked_s"}
+
+
+def opponents(world, mapper, noise):
+    """Without fixed_best. two_level has cells of .8 m, which a lattice has not."""
+    names = ["gap_switch_rgbd" if noise == "noisy" else "gap_switch", "two_level_lattice",
+             "two_level_tuned", "fixed_tuned" if world == "congestion" else "fixed_tuned_mixed"]
+    return names + (["two_level"] if mapper == "stock" else [])
+
+
+class Cell:
+    """One world with one map and one camera."""
+
+    def __init__(self, options, world, mapper, noise):
+        self.name = f"{world} {mapper} {noise}"
+        self.world, self.noise = world, noise
+        self.scenario, settings = WORLDS[world]
+        self.settings = [*settings, *MAPS[mapper], *NOISE[noise], *options.set]
+        self.rivals = options.against or opponents(world, mapper, noise)
+        self.folder = options.out / self.name.replace(" ", "-")
+
+    def command(self, options):
+        command = [options.flyball, "tournament", "--worlds", self.scenario, "--seeds",
+                   options.seeds, "--policies", ",".join([GOVERNOR, *self.rivals]), "--jobs",
+                   str(options.jobs), "--json", "--out", self.folder]
+        command += [word for setting in self.settings for word in ("--set", setting)]
+        return command + (["--hindsight"] if options.hindsight else [])
+
+    def fly(self, options):
+        """The tournament's table, or None, with the reason on standard error. Progress goes there,
+        too, where somebody watches it."""
+        ended = subprocess.run(self.command(options), stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, text=True, check=False)
+        if ended.returncode == 130:
+            raise KeyboardInterrupt
+        if ended.returncode != 0:
+            print(f"{self.name}: could not be flown", file=sys.stderr)
+            return None
+        return json.loads(ended.stdout)[0]
+
+    def flights(self, policy, seeds):
+        """The flights of a policy by seed, as the tournament's store keeps them: whether it
+        succeeded, its failure, and its energy over its progress."""
+        database = sqlite3.connect(self.folder / "tournament.db")
+        rows = database.execute(
+            "SELECT f.seed, f.status, f.failure, f.energy_total_j, q.value FROM flights f LEFT JOIN "
+            "quality q ON q.world = f.world AND q.policy = f.policy AND q.seed = f.seed AND "
+            "q.settings = f.settings AND q.name = ? WHERE f.policy = ? AND f.settings = ''",
+            (PROGRESS.get(self.world, ""), policy)).fetchall()
+        database.close()
+        return {seed: (status == "succeeded", failure, energy / (progress or 1.0))
+                for seed, status, failure, energy, progress in rows if seed in seeds}
+
+
+def interval(values):
+    """Of the median: percentile bootstrap with a fixed seed; the whole range below six values."""
+    if len(values) < 6:
+        return min(values), max(values)
+    draws = random.Random(1)
+    medians = sorted(statistics.median(draws.choices(values, k=len(values))) for _ in range(2000))
+    return medians[50], medians[-51]
+
+
+def successes(flights):
+    return sum(flight[0] for flight in flights.values())
+
+
+def collisions(flights):
+    return sum(flight[1] == "collision" for flight in flights.values())
+
+
+def ratios(mine, other):
+    return [mine[seed][2] / other[seed][2] for seed in sorted(mine)
+            if seed in other and mine[seed][0] and other[seed][0]]
+
+
+def judged(cell, table):
+    """What is said of a cell."""
+    seeds = set(table["seeds"])
+    mine = cell.flights(GOVERNOR, seeds)
+    rivals = {name: cell.flights(name, seeds) for name in cell.rivals}
+    if "fixed_best" in table:
+        rivals["fixed_best"] = cell.flights(table["fixed_best"]["preset"], seeds)
+    by_rival = {name: ratios(mine, flights) for name, flights in rivals.items()}
+    medians = {name: statistics.median(values) if values else -math.inf
+               for name, values in by_rival.items()}
+    best = max(rivals, key=lambda name: (successes(rivals[name]), medians[name]))
+    values = by_rival[best]
+    told = {"cell": cell.name, "n": len(mine), "pairs": len(values), "best": best,
+            "ratio": medians[best] if values else None,
+            "interval": interval(values) if values else None,
+            "successes": successes(mine), "best_successes": successes(rivals[best]),
+            "collisions": collisions(mine),
+            "rivals": {name: {"ratio": medians[name] if by_rival[name] else None,
+                              "successes": successes(rivals[name]),
+                              "collisions": collisions(rivals[name])} for name in rivals},
+            "fixed_best": table.get("fixed_best")}
+    told["missed"] = [bar for bar, is_missed in (
+        ("energy", bool(values) and medians[best] > BAR_OF_A_CELL),
+        ("success", told["successes"] < told["best_successes"]),
+        ("collision", told["collisions"] > 0)) if is_missed]
+    return told
+
+
+HEADS = ["cell", "n", "over the best", "95 %", "best opponent", "success", "its", "collisions",
+         "misses"]
+
+
+def row(told):
+    has = told["ratio"] is not None
+    best = told["best"]
+    if best == "fixed_best":
+        best += f" ({told['fixed_best']['setting']})"
+    return [told["cell"], str(told["n"]), f"{told['ratio']:.3f}" if has else "-",
+            "[{:.3f}, {:.3f}]".format(*told["interval"]) if has else "-", best,
+            f"{told['successes']}/{told['n']}", f"{told['best_successes']}/{told['n']}",
+            str(told["collisions"]), ", ".join(told["missed"]) or "-"]
+
+
+def report(cells):
+    lines = ["| " + " | ".join(HEADS) + " |", "|" + "---|" * len(HEADS)]
+    lines += ["| " + " | ".join(row(told)) + " |" for told in cells]
+    known = [told["ratio"] for told in cells if told["ratio"] is not None]
+    if known:
+        mean = math.exp(sum(map(math.log, known)) / len(known))
+        missed = [told["cell"] for told in cells if told["missed"]]
+        lines += ["", f"geometric mean over {len(known)} cells: {mean:.3f} (bar {BAR_OF_ALL})",
+                  f"cells that miss a bar (energy over {BAR_OF_A_CELL}, success, collision): "
+                  f"{len(missed)} of {len(cells)}" + (": " + "; ".join(missed) if missed else "")]
+    return "\n".join(lines) + "\n"
+
+
+def names(known):
+    def read(text):
+        chosen = text.split(",")
+        for name in chosen:
+            if name not in known:
+                raise argparse.ArgumentTypeError(f"{name} is none of {', '.join(known)}")
+        return chosen
+    return read
+
+
+def parsed():
+    source = pathlib.Path(__file__).resolve().parents[2]
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--flyball", type=pathlib.Path, default=source / "build/ci/bin/flyball")
+    parser.add_argument("--seeds", default="9101..9108", help="as flyball's")
+    for option, known in (("worlds", WORLDS), ("maps", MAPS), ("noise", NOISE)):
+        parser.add_argument(f"--{option}", type=names(known), default=list(known),
+                            metavar="A,B", help=f"of {', '.join(known)} (default: all)")
+    parser.add_argument("--against", type=lambda text: text.split(","), metavar="A,B",
+                        help="other opponents than those that this file lists")
+    parser.add_argument("--no-hindsight", dest="hindsight", action="store_false",
+                        help="without fixed_best, which takes most of the time")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="as flyball's, in every cell (vehicle.airframe=spark)")
+    parser.add_argument("--jobs", type=int, default=1, help="flights at a time")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("flights/matrix"))
+    parser.add_argument("--list", action="store_true", help="prints the cells' commands and ends")
+    return parser.parse_args()
+
+
+def time_left(took_s, cells_left):
+    """From the cells that were flown now; a cell that is known from before takes a moment."""
+    flown = [seconds for seconds in took_s if seconds > 5.0]
+    if not flown or cells_left == 0:
+        return ""
+    return f", at most {statistics.mean(flown) * cells_left / 3600.0:.1f} h left"
+
+
+def fly_all(options, cells):
+    done, took_s = [], []
+    for number, cell in enumerate(cells, 1):
+        print(f"cell {number} of {len(cells)}: {cell.name}"
+              + time_left(took_s, len(cells) - number + 1), file=sys.stderr, flush=True)
+        begin = time.monotonic()
+        table = cell.fly(options)
+        took_s.append(time.monotonic() - begin)
+        if table is not None:
+            done.append(judged(cell, table))
+            print(" | ".join(row(done[-1])), file=sys.stderr, flush=True)
+    return done
+
+
+def main():
+    options = parsed()
+    if not options.flyball.exists():
+        sys.exit(f"no program {options.flyball}; build it, or name it with --flyball")
+    options.flyball = options.flyball.resolve()
+    options.set = ["vehicle.physics_step_s=0.004", *options.set]
+    cells = [Cell(options, world, mapper, noise) for world in options.worlds
+             for mapper in options.maps for noise in options.noise]
+    if options.list:
+        for cell in cells:
+            print(" ".join(map(str, cell.command(options))))
+        return 0
+    options.out.mkdir(parents=True, exist_ok=True)
+    try:
+        done = fly_all(options, cells)
+    except KeyboardInterrupt:
+        print("interrupted; the same command goes on from here", file=sys.stderr)
+        return 130
+    (options.out / "matrix.json").write_text(json.dumps(done, indent=2) + "\n")
+    (options.out / "matrix.md").write_text(report(done))
+    print(report(done), end="")
+    if len(done) < len(cells):
+        return 2
+    return 1 if any(told["missed"] for told in done) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
