@@ -182,7 +182,7 @@ void add_computed_cause(Claim& claim, const std::string& mission) {
 
 Claim claim_of(const Evidence& evidence, const Printed& print) {
   const Corners corners = corners_of(evidence, print.mission, print.mission == "photography");
-  const Quantity of = quantity(print.figure);
+  const FigureOf of = quantity(print.figure);
   const auto compared = [&](const Corners& both) {
     return print.slow_over_fast ? ratio(both.slow, both.fast, of) : ratio(both.fast, both.slow, of);
   };

@@ -14,7 +14,7 @@ Claim compared(const Evidence& evidence,
                const std::string& what,
                const std::string& figure,
                double paper) {
-  const Quantity of = quantity(figure);
+  const FigureOf of = quantity(figure);
   const bool is_speed = figure == "mean_speed_m_s";
   const auto against = [&](const std::string& policy) {
     const Point other = evidence.at(flown, {}, policy);
