@@ -6,6 +6,8 @@
  * and libpthread moved into libc in 2.34, hypot became faster in 2.35. Each name is defined here, seen
  * inside of the library alone, as a jump to the version that has been there all along. */
 #define _GNU_SOURCE
+#include <stdlib.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 
 #if defined(__x86_64__)
@@ -64,4 +66,13 @@ __attribute__((visibility("hidden"))) int lstat(const char* path, struct stat* s
 }
 __attribute__((visibility("hidden"))) int fstat64(int file, struct stat64* status) {
   return __fxstat64(STAT_VERSION, file, status);
+}
+
+/* New in 2.36; std::random_device takes it, which nothing here calls. */
+__attribute__((visibility("hidden"))) unsigned arc4random(void) {
+  unsigned number;
+  if (getentropy(&number, sizeof number) != 0) {
+    abort();
+  }
+  return number;
 }
