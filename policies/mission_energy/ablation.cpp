@@ -45,8 +45,6 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"finest_reserve", Part::finest_reserve},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"noise_limit", Part::noise_limit},
-      {"stop_prices", Part::stop_prices},
-      {"ceiling", Part::ceiling},
       {"wide_first_bound", Part::wide_first_bound},
   };
   return all;
@@ -110,15 +108,13 @@ Observation Ablation::seen(Observation seen) const {
     seen.headroom_m = 0.0;  // Nobody says.
   } else if (part_ == Part::rotor_power) {
     seen.rotor_power = Watts{0.0};  // From which nothing is learned.
-  } else if (part_ == Part::ceiling) {
-    seen.headroom_m = 0.0;  // Nobody says.
   }
   return seen;
 }
 
 void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) const {
-  if (part_ ==
-      Part::resolution) {  // The finest cells pass every gap, so they are the ones to keep.
+  if (part_ == Part::resolution) {
+    // The finest cells pass every gap, so they are the ones to keep.
     around.coarsest_m = around.finest_m = 0.0;
   } else if (part_ == Part::range) {
     around.least_range_m = around.most_range_m = ranges_m[ranges_m.size() / 2];
@@ -132,8 +128,6 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.stops_per_m = 0.0;
   } else if (part_ == Part::finest_reserve) {
     around.finest_m = 0.0;
-  } else if (part_ == Part::stop_prices) {
-    around.stops_per_m = 0.0;
   }
 }
 

@@ -60,8 +60,6 @@ class Ablation {
     finest_reserve,
     plan_budgets,
     noise_limit,
-    stop_prices,
-    ceiling,
     wide_first_bound
   };
   struct Named;
