@@ -7,6 +7,13 @@ set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 built=${1:-$here/../../build/arm64}
 sysroot=${FLYBALL_ARM64_SYSROOT:-$here/../../build/arm64-sysroot}
+for program in frame_work frame_work_scalar; do
+  if [[ ! -x $built/bin/$program ]]; then
+    printf 'no program %s; build it: cmake --build --preset arm64 --target frame_work frame_work_scalar\n' \
+      "$built/bin/$program" >&2
+    exit 2
+  fi
+done
 counter=$built/count_instructions.so
 cc -O2 -shared -fPIC "$here/count_instructions.c" -o "$counter"
 
