@@ -125,6 +125,9 @@ std::string measured_text(const Measured& measured, const std::string& unit) {
   if (measured.n == 0) {
     return rounded(value.median, digits) + after + ", computed";
   }
+  if (measured.n == 1) {
+    return rounded(value.median, digits) + after + ", n 1";
+  }
   return rounded(value.median, digits) + " [" + rounded(value.lo, digits) + ", " +
          rounded(value.hi, digits) + "]" + after + ", n " + std::to_string(measured.n);
 }

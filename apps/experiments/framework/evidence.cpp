@@ -6,6 +6,7 @@
 
 #include "studies/sweep/flight_figures.h"
 #include <algorithm>
+#include <cmath>
 
 namespace flyball {
 namespace {
@@ -83,15 +84,21 @@ Measured ratio(const Point& over, const Point& under, const FlightFigure& of) {
 }
 
 Measured success_percent(const Point& point) {
+  constexpr double z = 1.959964;  // Of the normal distribution, 95 % between both ends.
   if (point.flights.empty()) {
     return {};
   }
   const auto succeeded = std::count_if(
       point.flights.begin(), point.flights.end(),
       [](const Summary* flight) { return flight->status == MissionStatus::succeeded; });
-  const double percent =
-      100.0 * static_cast<double>(succeeded) / static_cast<double>(point.flights.size());
-  return {MedianInterval{percent, percent, percent}, static_cast<int>(point.flights.size())};
+  const auto n = static_cast<double>(point.flights.size());
+  const double share = static_cast<double>(succeeded) / n;
+  const double below = 1.0 + z * z / n;
+  const double middle = (share + z * z / (2.0 * n)) / below;
+  const double reach = z * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n)) / below;
+  return {MedianInterval{100.0 * share, 100.0 * std::max(0.0, middle - reach),
+                         100.0 * std::min(1.0, middle + reach)},
+          static_cast<int>(point.flights.size())};
 }
 
 }  // namespace flyball

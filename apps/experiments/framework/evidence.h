@@ -52,7 +52,8 @@ class Evidence {
 /// The median of one point's number over the other's, seed by seed. Seeds that one of them lacks
 /// are left out, and so are those where the number below is not positive.
 [[nodiscard]] Measured ratio(const Point& over, const Point& under, const FlightFigure& of);
-/// How many of the flights succeed [%]. All flights count.
+/// How many of the flights succeed [%], with the Wilson interval of a share (1927,
+/// doi:10.1080/01621459.1927.10502953). All flights count.
 [[nodiscard]] Measured success_percent(const Point& point);
 
 }  // namespace flyball

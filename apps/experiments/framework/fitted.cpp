@@ -33,6 +33,18 @@ constexpr std::array<FittedScale, 11> scales{{
     {"kcf_real_time", "MAVBench's 18 ms: one update"},
 }};
 
+/// The kernel's scale; where that is 1, its only price.
+Fitted fitted_price(const FittedScale& fitted, const KernelCost& cost) {
+  const std::string kernel = fitted.kernel;
+  if (cost.scale != 1.0 || cost.seconds_per.empty()) {
+    return {"scale of " + kernel, rounded(cost.scale, 1), fitted.to, platform_file};
+  }
+  const auto& [operation, seconds] = *cost.seconds_per.rbegin();
+  return {"price of " + kernel,
+          rounded(1e3 * seconds, 1) + " ms for one of its " + operation + " at 1 GHz", fitted.to,
+          platform_file};
+}
+
 /// What other files hold.
 std::vector<Fitted> other_values() {
   return {
@@ -101,8 +113,7 @@ Result<std::vector<Fitted>> fitted_values() {
       return Error{ErrorCode::invalid_input,
                    std::string{"kernel \""} + scale.kernel + "\" has no price on " + model->name};
     }
-    all.push_back({std::string{"scale of "} + scale.kernel, rounded(cost->second.scale, 1),
-                   scale.to, platform_file});
+    all.push_back(fitted_price(scale, cost->second));
   }
   const std::vector<Fitted> others = other_values();
   all.insert(all.end(), others.begin(), others.end());

@@ -43,6 +43,9 @@ TEST(Evidence, leaves_failed_flights_out_unless_they_count) {
   Point point = evidence.at("made", {"2"});
   EXPECT_EQ(success_percent(point).value->median, 50.0);
   EXPECT_EQ(success_percent(point).n, 2);
+  // Wilson's interval of 1 in 2.
+  EXPECT_NEAR(success_percent(point).value->lo, 9.45, 0.01);
+  EXPECT_NEAR(success_percent(point).value->hi, 90.55, 0.01);
   EXPECT_EQ(median(point, flight_figure("mission_time_s")).n, 1);
   EXPECT_EQ(ratio(evidence.at("made", {"1"}), point, flight_figure("mission_time_s")).n, 1);
   point.counts_failed = true;

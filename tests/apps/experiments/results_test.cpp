@@ -53,7 +53,7 @@ TEST(Results, count_their_verdicts) {
 
 TEST(Results, show_one_line_for_each_experiment_on_a_terminal) {
   const std::string text = to_text({made_result()});
-  EXPECT_NE(text.find("made        time, 2 over 1  2.000  1.985 [1.980, 1.990], n 2  reproduced"),
+  EXPECT_NE(text.find("made        time, 2 over 1  2      1.985 [1.980, 1.990], n 2  reproduced"),
             std::string::npos)
       << text;
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
