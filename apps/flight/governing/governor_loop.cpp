@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/governing/governor_loop.h"
 
-#include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/governing/map_signals.h"
 #include "flyball/runtime/observation_fields.h"
 
 #include <algorithm>
@@ -12,20 +12,6 @@
 namespace flyball {
 namespace {
 
-// The neighbourhood whose density counts: the delivery camera's range of 7 m less the distance
-// flown during one frame, and a band of heights that is just wider than the body. A wider band
-// would include cells of the ground, because depth noise at .80 m cells marks all of [0, .80).
-constexpr double density_radius_m = 6.0;
-constexpr double density_half_band_m = 0.3;
-// Chosen: farther obstacles than this make no difference to any policy.
-constexpr double nearest_limit_m = 20.0;
-constexpr double headroom_limit_m = 5.0;    // Chosen: four times the largest cells.
-constexpr double headroom_step_m = 0.05;    // A third of the finest cells.
-constexpr double path_width_reach_m = 8.0;  // A little farther than the delivery camera's range.
-// Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
-// wide.
-constexpr std::array<double, 3> density_places_m{4.0, 8.0, 12.0};
-constexpr std::array<double, 5> limit_places_m{4.0, 8.0, 12.0, 16.0, 20.0};
 constexpr std::string_view offload = "offload.";  // And the name of a node.
 constexpr std::array<std::pair<const char*, Stage>, 8> stage_names{
     {{"map", Stage::map},
@@ -37,52 +23,6 @@ constexpr std::array<std::pair<const char*, Stage>, 8> stage_names{
      {"slam_load", Stage::localize},
      {"explore", Stage::explore}}};
 constexpr int govern_priority = 90;  // It takes no time on the modeled computer.
-
-/// On the path, or its end.
-Vec3 place_ahead_W(const NavigatorState& navigator, double ahead_m) {
-  const Path& path = *navigator.path;
-  return path.at(std::min(navigator.s_m + ahead_m, path.length_m())).p_W;
-}
-
-double speed_limit_ahead(const NavigatorState& navigator,
-                         const KnobsInForce& knobs,
-                         const Site& site) {
-  double least = knobs.speed_limit_m_s(site, navigator.position_W);
-  if (navigator.has_path()) {
-    for (const double ahead_m : limit_places_m) {
-      least = std::min(least, knobs.speed_limit_m_s(site, place_ahead_W(navigator, ahead_m)));
-    }
-  }
-  return least;
-}
-
-double density_ahead(const NavigatorState& navigator, const OccupancyView& map) {
-  double most = 0.0;
-  if (navigator.has_path()) {
-    for (const double ahead_m : density_places_m) {
-      const Vec3 p_W = place_ahead_W(navigator, ahead_m);
-      most = std::max(most, map.obstacle_density(p_W, density_radius_m, density_half_band_m));
-    }
-  }
-  return most;
-}
-
-/// Over the whole body. By bisection, because a taller box never holds less.
-double headroom_m(const Vec3& p_W, const Cylinder& body, const OccupancyView& map) {
-  const Vec3 half{body.radius_m, body.radius_m, 0.0};
-  const Vec3 top_W = p_W + Vec3::UnitZ() * body.half_height_m;
-  double free_m = 0.0;
-  double blocked_m = headroom_limit_m;
-  if (!map.has_occupied({top_W - half, top_W + half + Vec3::UnitZ() * blocked_m})) {
-    return headroom_limit_m;
-  }
-  while (blocked_m - free_m > headroom_step_m) {
-    const double middle_m = 0.5 * (free_m + blocked_m);
-    const bool is_free = !map.has_occupied({top_W - half, top_W + half + Vec3::UnitZ() * middle_m});
-    (is_free ? free_m : blocked_m) = middle_m;
-  }
-  return blocked_m;
-}
 
 }  // namespace
 
@@ -111,11 +51,7 @@ GovernorLoop::GovernorLoop(const FlightParts& parts,
       board_{board},
       inputs_{inputs},
       asked_{board.read().granted} {
-  // Until there is a map, nothing is known to stand anywhere.
-  const GapScan scan;
-  seen_.nearest_obstacle_m = nearest_limit_m;
-  seen_.narrowest_gap_m = seen_.mean_gap_m = 2.0 * scan.aside_m;
-  seen_.gap_distance_m = scan.reach_m;
+  observe_no_map(seen_);
 }
 
 void GovernorLoop::note(JobContext& job, std::string_view channel, std::vector<Field> fields) {
@@ -221,7 +157,7 @@ void GovernorLoop::look_around(JobContext& job) {
     seen_.map_resolution_m = map->map->resolution_m();
   }
   if (navigator && map) {
-    observe_map(*navigator, *map->map);
+    observe_map(*navigator, *map->map, *parts_.brief, seen_);
     if (inputs_.future != nullptr) {
       governor_.foretell(inputs_.future->look(*navigator, {*parts_.brief, knobs_, *map->map}));
     }
@@ -247,33 +183,6 @@ void GovernorLoop::observe_flight(const NavigatorState& navigator) {
   seen_.latency_bound = navigator.latency_bound;
   seen_.map_revision = navigator.map_revision;
   seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator.map_captured : Duration{};
-}
-
-void GovernorLoop::observe_map(const NavigatorState& navigator, const OccupancyView& map) {
-  const Vec3& p_W = navigator.position_W;
-  seen_.obstacle_density = map.obstacle_density(p_W, density_radius_m, density_half_band_m);
-  seen_.density_ahead = density_ahead(navigator, map);
-  observe_gaps(navigator, map);
-  seen_.nearest_obstacle_m = map.nearest_obstacle_m(p_W, nearest_limit_m, density_half_band_m);
-  seen_.headroom_m = headroom_m(p_W, parts_.brief->narrow_body(), map);
-}
-
-void GovernorLoop::observe_gaps(const NavigatorState& navigator, const OccupancyView& map) {
-  GapScan scan;
-  scan.half_band_m = density_half_band_m;
-  scan.bounds_W = parts_.brief->site.bounds_W;
-  const GapsAhead gaps = gaps_ahead(map, navigator.position_W, navigator.goal_W, scan);
-  seen_.narrowest_gap_m = gaps.narrowest_m;
-  seen_.gap_distance_m = gaps.narrowest_at_m;
-  seen_.mean_gap_m = gaps.mean_m;
-  if (navigator.has_path()) {
-    const PathSpan ahead{navigator.path.get(), navigator.s_m, path_width_reach_m};
-    const PathWidth path = narrowest_on(map, ahead, density_half_band_m);
-    if (path.width_m < seen_.narrowest_gap_m) {
-      seen_.narrowest_gap_m = path.width_m;
-      seen_.gap_distance_m = path.at_m;
-    }
-  }
 }
 
 void GovernorLoop::observe_computer(MissionTime now) {

@@ -87,8 +87,6 @@ class GovernorLoop {
   [[nodiscard]] Surroundings newest(JobContext& job) const;
   void look_around(JobContext& job);
   void observe_flight(const NavigatorState& navigator);
-  void observe_map(const NavigatorState& navigator, const OccupancyView& map);
-  void observe_gaps(const NavigatorState& navigator, const OccupancyView& map);
   void observe_computer(MissionTime now);
   void observe_stages(double elapsed_s);
   void observe_progress(JobContext& job);
