@@ -14,6 +14,7 @@ KnobSettings knobs(std::vector<double> cells_m = {}) {
   if (!cells.legal.empty()) {
     cells.min = cells.legal.front();
     cells.max = cells.legal.back();
+    cells.fallback = cells.nearest(cells.fallback);
   }
   return KnobSettings{{cells,
                        {"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, "range"},
