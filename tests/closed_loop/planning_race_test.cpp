@@ -14,10 +14,9 @@ namespace {
 
 Summary through_a_town(int searches) {
   auto loaded = load_scenario(
-      "delivery_city",
-      {"governor.policy=fixed_fine", "kernels.mapper=flyball",
-       "kernels.mapper_parameters.cost_of=octomap", "vehicle.physics_step_s=0.008",
-       "planner.searches=" + std::to_string(searches), "platform.cores=" + std::to_string(cores)});
+      "delivery_city", {"governor.policy=fixed_fine", "kernels.mapper=flyball",
+                        "kernels.mapper_parameters.cost_of=octomap", "vehicle.physics_step_s=0.008",
+                        "planner.searches=" + std::to_string(searches)});
   FLYBALL_ASSERT(std::holds_alternative<LoadedScenario>(loaded), "%d searches", searches);
   auto record = fly(std::get<LoadedScenario>(loaded).scenario, {});
   FLYBALL_ASSERT(record.ok(), "%s", record.error().message.c_str());
