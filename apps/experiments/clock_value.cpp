@@ -36,7 +36,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
       for (const Pair& pair : pairs) {
         const Measured measured =
             ratio(evidence.at(phase, {airframe}, pair.with),
-                  evidence.at(phase, {airframe}, pair.without), quantity("energy_total_kj"));
+                  evidence.at(phase, {airframe}, pair.without), flight_figure("energy_total_kj"));
         const std::string name = std::string{airframe} + ", " + pair.without;
         plot.values.push_back({name, measured.value});
         Claim claim{std::string{phase} + ", " + name +

@@ -31,11 +31,11 @@ Claim grown(const Evidence& evidence, const Row& row, const std::string& figure,
   claim.paper = PaperValue{paper, in_table};
   claim.neutral = 1.0;
   claim.ours =
-      ratio(evidence.at(flown, {row.sigma_m}), evidence.at(flown, {"0"}), quantity(figure));
+      ratio(evidence.at(flown, {row.sigma_m}), evidence.at(flown, {"0"}), flight_figure(figure));
   if (row.sigma_m != std::string{"0"}) {
     claim.causes.push_back(
         {"with cells of .30 m", ratio(evidence.at("wider_cells", {row.sigma_m}),
-                                      evidence.at("wider_cells", {"0"}), quantity(figure))});
+                                      evidence.at("wider_cells", {"0"}), flight_figure(figure))});
   }
   return claim;
 }
@@ -58,7 +58,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
   }
   for (const auto& [figure, title] :
        {std::pair{"mission_time_s", "mission time, s"}, std::pair{"replans", "replans"}}) {
-    PlotOf wanted{flown, title, quantity(figure), {"standard deviation of a depth, m", {}}};
+    PlotOf wanted{flown, title, flight_figure(figure), {"standard deviation of a depth, m", {}}};
     findings.figures.push_back(
         {figure, counts_text(evidence, wanted), line_plot_of(evidence, wanted)});
   }

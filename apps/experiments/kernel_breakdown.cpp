@@ -73,13 +73,13 @@ Claim claim_of(const Evidence& evidence, const PlatformFit& fit, const Cell& cel
   flown.counts_failed = true;
   Claim claim{cell.mission + ": " + cell.name, "ms"};
   claim.paper = PaperValue{cell.ms, "table of kernel times"};
-  claim.ours = median(flown, quantity(figure));
+  claim.ours = median(flown, flight_figure(figure));
   if (const auto price_ms = static_ms(fit, cell)) {
     claim.causes.push_back({"the same prices on the fit's recorded scene", computed(*price_ms)});
   }
   if (cell.mission == "delivery") {
     claim.causes.push_back({"flown in the world of the fit, delivery_outdoor_to_indoor",
-                            median(evidence.at(fitted_world, {}), quantity(figure))});
+                            median(evidence.at(fitted_world, {}), flight_figure(figure))});
   }
   return claim;
 }

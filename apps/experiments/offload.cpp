@@ -19,7 +19,7 @@ std::vector<std::string> planned_afar() {
 }
 
 Measured over_onboard(const Evidence& evidence, const Point& over) {
-  return ratio(over, evidence.at(onboard, {}), quantity(time_s));
+  return ratio(over, evidence.at(onboard, {}), flight_figure(time_s));
 }
 
 Claim claim_of(const std::string& what, const Measured& ours) {
@@ -44,10 +44,10 @@ Result<Findings> evaluate(const Evidence& evidence) {
   }
   findings.claims.push_back(claim_of("the same at 100 Mb/s with 5 % loss",
                                      over_onboard(evidence, evidence.at(losses, {"0.05"}))));
-  PlotOf wanted{links, "mission time, s", quantity(time_s), {"bandwidth, Mb/s", {}}};
+  PlotOf wanted{links, "mission time, s", flight_figure(time_s), {"bandwidth, Mb/s", {}}};
   findings.figures.push_back(
       {"bandwidth", counts_text(evidence, wanted), line_plot_of(evidence, wanted)});
-  wanted = {losses, "mission time, s", quantity(time_s), {"share of packets lost", {}}};
+  wanted = {losses, "mission time, s", flight_figure(time_s), {"share of packets lost", {}}};
   findings.figures.push_back(
       {"loss", counts_text(evidence, wanted), line_plot_of(evidence, wanted)});
   return findings;

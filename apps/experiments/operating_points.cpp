@@ -182,7 +182,7 @@ void add_computed_cause(Claim& claim, const std::string& mission) {
 
 Claim claim_of(const Evidence& evidence, const Printed& print) {
   const Corners corners = corners_of(evidence, print.mission, print.mission == "photography");
-  const FigureOf of = quantity(print.figure);
+  const FlightFigure of = flight_figure(print.figure);
   const auto compared = [&](const Corners& both) {
     return print.slow_over_fast ? ratio(both.slow, both.fast, of) : ratio(both.fast, both.slow, of);
   };
@@ -217,7 +217,7 @@ Figure heat_map(const Evidence& evidence,
                 const std::string& mission,
                 const std::string& figure,
                 const std::string& title) {
-  PlotOf wanted{mission, mission + ": " + title, quantity(figure)};
+  PlotOf wanted{mission, mission + ": " + title, flight_figure(figure)};
   wanted.x = {"clock, GHz", {"0.81", "1.57", "2.04"}};
   wanted.y = {"cores", {}};
   wanted.counts_failed = mission == "photography";

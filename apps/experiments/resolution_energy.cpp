@@ -13,7 +13,7 @@ constexpr const char* in_text = "case study of dynamic resolution";
 Claim saved_by(const Evidence& evidence, const std::string& policy, const std::string& what) {
   Claim claim{what};
   claim.ours = ratio(evidence.at(flown, {}, "fixed_fine"), evidence.at(flown, {}, policy),
-                     quantity("battery_used_percent"));
+                     flight_figure("battery_used_percent"));
   claim.neutral = 1.0;
   return claim;
 }
@@ -21,7 +21,8 @@ Claim saved_by(const Evidence& evidence, const std::string& policy, const std::s
 Figure plot_of(const Evidence& evidence, const std::string& figure, const std::string& title) {
   DotPlot plot{title, {}};
   for (const std::string& policy : evidence.sweep(flown).plan.policies) {
-    plot.values.push_back({policy, median(evidence.at(flown, {}, policy), quantity(figure)).value});
+    plot.values.push_back(
+        {policy, median(evidence.at(flown, {}, policy), flight_figure(figure)).value});
   }
   return {figure, "Median with interval over the flights that succeed.", plot};
 }
@@ -33,7 +34,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
   dynamic.causes.push_back(
       {"the same in the open alone, where cells are coarse (delivery_forest)",
        ratio(evidence.at("open", {}, "fixed_fine"), evidence.at("open", {}, "fixed_coarse"),
-             quantity("battery_used_percent"))});
+             flight_figure("battery_used_percent"))});
   findings.claims.push_back(dynamic);
   Claim coarse{".80 m everywhere: flights that succeed", "%"};
   coarse.paper = PaperValue{0.0, std::string{in_text} + ": fails"};

@@ -14,7 +14,7 @@ Claim compared(const Evidence& evidence,
                const std::string& what,
                const std::string& figure,
                double paper) {
-  const FigureOf of = quantity(figure);
+  const FlightFigure of = flight_figure(figure);
   const bool is_speed = figure == "mean_speed_m_s";
   const auto against = [&](const std::string& policy) {
     const Point other = evidence.at(flown, {}, policy);
@@ -33,7 +33,8 @@ Claim compared(const Evidence& evidence,
 Figure plot_of(const Evidence& evidence, const std::string& figure, const std::string& title) {
   DotPlot plot{title, {}};
   for (const std::string& policy : evidence.sweep(flown).plan.policies) {
-    plot.values.push_back({policy, median(evidence.at(flown, {}, policy), quantity(figure)).value});
+    plot.values.push_back(
+        {policy, median(evidence.at(flown, {}, policy), flight_figure(figure)).value});
   }
   return {figure, "Median with interval over the flights that succeed.", plot};
 }

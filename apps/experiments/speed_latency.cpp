@@ -56,7 +56,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
   findings.claims.push_back(collisions);
   for (const auto& [figure, title] : {std::pair{"max_speed_m_s", "highest speed in flight, m/s"},
                                       std::pair{"latency_p50_s", "median latency in flight, s"}}) {
-    PlotOf wanted{flown, title, quantity(figure), {"times the price of a map", {}}};
+    PlotOf wanted{flown, title, flight_figure(figure), {"times the price of a map", {}}};
     findings.figures.push_back(
         {figure, counts_text(evidence, wanted), line_plot_of(evidence, wanted)});
   }

@@ -30,6 +30,8 @@ Pairing flights_of(const std::vector<Summary>& flights, const std::string& polic
   return found;
 }
 
+constexpr double same_percent = 0.1;  // Chosen: less is no gain that anybody would fly for.
+
 bool has_succeeded(const Summary& flight) {
   return flight.status == MissionStatus::succeeded;
 }
@@ -48,7 +50,6 @@ double chance_of(int one, int other) {
 }
 
 PartGain gain_of(const std::string& part, const Pairing& whole, const Pairing& without) {
-  constexpr double same_percent = 0.1;
   PartGain gain;
   gain.part = part;
   std::vector<double> percents;
@@ -104,13 +105,14 @@ std::string PartGain::verdict() const {
   if (chance_of(only_whole, only_without) <= significant) {
     return only_whole > only_without ? "is needed to arrive" : "keeps from arriving";
   }
-  if (!energy_percent) {
-    return "nothing to compare";
+  constexpr int least_pairs = 6;  // With fewer, the interval is their whole range (statistics.h).
+  if (!energy_percent || pairs < least_pairs) {
+    return "too few flights";
   }
-  if (energy_percent->lo > 0.0) {
+  if (energy_percent->lo > same_percent) {
     return "earns its place";
   }
-  return energy_percent->hi < 0.0 ? "costs energy" : "nothing beyond its interval";
+  return energy_percent->hi < -same_percent ? "costs energy" : "nothing beyond its interval";
 }
 
 std::vector<PartGain> part_gains(const std::vector<Summary>& flights,

@@ -36,6 +36,8 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"gaps", Part::gaps},
       {"visibility", Part::visibility},
       {"failed_plan_prices", Part::failed_plan_prices},
+      {"stop_prices", Part::stop_prices},
+      {"ceiling", Part::ceiling},
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"detour_prices", Part::detour_prices},
@@ -43,6 +45,7 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"finest_reserve", Part::finest_reserve},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"noise_limit", Part::noise_limit},
+      {"wide_first_bound", Part::wide_first_bound},
   };
   return all;
 }
@@ -90,6 +93,9 @@ EnergySearchSettings Ablation::begins_with(EnergySearchSettings settings) const 
     settings.spacing_m = std::numeric_limits<double>::infinity();  // No obstacle ever comes.
   } else if (part_ == Part::switching_price) {
     settings.switching_s = 0.0;
+  } else if (part_ == Part::wide_first_bound) {
+    settings.bound.first = 0.1;  // About what a single scene's maps differ by.
+    settings.bound.eta = 0.05;
   }
   return settings;
 }
@@ -98,6 +104,8 @@ Observation Ablation::seen(Observation seen) const {
   if (part_ == Part::gaps) {
     seen.narrowest_gap_m = wide_open_m;
     seen.gap_distance_m = 0.0;
+  } else if (part_ == Part::ceiling) {
+    seen.headroom_m = 0.0;  // Nobody says.
   } else if (part_ == Part::rotor_power) {
     seen.rotor_power = Watts{0.0};  // From which nothing is learned.
   }
@@ -105,8 +113,8 @@ Observation Ablation::seen(Observation seen) const {
 }
 
 void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) const {
-  if (part_ ==
-      Part::resolution) {  // The finest cells pass every gap, so they are the ones to keep.
+  if (part_ == Part::resolution) {
+    // The finest cells pass every gap, so they are the ones to keep.
     around.coarsest_m = around.finest_m = 0.0;
   } else if (part_ == Part::range) {
     around.least_range_m = around.most_range_m = ranges_m[ranges_m.size() / 2];
@@ -116,6 +124,8 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.visibility_m = no_limit;
   } else if (part_ == Part::failed_plan_prices) {
     around.failed_plans_per_m = nullptr;
+  } else if (part_ == Part::stop_prices) {
+    around.stops_per_m = 0.0;
   } else if (part_ == Part::finest_reserve) {
     around.finest_m = 0.0;
   }

@@ -51,13 +51,16 @@ class Ablation {
     gaps,
     visibility,
     failed_plan_prices,
+    stop_prices,
+    ceiling,
     rotor_power,
     declared_zones,
     detour_prices,
     switching_price,
     finest_reserve,
     plan_budgets,
-    noise_limit
+    noise_limit,
+    wide_first_bound
   };
   struct Named;
   static const std::vector<Named>& parts();

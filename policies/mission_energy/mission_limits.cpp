@@ -169,8 +169,8 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], under_ceiling_m(seen));
   around.least_range_m = gaps.look_m;
   around.needs_top_clock = gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise;
-  stops_.note(seen);
-  around.stops_per_m = stops_.per_m();
+  failed_.note(seen, in_force.resolution_m);
+  around.stops_per_m = failed_.stops_per_m();
   is_lattice_ ? limit_lattice(seen, near, in_force, around)
               : limit_two_levels(seen, near, in_force, around);
   return around;
@@ -205,7 +205,6 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // find. So even on a computer for which they cost no time, the finest cells are only used where a
   // gap needs them.
   around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
-  failed_.note(seen, in_force.resolution_m);
   around.failed_plans_per_m = &failed_.per_m();
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();

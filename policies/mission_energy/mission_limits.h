@@ -14,7 +14,6 @@
 
 #include "failed_plans.h"
 #include "passability.h"
-#include "stops.h"
 #include "visibility.h"
 #include <optional>
 #include <string>
@@ -109,7 +108,6 @@ class MissionLimits {
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
-  Stops stops_{};
   FailedPlans failed_;
   bool seeks_door_{};  ///< A plan has failed near a narrow place.
 };

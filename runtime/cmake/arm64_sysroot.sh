@@ -33,10 +33,21 @@ make_links_relative() {
     done
 }
 
-# So do some packages' files for CMake.
+# So do libraries in some packages' files for CMake.
 name_own_libraries() {
-  grep -rlE --include='*.cmake' ' "/usr/lib/' "$1/usr/lib" "$1/usr/share" |
-    xargs sed -i -E '/IMPORTED_LOCATION|_import_check_files|_IMPORT_CHECK_FILES/ s| "/usr/lib/| "${CMAKE_SYSROOT}/usr/lib/|'
+  local here=/usr/lib/aarch64-linux-gnu/lib
+  grep -rlE --include='*.cmake' "$here" "$1/usr/lib" "$1/usr/share" |
+    xargs sed -i -E "s|(^\|[^}])$here|\1\${CMAKE_SYSROOT}$here|g"
+}
+
+# What update-alternatives does when packages are installed, not only unpacked.
+choose_alternatives() {
+  local name ending
+  for name in blas lapack; do
+    for ending in so so.3; do
+      ln -sfn "$name/lib$name.$ending" "$1/usr/lib/aarch64-linux-gnu/lib$name.$ending"
+    done
+  done
 }
 
 if [[ -e $sysroot/.complete ]]; then
@@ -54,5 +65,6 @@ mmdebstrap --mode=root --architectures=arm64 --variant=extract --include="$(libr
   bookworm "$sysroot" >&2
 make_links_relative "$sysroot"
 name_own_libraries "$sysroot"
+choose_alternatives "$sysroot"
 touch "$sysroot/.complete"
 printf '%s: %s\n' "$sysroot" "$(du -sh "$sysroot" | cut -f1)"

@@ -10,6 +10,7 @@
 #include "realtime/cpu_meter.h"
 #include "virtual_computer.h"
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -53,14 +54,19 @@ void VirtualComputer::serve(Place place, double cores) {
   }
 }
 
-std::vector<double> VirtualComputer::shares_of(const std::vector<int>& urgent,
-                                               double cores) const {
-  std::vector<CoreClaim> claims;
-  claims.reserve(urgent.size());
+std::vector<double> VirtualComputer::shares_of(const std::vector<int>& urgent, double cores) const {
+  std::vector<CoreClaim> first;
+  std::vector<CoreClaim> more;
   for (const int node : urgent) {
-    claims.push_back({spec(node).priority, useful_cores(node)});
+    first.push_back({spec(node).priority, 1.0});
+    more.push_back({spec(node).priority, useful_cores(node) - 1.0});
   }
-  return share_cores(claims, cores);
+  // A second core only makes a job faster; to another job it may be the only one.
+  std::vector<double> shares = share_cores(first, cores);
+  const double left = cores - std::accumulate(shares.begin(), shares.end(), 0.0);
+  const std::vector<double> idle = share_cores(more, std::max(0.0, left));
+  std::transform(shares.begin(), shares.end(), idle.begin(), shares.begin(), std::plus<>{});
+  return shares;
 }
 
 bool VirtualComputer::compute_new(const std::vector<int>& urgent,

@@ -7,14 +7,20 @@ set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 built=${1:-$here/../../build/arm64}
 sysroot=${FLYBALL_ARM64_SYSROOT:-$here/../../build/arm64-sysroot}
+for program in frame_work frame_work_scalar; do
+  if [[ ! -x $built/bin/$program ]]; then
+    printf 'no program %s; build it: cmake --build --preset arm64 --target frame_work frame_work_scalar\n' \
+      "$built/bin/$program" >&2
+    exit 2
+  fi
+done
 counter=$built/count_instructions.so
-libraries=/usr/lib/aarch64-linux-gnu
 cc -O2 -shared -fPIC "$here/count_instructions.c" -o "$counter"
 
 # count PROGRAM ARGUMENTS...: instructions, and what it printed.
 count() {
-  qemu-aarch64 -cpu cortex-a57 -L "$sysroot" -E "LD_LIBRARY_PATH=$libraries/blas:$libraries/lapack" \
-    -plugin "$counter" "$built/bin/$1" "${@:2}" 2>&1 | awk '/^instructions/ { n = $2; next } { sum = $1 } END { print n, sum }'
+  qemu-aarch64 -cpu cortex-a57 -L "$sysroot" -plugin "$counter" "$built/bin/$1" "${@:2}" 2>&1 |
+    awk '/^instructions/ { n = $2; next } { sum = $1 } END { print n, sum }'
 }
 
 # per_frame PROGRAM WHAT [portable]: million instructions for a frame, and the sum over its results.

@@ -48,7 +48,8 @@ TEST(Offload, of_planning_through_a_fast_link_makes_a_mapping_shorter_and_throug
   const Summary fast = flown(planned_afar(1000.0));
   const Summary slow = flown(planned_afar(1.0));
   EXPECT_LT(fast.mission_time_s, 0.95 * onboard.mission_time_s);
-  EXPECT_LT(fast.kernels.at("nbvp").mission_ms_mean, 0.4 * onboard.kernels.at("nbvp").mission_ms_mean);
+  EXPECT_LT(fast.kernels.at("nbvp").mission_ms_mean,
+            0.4 * onboard.kernels.at("nbvp").mission_ms_mean);
   EXPECT_GT(slow.mission_time_s, 0.95 * onboard.mission_time_s);
 }
 

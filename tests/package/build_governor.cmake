@@ -28,13 +28,25 @@ run(${CMAKE_COMMAND} --install ${folder}/flyball --prefix ${folder}/first)
 # What is installed may be moved.
 file(RENAME ${folder}/first ${folder}/prefix)
 
-# It needs the C and C++ libraries, and shows the functions of its header.
+# It needs the C library, and shows the functions of its header.
 file(GLOB_RECURSE library ${folder}/prefix/*/libflyball_governor.so)
 run(ldd ${library})
 string(REGEX MATCHALL "[A-Za-z0-9_+-]+\\.so" needed "${said}")
-list(FILTER needed EXCLUDE REGEX "^(linux-vdso|ld-linux[a-z0-9_-]*|libc|libm|libstdc\\+\\+|libgcc_s)\\.so$")
+list(FILTER needed EXCLUDE REGEX "^(linux-vdso|ld-linux[a-z0-9_-]*|libc|libm|libpthread|libdl|libgcc_s)\\.so$")
 if(needed OR NOT said MATCHES "libc\\.so")
-  message(FATAL_ERROR "libflyball_governor needs more than the C and C++ libraries: ${needed}\n${said}")
+  message(FATAL_ERROR "libflyball_governor needs more than the C library: ${needed}\n${said}")
+endif()
+# That of JetPack 4 is 2.27.
+run(objdump -T ${library})
+string(REGEX MATCHALL "GLIBC_[0-9.]+[^\n]*" symbols "${said}")
+foreach(symbol IN LISTS symbols)
+  string(REGEX MATCH "^GLIBC_([0-9.]+)" version "${symbol}")
+  if(CMAKE_MATCH_1 VERSION_GREATER 2.27)
+    message(FATAL_ERROR "libflyball_governor needs ${symbol}: governors/shared/older_glibc.c tells what to do")
+  endif()
+endforeach()
+if(NOT symbols)
+  message(FATAL_ERROR "objdump tells no version of a symbol:\n${said}")
 endif()
 run(nm -D --defined-only ${library})
 string(REGEX REPLACE "[0-9a-f]+ T flyball_governor_[a-z_]+" "" others "${said}")

@@ -109,8 +109,8 @@ TEST(MissionLimits, has_no_cells_which_the_ceiling_fills_down_to_the_vehicle) {
   const MapSetting fine{0.15, 7.0, 2e9};
   Observation seen = kit::cruising();
   seen.map_resolution_m = 0.15;
-  for (const auto& [headroom_m, coarsest_m] : {std::pair{0.0, 1.2}, std::pair{1.1, 1.2},
-                                               std::pair{1.0, 0.8}, std::pair{0.3, 0.3}}) {
+  for (const auto& [headroom_m, coarsest_m] :
+       {std::pair{0.0, 1.2}, std::pair{1.1, 1.2}, std::pair{1.0, 0.8}, std::pair{0.3, 0.3}}) {
     seen.now += 10s;
     seen.headroom_m = headroom_m;
     EXPECT_EQ(limits->look(seen, fine).coarsest_m, coarsest_m) << headroom_m;

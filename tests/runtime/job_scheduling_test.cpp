@@ -171,6 +171,18 @@ TEST(JobScheduling, a_race_goes_on_with_the_cores_that_others_leave_idle) {
   EXPECT_NEAR(rig.end_ms(job), 50.0 + 130.0 / s2, end_tolerance_ms);
 }
 
+TEST(JobScheduling, a_race_takes_no_core_from_a_less_urgent_job) {
+  ComputerRig rig;
+  const int job = rig.add(race(1));
+  const int other = rig.add({50.0, 0});
+  rig.start(2);
+  rig.trigger(job, 0.0);
+  rig.trigger(other, 10.0);
+  rig.run();
+  EXPECT_EQ(rig.of(other).started, at_ms(10.0));
+  EXPECT_NEAR(rig.end_ms(other), 60.0, end_tolerance_ms);
+}
+
 TEST(JobScheduling, a_job_of_several_threads_that_shares_nothing_leaves_the_other_cores_free) {
   ComputerRig rig;
   RigJob straight{50.0, 1, "race", 4};

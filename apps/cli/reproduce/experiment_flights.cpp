@@ -36,7 +36,11 @@ std::vector<std::uint64_t> seeds_of(const ExperimentSweep& sweep, std::size_t as
 std::variant<SweepRequest, std::vector<Error>> request_of(const ReproduceRequest& request,
                                                           const NamedExperiment& named,
                                                           const ExperimentSweep& sweep) {
-  auto loaded = load_scenario(sweep.scenario, sweep.settings);
+  std::vector<std::string> settings = sweep.settings;
+  for (const SweepAxis& axis : sweep.axes) {  // Without an axis a scenario may be incomplete.
+    settings.push_back(axis.key + "=" + axis.values.front());
+  }
+  auto loaded = load_scenario(sweep.scenario, settings);
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }

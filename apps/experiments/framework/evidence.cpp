@@ -15,7 +15,7 @@ Measured measured_of(const std::vector<double>& values) {
 }
 
 /// The point's numbers by seed.
-std::map<std::uint64_t, double> by_seed(const Point& point, const FigureOf& of) {
+std::map<std::uint64_t, double> by_seed(const Point& point, const FlightFigure& of) {
   std::map<std::uint64_t, double> values;
   for (const Summary* flight : point.flights) {
     const bool counts = point.counts_failed || flight->status == MissionStatus::succeeded;
@@ -28,7 +28,7 @@ std::map<std::uint64_t, double> by_seed(const Point& point, const FigureOf& of) 
 
 }  // namespace
 
-FigureOf quantity(const std::string& figure) {
+FlightFigure flight_figure(const std::string& figure) {
   return [figure](const Summary& flight) -> std::optional<double> {
     for (const auto& [name, value] : figures_of(flight)) {
       if (name == figure) {
@@ -63,7 +63,7 @@ Point Evidence::at(const std::string& name,
   return point;
 }
 
-Measured median(const Point& point, const FigureOf& of) {
+Measured median(const Point& point, const FlightFigure& of) {
   std::vector<double> values;
   for (const auto& [seed, value] : by_seed(point, of)) {
     values.push_back(value);
@@ -71,7 +71,7 @@ Measured median(const Point& point, const FigureOf& of) {
   return measured_of(values);
 }
 
-Measured ratio(const Point& over, const Point& under, const FigureOf& of) {
+Measured ratio(const Point& over, const Point& under, const FlightFigure& of) {
   const auto below = by_seed(under, of);
   std::vector<double> ratios;
   for (const auto& [seed, value] : by_seed(over, of)) {

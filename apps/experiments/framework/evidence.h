@@ -24,10 +24,10 @@ struct Point {
 };
 
 /// One number of a flight; empty where the flight has none.
-using FigureOf = std::function<std::optional<double>(const Summary&)>;
+using FlightFigure = std::function<std::optional<double>(const Summary&)>;
 
 /// A figure of `figures_of`: `mission_time_s`, `kernel.octomap.mean_ms`, `quality.tracked_s`.
-[[nodiscard]] FigureOf quantity(const std::string& figure);
+[[nodiscard]] FlightFigure flight_figure(const std::string& figure);
 
 /// All flights of an experiment.
 class Evidence {
@@ -48,10 +48,10 @@ class Evidence {
 };
 
 /// The median over the point's flights.
-[[nodiscard]] Measured median(const Point& point, const FigureOf& of);
+[[nodiscard]] Measured median(const Point& point, const FlightFigure& of);
 /// The median of one point's number over the other's, seed by seed. Seeds that one of them lacks
 /// are left out, and so are those where the number below is not positive.
-[[nodiscard]] Measured ratio(const Point& over, const Point& under, const FigureOf& of);
+[[nodiscard]] Measured ratio(const Point& over, const Point& under, const FlightFigure& of);
 /// How many of the flights succeed [%]. All flights count.
 [[nodiscard]] Measured success_percent(const Point& point);
 

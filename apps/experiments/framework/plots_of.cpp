@@ -66,7 +66,7 @@ HeatMap heat_map_of(const Evidence& evidence, const PlotOf& wanted) {
   for (const std::string& row : y.values) {
     for (const std::string& column : x.values) {
       const Point point = point_of(evidence, wanted, {row, column}, wanted.policy);
-      const Measured measured = median(point, wanted.quantity);
+      const Measured measured = median(point, wanted.figure);
       map.cells.push_back({measured.value, count_text(point, measured)});
     }
   }
@@ -89,7 +89,7 @@ LinePlot line_plot_of(const Evidence& evidence, const PlotOf& wanted) {
       for (const std::string& value : x.values) {
         const auto values = has_lines ? std::vector{lines[i], value} : std::vector{value};
         line.values.push_back(
-            median(point_of(evidence, wanted, values, policy), wanted.quantity).value);
+            median(point_of(evidence, wanted, values, policy), wanted.figure).value);
       }
       plot.lines.push_back(std::move(line));
     }
@@ -103,7 +103,7 @@ std::string counts_text(const Evidence& evidence, const PlotOf& wanted) {
   for (const SweepCell& cell : sweep.cells) {
     if (wanted.policy.empty() || wanted.policy == cell.point.policy) {
       const Point point = point_of(evidence, wanted, cell.point.values, cell.point.policy);
-      counts.push_back(median(point, wanted.quantity).n);
+      counts.push_back(median(point, wanted.figure).n);
     }
   }
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());

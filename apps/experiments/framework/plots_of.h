@@ -20,7 +20,7 @@ struct AxisLabels {
 struct PlotOf {
   std::string sweep{};
   std::string title{};  ///< Of what is plotted, with its unit.
-  FigureOf quantity{};
+  FlightFigure figure{};
   AxisLabels x{};        ///< The last axis.
   AxisLabels y{};        ///< Of a heat map: the axis before it.
   std::string policy{};  ///< Empty: each one is a line, or the sweep's only one.

@@ -14,10 +14,11 @@
 ///
 /// `given` has the parameters; `knobs[name]` has unit, min, max, legal, default and value; `board`
 /// is what is known of the computer: `board.cores`, `board.switching_s`, `board.clocks`, a list of
-/// {hz, idle_w, busy_core_w} with all cores on, `board.off_core_w`, which each core that is switched
-/// off saves, `board.memory_contention`, and `board.thermal` with ambient_c, resistance_k_w, time_constant_s
-/// and the list `trips` of {at_c, hysteresis_k, cap_hz}. What is not known is nil. `seen` has
-/// `now_s`, `phase` and the members of the observation, and is the same table in each decision.
+/// {hz, idle_w, busy_core_w} with all cores on, `board.off_core_w`, which each core that is
+/// switched off saves, `board.memory_contention`, and `board.thermal` with ambient_c,
+/// resistance_k_w, time_constant_s and the list `trips` of {at_c, hysteresis_k, cap_hz}. What is
+/// not known is nil. `seen` has `now_s`, `phase` and the members of the observation, and is the
+/// same table in each decision.
 
 #include "flyball/governors/policy.h"
 

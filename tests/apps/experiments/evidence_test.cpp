@@ -18,15 +18,15 @@ TEST(Evidence, finds_the_flights_of_a_point) {
   const Evidence evidence = made_evidence();
   const Point point = evidence.at("made", {"2"});
   ASSERT_EQ(point.flights.size(), 2U);
-  EXPECT_EQ(median(point, quantity("mission_time_s")).value->median, 201.5);
-  EXPECT_EQ(median(point, quantity("mission_time_s")).n, 2);
+  EXPECT_EQ(median(point, flight_figure("mission_time_s")).value->median, 201.5);
+  EXPECT_EQ(median(point, flight_figure("mission_time_s")).n, 2);
   EXPECT_EQ(evidence.sweep("made").plan.axes.front().key, "a");
 }
 
 TEST(Evidence, pairs_flights_by_their_seeds) {
   const Evidence evidence = made_evidence();
-  const Measured found =
-      ratio(evidence.at("made", {"2"}), evidence.at("made", {"1"}), quantity("mission_time_s"));
+  const Measured found = ratio(evidence.at("made", {"2"}), evidence.at("made", {"1"}),
+                               flight_figure("mission_time_s"));
   EXPECT_EQ(found.n, 2);
   EXPECT_NEAR(found.value->median, 0.5 * (201.0 / 101.0 + 202.0 / 102.0), 1e-12);
   EXPECT_LT(found.value->lo, found.value->hi);
@@ -43,15 +43,15 @@ TEST(Evidence, leaves_failed_flights_out_unless_they_count) {
   Point point = evidence.at("made", {"2"});
   EXPECT_EQ(success_percent(point).value->median, 50.0);
   EXPECT_EQ(success_percent(point).n, 2);
-  EXPECT_EQ(median(point, quantity("mission_time_s")).n, 1);
-  EXPECT_EQ(ratio(evidence.at("made", {"1"}), point, quantity("mission_time_s")).n, 1);
+  EXPECT_EQ(median(point, flight_figure("mission_time_s")).n, 1);
+  EXPECT_EQ(ratio(evidence.at("made", {"1"}), point, flight_figure("mission_time_s")).n, 1);
   point.counts_failed = true;
-  EXPECT_EQ(median(point, quantity("mission_time_s")).n, 2);
+  EXPECT_EQ(median(point, flight_figure("mission_time_s")).n, 2);
 }
 
 TEST(Evidence, has_no_number_where_no_flight_has_it) {
   const Evidence evidence = made_evidence();
-  const Measured none = median(evidence.at("made", {"1"}), quantity("quality.of_life"));
+  const Measured none = median(evidence.at("made", {"1"}), flight_figure("quality.of_life"));
   EXPECT_FALSE(none.value);
   EXPECT_EQ(none.n, 0);
 }

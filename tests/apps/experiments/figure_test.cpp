@@ -34,7 +34,7 @@ TEST(Figure, stands_in_the_page_with_its_caption_as_text) {
 
 TEST(Figure, draws_a_sweep_over_its_axis_with_readable_labels) {
   const Evidence evidence{{{"made", made_sweep()}}};
-  PlotOf wanted{"made", "time, s", quantity("mission_time_s")};
+  PlotOf wanted{"made", "time, s", flight_figure("mission_time_s")};
   const LinePlot plain = line_plot_of(evidence, wanted);
   EXPECT_EQ(plain.x_title, "a");
   EXPECT_EQ(plain.places, (std::vector<std::string>{"1", "2"}));
@@ -52,7 +52,7 @@ TEST(Figure, draws_a_heat_map_over_two_axes) {
   sweep.plan.axes = {{"b", {"x", "y"}}, {"a", {"1"}}};
   std::vector<SweepFlight> flights = sweep.flights;
   const Evidence evidence{{{"made", sweep_of(sweep.plan, {"", ""}, std::move(flights))}}};
-  const HeatMap map = heat_map_of(evidence, {"made", "time, s", quantity("mission_time_s")});
+  const HeatMap map = heat_map_of(evidence, {"made", "time, s", flight_figure("mission_time_s")});
   ASSERT_EQ(map.cells.size(), 2U);
   EXPECT_EQ(map.cells[0].value->median, 101.5);
   EXPECT_EQ(map.cells[0].under, "n 2");

@@ -17,8 +17,8 @@ Experiment made_experiment() {
   experiment.evaluate = [](const Evidence& evidence) -> Result<Findings> {
     Claim time{"time, 2 over 1"};
     time.paper = PaperValue{2.0, "table 9"};
-    time.ours =
-        ratio(evidence.at("made", {"2"}), evidence.at("made", {"1"}), quantity("mission_time_s"));
+    time.ours = ratio(evidence.at("made", {"2"}), evidence.at("made", {"1"}),
+                      flight_figure("mission_time_s"));
     Claim off = time;
     off.what = "off";
     off.paper->value = 9.0;

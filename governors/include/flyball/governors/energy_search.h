@@ -95,9 +95,10 @@ struct EnergyEstimate {
 /// speed.
 ///
 /// Among settings that take less than a thousandth more than the best, the search takes the one
-/// with the shortest response, or one with the smallest cells if those are preferred. It learns latency and rotor power from observations, and also how
-/// much power the computer may take before it gets too hot (`ThermalLimit`); clocks beyond that are
-/// not chosen. Nothing allocates after `make`.
+/// with the shortest response, or one with the smallest cells if those are preferred. It learns
+/// latency and rotor power from observations, and also how much power the computer may take before
+/// it gets too hot (`ThermalLimit`); clocks beyond that are not chosen. Nothing allocates after
+/// `make`.
 class EnergySearch {
  public:
   /// @param levels  Finest first. @param ranges_m Ascending; each goes with each.

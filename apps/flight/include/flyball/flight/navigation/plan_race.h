@@ -15,8 +15,8 @@ void add(Work& sum, const Work& more);
 /// a path ends all of them, and of those that find one in the same iteration the first by number
 /// wins. A sampling planner's time has a long tail before a narrow passage, so that the first of
 /// several comes much earlier than the usual one. Each search gets an equal part of
-/// `request.max_iterations`. The searches are computed one after the other; the work, and what of it
-/// is shared, is what they would have done side by side until the end of the race.
+/// `request.max_iterations`. The searches are computed one after the other; the work, and what of
+/// it is shared, is what they would have done side by side until the end of the race.
 ///
 /// @param request  The first search takes its seed, so that a race of one is `planner.plan`.
 /// @pre `searches >= 1`.
