@@ -16,8 +16,6 @@ constexpr double least_speed_m_s = 0.05;  // Chosen: near zero, energy per metre
 constexpr double smoothing = 0.1;  // Chosen: the load beside the map is a mean over some seconds.
 constexpr double too_slow = 1e3;   // A factor on the price of settings that respond too late: any
                                    // other is cheaper, but one of them is better than none.
-// After a stop, half of the map under way and the next one pass before a frame taken at rest is in.
-constexpr double maps_per_stop = 1.5;
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own speed limit many settings differ by milliwatts only. Among them the search
@@ -222,8 +220,7 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
                 : 0.0) +
       (around.failed_plans_per_m != nullptr
            ? (*around.failed_plans_per_m)[at_level] * settings_.failed_plan_s * hover_w
-           : 0.0) +
-      around.stops_per_m * maps_per_stop * latency_s * hover_w;
+           : 0.0);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));

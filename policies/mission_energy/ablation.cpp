@@ -36,7 +36,6 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"gaps", Part::gaps},
       {"visibility", Part::visibility},
       {"failed_plan_prices", Part::failed_plan_prices},
-      {"stop_prices", Part::stop_prices},
       {"ceiling", Part::ceiling},
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
@@ -124,8 +123,6 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.visibility_m = no_limit;
   } else if (part_ == Part::failed_plan_prices) {
     around.failed_plans_per_m = nullptr;
-  } else if (part_ == Part::stop_prices) {
-    around.stops_per_m = 0.0;
   } else if (part_ == Part::finest_reserve) {
     around.finest_m = 0.0;
   }

@@ -51,7 +51,6 @@ class Ablation {
     gaps,
     visibility,
     failed_plan_prices,
-    stop_prices,
     ceiling,
     rotor_power,
     declared_zones,

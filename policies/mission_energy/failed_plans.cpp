@@ -5,9 +5,7 @@ namespace flyball {
 namespace {
 
 constexpr double rounding_m = 1e-9;
-constexpr double standing_m_s = 0.1;  // Chosen: slower than any cruise.
-constexpr double flying_m_s = 0.5;    // Chosen: faster than a vehicle that holds its place.
-constexpr double longest_m = 100.0;   // Between two observations; more than that must be a fault.
+constexpr double longest_m = 100.0;  // Between two observations; more than that must be a fault.
 
 }  // namespace
 
@@ -19,19 +17,10 @@ FailedPlans::FailedPlans(const std::vector<double>& levels_m, double large_m) : 
   }
 }
 
-void FailedPlans::count_stop(const Observation& seen) {
-  const bool stops = is_flying_ && seen.speed_m_s < standing_m_s;
-  stops_ += stops && seen.phase == MissionPhase::cruise ? 1.0 : 0.0;
-  is_flying_ =
-      seen.phase == MissionPhase::cruise && !stops && (is_flying_ || seen.speed_m_s > flying_m_s);
-}
-
 void FailedPlans::note(const Observation& seen, double resolution_m) {
   const double flown_m = last_ ? seen.speed_m_s * to_seconds(seen.now - *last_) : 0.0;
   last_ = seen.now;
   const bool has_flown = flown_m > 0.0 && flown_m < longest_m;
-  flown_m_ += has_flown ? flown_m : 0.0;
-  count_stop(seen);
   // Failures in a row have one cause and count once.
   const bool has_failed = seen.planner_failures > 0 && in_a_row_ == 0 && resolution_m > large_m_;
   in_a_row_ = seen.planner_failures;

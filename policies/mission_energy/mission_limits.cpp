@@ -170,7 +170,6 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   around.least_range_m = gaps.look_m;
   around.needs_top_clock = gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise;
   failed_.note(seen, in_force.resolution_m);
-  around.stops_per_m = failed_.stops_per_m();
   is_lattice_ ? limit_lattice(seen, near, in_force, around)
               : limit_two_levels(seen, near, in_force, around);
   return around;

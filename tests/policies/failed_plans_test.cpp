@@ -37,25 +37,6 @@ TEST(FailedPlans, become_rarer_with_the_distance_flown_in_cells_that_are_no_fine
   EXPECT_NEAR(plans.per_m()[3], 0.5 / 550.0, 1e-9) << ".6 m says nothing about 1.2 m";
 }
 
-TEST(FailedPlans, count_a_stop_each_time_that_a_cruise_comes_to_rest) {
-  FailedPlans plans{cells_m, 0.35};
-  EXPECT_DOUBLE_EQ(plans.stops_per_m(), 0.01);
-  Observation seen = flying(0.0, 0);
-  seen.phase = MissionPhase::cruise;
-  for (int i = 0; i < 40; ++i) {  // Five seconds of flight, three at rest.
-    seen.now = MissionTime{from_seconds(i)};
-    seen.speed_m_s = i % 8 < 5 ? 5.0 : 0.0;
-    plans.note(seen, 0.60);
-  }
-  EXPECT_NEAR(plans.stops_per_m(), 5.5 / (50.0 + 5.0 * 24.0), 1e-9);
-  seen.phase = MissionPhase::land;  // A landing is no stop on the way.
-  seen.speed_m_s = 1.0;
-  plans.note(seen, 0.60);
-  seen.speed_m_s = 0.0;
-  plans.note(seen, 0.60);
-  EXPECT_NEAR(plans.stops_per_m(), 5.5 / 170.0, 1e-9);
-}
-
 TEST(FailedPlans, count_once_for_each_row_of_failures) {
   FailedPlans plans{cells_m, 0.35};
   plans.note(flying(0.0, 0), 0.60);

@@ -103,7 +103,7 @@ TEST(Claim, tells_of_the_strongest_cause_first) {
   claim.causes = {
       {"wider", computed(1.0)}, {"slower", {MedianInterval{2.828427, 2.0, 3.0}, 3}}, {"other", {}}};
   EXPECT_EQ(cause_text(claim),
-            "slower: 2.828 [2.000, 3.000], n 3, which closes 50 % of the gap. wider: 1.000, "
+            "slower: 2.83 [2.00, 3.00], n 3, which closes 50 % of the gap. wider: 1.000, "
             "computed, which widens the gap by 100 %. other: -.");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "counting_new.h"
+#include "counting_malloc.h"
 #include "governed_loop.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(EmbeddedGovernor,
                                          Choice{"ondemand", "sampling_period_s = 0.01"},
                                          Choice{"schedutil", "sampling_period_s = 0.01"}));
 
-TEST(CountingNew, counts_what_the_library_allocates) {
+TEST(CountingMalloc, counts_what_the_library_allocates) {
   GovernedLoop loop;
   const std::size_t before = allocation_count();
   loop.add(loop.cell_knob());

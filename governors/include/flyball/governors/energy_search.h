@@ -66,7 +66,6 @@ struct Surroundings {
   /// For each level, finest first: how many plans fail in its cells per metre of path, because they
   /// close gaps that nobody has seen yet; null: none. It stays the owner's.
   const std::vector<double>* failed_plans_per_m{};
-  double stops_per_m{};    ///< How often the vehicle stops and waits for a map taken at rest.
   double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
   bool prefers_fine{};     ///< Of settings that cost the same, smaller cells are taken.
   WaitingShare waits{};    ///< Raises the price of lower clocks.
@@ -84,7 +83,7 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least energy per metre of progress
 ///
-///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans + stops
+///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
 /// Here v is the speed of MAVBench's eq. 2 for the calibrated bound on latency, and d is the
