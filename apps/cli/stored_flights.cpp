@@ -97,7 +97,7 @@ Flown fly_stored(const StoredBatch& batch,
     }
     return true;
   });
-  remove_empty_folders(batch, missing);
+  remove_empty_folders(batch, flights);
   if (!unwritten.empty()) {
     flown.errors.push_back(unwritten.front());
     flown.exit_code = exit_bad_input;
