@@ -73,9 +73,10 @@ if(TBB_FOUND)
 endif()
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(TARGET flyball_cli AND Python3_FOUND)
-  # One pair of ten: a flight through rooms of a mesh whose doors are known must not take longer.
+  # Five pairs of ten. A single one may go either way by chance: 190 to 102 s, and 104 to 189 s after an
+  # unrelated change.
   add_test(NAME known_map
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/known_map.py
-                   --flyball $<TARGET_FILE:flyball_cli> --only "mesh, (0")
+                   --flyball $<TARGET_FILE:flyball_cli> --only "building 079")
   set_tests_properties(known_map PROPERTIES LABELS closed_loop TIMEOUT 600)
 endif()

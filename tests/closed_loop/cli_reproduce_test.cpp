@@ -3,9 +3,12 @@
 #include "flyball_process.h"
 #include "flyball_program.h"
 #include "made_slurm.h"
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -19,53 +22,52 @@ constexpr const char* tables[] = {"r/claims.csv", "r/speed_latency/slower_maps_f
                                   "r/speed_latency/slower_maps_cells.csv",
                                   "r/speed_latency/eq_2.csv", "r/reproduce.html"};
 
-TEST(CliReproduce, ends_with_the_same_tables_when_it_is_killed_and_continued) {
+/// Ends it after its first flight.
+void kill_after_a_flight(const FlyballProgram& flyball) {
+  FlyballProcess killed{
+      flyball, {"reproduce", "speed_latency", "--seeds", "1", "--out", "r", "--jobs", "1"}};
+  killed.wait_for_file("r/reproduce.db");
+  std::vector<pid_t> first;
+  for (std::vector<pid_t> now; first.empty() || now == first || now.empty();) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});  // The flight needs the processor.
+    now = killed.children();
+    first = first.empty() ? now : first;
+  }
+  killed.send(SIGKILL);
+  EXPECT_EQ(killed.exit_code(), -SIGKILL) << killed.errors();
+}
+
+void expect_equal_tables(const FlyballProgram& one, const FlyballProgram& other) {
+  for (const char* table : tables) {
+    EXPECT_EQ(one.place.content(table), other.place.content(table)) << table;
+  }
+}
+
+TEST(CliReproduce, ends_with_the_same_tables_after_a_kill_and_on_slurm) {
   const FlyballProgram whole;
   const auto expected = whole.run(std::string{line} + "--jobs 2");
   ASSERT_EQ(expected.exit_code, 0) << expected.errors;
   EXPECT_NE(expected.output.find("speed_latency"), std::string::npos);
   EXPECT_NE(expected.output.find("reproduced"), std::string::npos) << expected.output;
 
-  const FlyballProgram flyball;
-  FlyballProcess killed{
-      flyball, {"reproduce", "speed_latency", "--seeds", "1", "--out", "r", "--jobs", "1"}};
-  killed.wait_for_file("r/reproduce.db");
-  std::vector<pid_t> first = killed.children();
-  while (first.empty()) {
-    std::this_thread::yield();
-    first = killed.children();
-  }
-  for (std::vector<pid_t> now = first; now == first || now.empty(); now = killed.children()) {
-    std::this_thread::yield();
-  }
-  killed.send(SIGKILL);
-  EXPECT_EQ(killed.exit_code(), -SIGKILL) << killed.errors();
-
-  const auto continued = flyball.run(std::string{line} + "--jobs 1");
+  const FlyballProgram killed;
+  kill_after_a_flight(killed);
+  const auto continued = killed.run(std::string{line} + "--jobs 1");
   ASSERT_EQ(continued.exit_code, 0) << continued.errors;
   EXPECT_NE(continued.errors.find("of 5 flights are known from before"), std::string::npos)
       << continued.errors;
   EXPECT_EQ(continued.output, expected.output);
-  for (const char* table : tables) {
-    EXPECT_EQ(flyball.place.content(table), whole.place.content(table)) << table;
-  }
-  EXPECT_FALSE(fs::exists(flyball.place.path("r/speed_latency/slower_maps")))
+  expect_equal_tables(killed, whole);
+  EXPECT_FALSE(fs::exists(killed.place.path("r/speed_latency/slower_maps")))
       << "records go when they are counted";
-}
 
-TEST(CliReproduce, flies_the_same_as_an_array_of_slurm) {
-  const FlyballProgram here;
-  const auto expected = here.run(std::string{line} + "--jobs 2");
-  ASSERT_EQ(expected.exit_code, 0) << expected.errors;
-  const FlyballProgram flyball;
-  const MadeSlurm slurm{flyball, "sh \"$script\""};
-  const auto flown = flyball.run(std::string{line} + "--on slurm");
+  const FlyballProgram cluster;
+  const MadeSlurm slurm{cluster, "sh \"$script\""};
+  const auto flown = cluster.run(std::string{line} + "--on slurm");
   ASSERT_EQ(flown.exit_code, 0) << flown.errors;
   EXPECT_EQ(flown.output, expected.output);
-  EXPECT_EQ(flyball.place.content("slurm_programs/arrays"), "array\n") << flown.errors;
-  for (const char* table : tables) {
-    EXPECT_EQ(flyball.place.content(table), here.place.content(table)) << table;
-  }
+  EXPECT_EQ(cluster.place.content("slurm_programs/arrays"), "array\n") << flown.errors;
+  expect_equal_tables(cluster, whole);
 }
 
 TEST(CliReproduce, refuses_what_it_does_not_know_before_anything_flies) {
