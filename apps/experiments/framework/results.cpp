@@ -19,6 +19,15 @@ std::string four_digits(double value) {
   return text.data();
 }
 
+std::string claim_row(const std::string& experiment, const Claim& claim) {
+  const auto& ours = claim.ours.value;
+  return csv_row({experiment, claim.what, claim.unit,
+                  claim.paper ? csv_number(claim.paper->value) : "",
+                  claim.paper ? claim.paper->where : "", ours ? csv_number(ours->median) : "",
+                  ours ? csv_number(ours->lo) : "", ours ? csv_number(ours->hi) : "",
+                  std::to_string(claim.ours.n), to_string(verdict_of(claim)), cause_text(claim)});
+}
+
 }  // namespace
 
 void evaluate(ExperimentResult& result) {
@@ -36,7 +45,7 @@ std::string paper_text(const Claim& claim) {
   if (!claim.paper) {
     return "-";
   }
-  const std::string number =
+  std::string number =
       four_digits(claim.paper->value) + (claim.unit.empty() ? "" : " " + claim.unit);
   switch (claim.match) {
     case Match::at_least:
@@ -83,13 +92,7 @@ std::string claims_csv(const std::vector<ExperimentResult>& results) {
                              "lo", "hi", "n", "verdict", "tested causes"});
   for (const ExperimentResult& result : results) {
     for (const Claim& claim : result.findings.claims) {
-      const auto& ours = claim.ours.value;
-      csv +=
-          csv_row({result.named.name, claim.what, claim.unit,
-                   claim.paper ? csv_number(claim.paper->value) : "",
-                   claim.paper ? claim.paper->where : "", ours ? csv_number(ours->median) : "",
-                   ours ? csv_number(ours->lo) : "", ours ? csv_number(ours->hi) : "",
-                   std::to_string(claim.ours.n), to_string(verdict_of(claim)), cause_text(claim)});
+      csv += claim_row(result.named.name, claim);
     }
   }
   return csv;

@@ -72,6 +72,7 @@ class Executor {
   /// Calls `filter` with each message before it appears on its topic, and puts its answer there
   /// instead; null: the message is lost. For simulated faults, so that only a modeled computer does
   /// it.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): who does it keeps the function.
   virtual void filter_messages(std::function<Message(int topic, const Message&)> /*filter*/) {}
   virtual void on_job(std::function<void(const JobRecord&)> listener) = 0;
   /// A job passed its deadline, told at that moment, once. Under `skip` it is killed next.
