@@ -93,10 +93,12 @@ double known_area_m2(const OccupancyView& map, const Aabb& volume_W, double z_m,
   const std::size_t columns = cells_along(volume_W.max.x() - volume_W.min.x(), square_m);
   const std::size_t rows = cells_along(volume_W.max.y() - volume_W.min.y(), square_m);
   std::size_t known = 0;
-  for (std::size_t i = 0; i < columns * rows; ++i) {
-    const Vec3 p_W{volume_W.min.x() + square_m * (static_cast<double>(i % columns) + 0.5),
-                   volume_W.min.y() + square_m * (static_cast<double>(i / columns) + 0.5), z_m};
-    known += map.state(p_W) == CellState::unknown ? 0U : 1U;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const Vec3 p_W{volume_W.min.x() + square_m * (static_cast<double>(column) + 0.5),
+                     volume_W.min.y() + square_m * (static_cast<double>(row) + 0.5), z_m};
+      known += map.state(p_W) == CellState::unknown ? 0U : 1U;
+    }
   }
   return static_cast<double>(known) * square_m * square_m;
 }
