@@ -49,25 +49,36 @@ double chance_of(int one, int other) {
   return sum / std::exp2(all);
 }
 
-PartGain gain_of(const std::string& part, const Pairing& whole, const Pairing& without) {
-  PartGain gain;
-  gain.part = part;
-  std::vector<double> percents;
-  double sum_of_logs = 0.0;
+/// Of the pairs in which both arrive: energy without the part over energy with it. Counts the
+/// others.
+std::vector<double> ratios_of(const Pairing& whole, const Pairing& without, PartGain& gain) {
+  std::vector<double> ratios;
   for (const auto& [place, flight] : without) {
     const auto other = whole.find(place);
     if (other == whole.end()) {
       continue;
     }
-    const bool does = has_succeeded(*other->second);
-    gain.only_whole += does && !has_succeeded(*flight) ? 1 : 0;
-    gain.only_without += !does && has_succeeded(*flight) ? 1 : 0;
-    if (does && has_succeeded(*flight)) {
-      const double ratio = flight->energy_total_j() / other->second->energy_total_j();
-      percents.push_back(100.0 * (ratio - 1.0));
-      sum_of_logs += std::log(ratio);
-      gain.differ += std::abs(percents.back()) > same_percent ? 1 : 0;
+    const bool with_it = has_succeeded(*other->second);
+    const bool without_it = has_succeeded(*flight);
+    if (with_it && without_it) {
+      ratios.push_back(flight->energy_total_j() / other->second->energy_total_j());
+    } else {
+      gain.only_whole += with_it ? 1 : 0;
+      gain.only_without += without_it ? 1 : 0;
     }
+  }
+  return ratios;
+}
+
+PartGain gain_of(const std::string& part, const Pairing& whole, const Pairing& without) {
+  PartGain gain;
+  gain.part = part;
+  std::vector<double> percents;
+  double sum_of_logs = 0.0;
+  for (const double ratio : ratios_of(whole, without, gain)) {
+    percents.push_back(100.0 * (ratio - 1.0));
+    sum_of_logs += std::log(ratio);
+    gain.differ += std::abs(percents.back()) > same_percent ? 1 : 0;
   }
   gain.pairs = static_cast<int>(percents.size());
   gain.energy_percent = bootstrap_median(percents);
