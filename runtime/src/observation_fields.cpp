@@ -118,14 +118,9 @@ ObservationField phase_field() {
           "What the vehicle does: 0 take-off, 1 cruise, 2 landing, 3 waiting"};
 }
 
-}  // namespace
-
-// A member that is missing below is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 432, "a new member belongs into observation_fields() too");
-
-const std::vector<ObservationField>& observation_fields() {
+std::vector<ObservationField> flight_fields() {
   using O = Observation;
-  static const std::vector<ObservationField> all{
+  return {
       phase_field(),
       field<&O::speed_m_s>("speed_m_s", "m/s", "Speed of the vehicle"),
       field<&O::known_free_m>(
@@ -178,7 +173,12 @@ const std::vector<ObservationField>& observation_fields() {
           "trip_c", "degC",
           "Lowest temperature at which the computer loses clocks; 0: nobody says")),
       seconds<&O::map_age>("map_age_s",
-                           "Since the frame of the newest map was captured; 0: nobody says"),
+                           "Since the frame of the newest map was captured; 0: nobody says")};
+}
+
+std::vector<ObservationField> progress_and_power_fields() {
+  using O = Observation;
+  return {
       optional(field<&O::headroom_m>(
           "headroom_m", "m", "From the top of the body up to an obstacle in the map, at most 5")),
       progress_unit_field(),
@@ -187,26 +187,43 @@ const std::vector<ObservationField>& observation_fields() {
       optional(scalar<&O::cpu_power>("cpu_power_w", "W", "Power of the processors' rail")),
       optional(scalar<&O::gpu_power>("gpu_power_w", "W", "Power of the graphics processor's rail")),
       optional(scalar<&O::memory_power>("memory_power_w", "W", "Power of the memory's rail")),
-      optional(scalar<&O::soc_power>("soc_power_w", "W", "Power of the rest of the chip")),
-      job_s<Stage::map>("map_job_s"),
-      load<Stage::map>("map_load"),
-      gigacycles<Stage::map>("map_gigacycles"),
-      job_s<Stage::plan>("plan_job_s"),
-      load<Stage::plan>("plan_load"),
-      gigacycles<Stage::plan>("plan_gigacycles"),
-      job_s<Stage::detect>("detect_job_s"),
-      load<Stage::detect>("detect_load"),
-      gigacycles<Stage::detect>("detect_gigacycles"),
-      job_s<Stage::track>("track_job_s"),
-      load<Stage::track>("track_load"),
-      gigacycles<Stage::track>("track_gigacycles"),
-      job_s<Stage::localize>("localize_job_s"),
-      load<Stage::localize>("localize_load"),
-      gigacycles<Stage::localize>("localize_gigacycles"),
-      job_s<Stage::explore>("explore_job_s"),
-      load<Stage::explore>("explore_load"),
-      gigacycles<Stage::explore>("explore_gigacycles"),
-  };
+      optional(scalar<&O::soc_power>("soc_power_w", "W", "Power of the rest of the chip"))};
+}
+
+std::vector<ObservationField> stage_fields() {
+  return {job_s<Stage::map>("map_job_s"),
+          load<Stage::map>("map_load"),
+          gigacycles<Stage::map>("map_gigacycles"),
+          job_s<Stage::plan>("plan_job_s"),
+          load<Stage::plan>("plan_load"),
+          gigacycles<Stage::plan>("plan_gigacycles"),
+          job_s<Stage::detect>("detect_job_s"),
+          load<Stage::detect>("detect_load"),
+          gigacycles<Stage::detect>("detect_gigacycles"),
+          job_s<Stage::track>("track_job_s"),
+          load<Stage::track>("track_load"),
+          gigacycles<Stage::track>("track_gigacycles"),
+          job_s<Stage::localize>("localize_job_s"),
+          load<Stage::localize>("localize_load"),
+          gigacycles<Stage::localize>("localize_gigacycles"),
+          job_s<Stage::explore>("explore_job_s"),
+          load<Stage::explore>("explore_load"),
+          gigacycles<Stage::explore>("explore_gigacycles")};
+}
+
+}  // namespace
+
+// A member that is missing above is neither recorded nor replayed: whoever adds one is told here.
+static_assert(sizeof(Observation) == 432, "a new member belongs into observation_fields() too");
+
+const std::vector<ObservationField>& observation_fields() {
+  static const std::vector<ObservationField> all = [] {
+    std::vector<ObservationField> fields = flight_fields();
+    for (const auto& part : {progress_and_power_fields(), stage_fields()}) {
+      fields.insert(fields.end(), part.begin(), part.end());
+    }
+    return fields;
+  }();
   return all;
 }
 
