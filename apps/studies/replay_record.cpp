@@ -21,14 +21,14 @@ namespace flyball {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using JsonRow = nlohmann::json;
 
-MissionTime time_of(const Json& row) {
+MissionTime time_of(const JsonRow& row) {
   return MissionTime{seconds_in(row, "t_s")};
 }
 
 /// A number that was not finite stands as null.
-double number_of(const Json& value) {
+double number_of(const JsonRow& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
@@ -42,7 +42,7 @@ std::optional<std::size_t> index_of(const std::string& name) {
   return std::nullopt;
 }
 
-void take_observation(const Json& row, RecordedFlight& flight) {
+void take_observation(const JsonRow& row, RecordedFlight& flight) {
   auto& changes = flight.changes[time_of(row)];
   for (const auto& [name, value] : row.items()) {
     if (const auto field = index_of(name)) {
@@ -52,7 +52,7 @@ void take_observation(const Json& row, RecordedFlight& flight) {
 }
 
 /// @throw As the library's getters, or in words, when the row is damaged.
-void take_row(const Json& row, RecordedFlight& flight) {
+void take_row(const JsonRow& row, RecordedFlight& flight) {
   const auto& channel = row.at("channel").get_ref<const std::string&>();
   if (channel == "observation" || channel == "computer") {
     take_observation(row, flight);
@@ -87,7 +87,7 @@ Status read_trace(const std::string& path, RecordedFlight& flight) {
   for (std::string line; std::getline(file, line);) {
     ++number;
     try {
-      take_row(Json::parse(line), flight);
+      take_row(JsonRow::parse(line), flight);
     } catch (const std::exception& error) {
       return Error{ErrorCode::invalid_input, path + ":" + std::to_string(number) +
                                                  ": is no row of a trace (" + error.what() +

@@ -17,7 +17,7 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr auto estimating_period = 1s;
+constexpr auto known_share_period = 1s;
 constexpr double cell_m = 0.15;  // Cells of the estimate are as thin as the walls.
 
 class Mapping final : public Workload {
@@ -68,7 +68,7 @@ class Mapping final : public Workload {
         flight_->state() != ExplorationFlight::State::exploring) {
       return;
     }
-    next_estimate_ = job.now() + estimating_period;
+    next_estimate_ = job.now() + known_share_period;
     known_percent_ = known_->percent(*revision->map);
     log(job, mission_, "known", {{"known_percent", known_percent_}});
     tell_progress(job, mission_, ProgressUnit::cubic_metre, known_->known_m3());

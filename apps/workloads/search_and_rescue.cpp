@@ -19,7 +19,7 @@ namespace {
 using namespace flyball;
 using namespace std::chrono_literals;
 
-constexpr auto estimating_period = 1s;
+constexpr auto searched_area_period = 1s;
 constexpr double square_m = 0.3;  // Chosen: half a doorway.
 
 class SearchAndRescue final : public Workload {
@@ -76,7 +76,7 @@ class SearchAndRescue final : public Workload {
     if (!revision || job.now() < next_estimate_) {
       return;
     }
-    next_estimate_ = job.now() + estimating_period;
+    next_estimate_ = job.now() + searched_area_period;
     const Site& site = brief_->site;
     tell_progress(job, mission_, ProgressUnit::square_metre,
                   known_area_m2(*revision->map, site.volume_W,

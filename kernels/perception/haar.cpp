@@ -23,7 +23,7 @@ namespace {
 
 using flyball::Detection;
 
-constexpr double most_overlap = 0.4;
+constexpr double most_haar_overlap = 0.4;
 
 /// Where the person's box lies in the window of a cascade.
 struct Part {
@@ -112,7 +112,7 @@ class Haar final : public flyball::Detector {
             {person_box(windows[j], parts[i], scale), static_cast<double>(neighbours[j])});
       }
     }
-    return flyball::keep_best(std::move(found), most_overlap);
+    return flyball::keep_best(std::move(found), most_haar_overlap);
   }
 
   /// What `detectMultiScale` goes through: every second pixel while the window is below twice its

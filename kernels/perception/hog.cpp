@@ -22,7 +22,7 @@ using flyball::Detection;
 constexpr int stride_px = 8;     // One cell: OpenCV's own step.
 constexpr int padding_px = 8;    // A person at the edge of the image needs a margin, too.
 constexpr int most_levels = 64;  // OpenCV's limit.
-constexpr double most_overlap = 0.4;
+constexpr double most_hog_overlap = 0.4;
 
 // The trained window of 64 x 128 pixels has a margin of 16 around the person (Dalal and Triggs,
 // section 4).
@@ -83,7 +83,7 @@ class Hog final : public flyball::Detector {
     for (std::size_t i = 0; i < windows.size(); ++i) {
       found.push_back({without_margin(windows[i], scale), i < weights.size() ? weights[i] : 0.0});
     }
-    return flyball::keep_best(std::move(found), most_overlap);
+    return flyball::keep_best(std::move(found), most_hog_overlap);
   }
 
   /// What `detectMultiScale` goes through.

@@ -72,8 +72,8 @@ function(flyball_module name)
 endfunction()
 
 # flyball_unity_groups(<target> <source>...): which sources are compiled as one where CMAKE_UNITY_BUILD is on
-# (under a sanitizer, where headers take most of the time): neighbours, so that a new file moves no
-# file of another folder. Their names without linkage must differ.
+# (everywhere but in the preset `dev`: headers take most of the time): neighbours, so that a new file moves
+# no file of another folder. Their names without linkage must differ.
 function(flyball_unity_groups target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS ARGN)
@@ -116,6 +116,7 @@ endfunction()
 function(flyball_plugins target table)
   set(stems "")
   set(alone "")  # Those that need no package.
+  flyball_unity_groups(${target} ${ARGN})
   list(SORT ARGN)
   foreach(file IN LISTS ARGN)
     cmake_path(GET file STEM stem)

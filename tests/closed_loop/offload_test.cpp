@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
+// compiled-alone
 //
 // MAVBench's study: an edge computer plans three times faster while an office is mapped.
 

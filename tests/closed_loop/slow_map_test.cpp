@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 //
 // Frames that take seconds come from few places: a vehicle that used up what was declared clear at
 // its start before its first map came would stand too near to what it does not know to see it. So

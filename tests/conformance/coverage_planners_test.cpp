@@ -8,9 +8,9 @@
 namespace flyball {
 namespace {
 
-class Culprit final : public CoveragePlanner {
+class CoverageCulprit final : public CoveragePlanner {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit CoverageCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Result<CoveragePath> cover(const CoverageRequest& request) override {
     CoverageRequest asked = request;
@@ -53,7 +53,7 @@ TEST(CoveragePlanners, keep_their_contract) {
 
 TEST(CoveragePlannerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<CoveragePlannerConformance, CoveragePlanner>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<CoverageCulprit>(crime); },
       {{"credulous", "accepts an area without extent"},
        {"lazy", "leaves a part of the area out"},
        {"elsewhere", "does not lead from the start to the end"},

@@ -66,9 +66,9 @@ TEST(Detectors, find_people_that_are_shown_to_them) {
 }
 
 /// Finds the reddest rectangle; or breaks a rule.
-class Culprit final : public Detector {
+class DetectorCulprit final : public Detector {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit DetectorCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Result<std::vector<Detection>> detect(const ColourImage& image,
                                         double scale,
@@ -159,7 +159,7 @@ class TriedOnRed : public DetectorConformance {
 
 TEST(DetectorConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<TriedOnRed, Detector>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<DetectorCulprit>(crime); },
       {{"credulous", "accepts an image that is empty"},
        {"any_scale", "accepts a scale that is not in (0, 8]"},
        {"idle", "does not count its images"},

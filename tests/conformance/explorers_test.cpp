@@ -9,9 +9,9 @@ namespace flyball {
 namespace {
 
 /// An honest explorer whose step is spoilt.
-class Culprit final : public Explorer {
+class ExplorerCulprit final : public Explorer {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit ExplorerCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   ExploreStep explore(const ExploreRequest& request, const OccupancyView& map) override {
     ExploreRequest asked = request;
@@ -66,7 +66,7 @@ TEST(Explorers, keep_their_contract) {
 
 TEST(ExplorerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<ExplorerConformance, Explorer>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<ExplorerCulprit>(crime); },
       {{"forgets", "takes a view again that was had"},
        {"remembers", "explores differently in a second mission"},
        {"restless", "finds something to see where all is known"},

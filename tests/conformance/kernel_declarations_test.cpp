@@ -33,9 +33,9 @@ KnobSpec margin(double fallback_m) {
   return {"mine.margin_m", "m", "follow", {}, 0.0, 1.0, fallback_m, "kept to the path"};
 }
 
-class Culprit final : public PathTracker {
+class DeclaringCulprit final : public PathTracker {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit DeclaringCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
     if (crime_ == "bounds") {
@@ -72,7 +72,7 @@ class Culprit final : public PathTracker {
 TEST(KernelConformance, finds_what_is_declared_wrongly) {
   kit::expect_crimes_found<Declarations<PathTracker>, PathTracker>(
       [](const std::string& crime) {
-        return crime == "nothing" ? nullptr : std::make_unique<Culprit>(crime);
+        return crime == "nothing" ? nullptr : std::make_unique<DeclaringCulprit>(crime);
       },
       {{"nothing", "the factory makes nothing"},
        {"bounds", "out of its own bounds"},
@@ -97,7 +97,7 @@ TEST(KernelConformance, finds_a_knob_of_the_family_that_is_missing) {
 
 TEST(KernelConformance, refuses_parameters_that_are_not_declared) {
   Declarations<PathTracker> conformance{
-      {[] { return std::make_unique<Culprit>("none"); }, {{"gian", 0.3}}}};
+      {[] { return std::make_unique<DeclaringCulprit>("none"); }, {{"gian", 0.3}}}};
   ASSERT_EQ(conformance.breaches().size(), 1U);
   EXPECT_NE(conformance.breaches().front().find("no parameter \"gian\""), std::string::npos);
 }

@@ -9,9 +9,9 @@ namespace flyball {
 namespace {
 
 /// An honest localizer whose estimate is spoilt.
-class Culprit final : public Localizer {
+class LocalizerCulprit final : public Localizer {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit LocalizerCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   void start(const GeodeticOrigin& origin) override {
     honest_->start(origin);
@@ -69,7 +69,7 @@ TEST(Localizers, keep_their_contract) {
 
 TEST(LocalizerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<LocalizerConformance, Localizer>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<LocalizerCulprit>(crime); },
       {{"remembers", "does not forget the last mission at its start"},
        {"any_frame", "accepts a frame that is not of its camera's size"},
        {"idle", "does not count its samples"},

@@ -56,9 +56,9 @@ class SpoiltView final : public OccupancyView {
   const std::string& crime_;
 };
 
-class Culprit final : public Mapper {
+class MapperCulprit final : public Mapper {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit MapperCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
@@ -157,7 +157,7 @@ TEST(Mappers, keep_their_contract_in_other_configurations) {
 
 TEST(MapperConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<MapperConformance, Mapper>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<MapperCulprit>(crime); },
       {{"optimist", "claims to know what no ray came near"},
        {"blind", "does not mark what every frame has hit"},
        {"pessimist", "does not free what every frame has seen through"},

@@ -10,9 +10,9 @@ namespace flyball {
 namespace {
 
 /// An honest planner whose plan is spoilt.
-class Culprit final : public PathPlanner {
+class PlannerCulprit final : public PathPlanner {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit PlannerCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Plan plan(const PlanRequest& request, const OccupancyView& map) override {
     PlanRequest asked = request;
@@ -79,7 +79,7 @@ TEST(PathPlanners, keep_their_contract_behind_a_knob_that_chooses_among_them) {
 
 TEST(PathPlannerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<PathPlannerConformance, PathPlanner>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<PlannerCulprit>(crime); },
       {{"greedy", "takes more iterations than it may"},
        {"long_winded", "is longer than is wanted"},
        {"remembers", "plans differently after other plans"},

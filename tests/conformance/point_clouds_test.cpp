@@ -8,9 +8,9 @@
 namespace flyball {
 namespace {
 
-class Culprit final : public PointCloudBuilder {
+class CloudCulprit final : public PointCloudBuilder {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit CloudCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   PointCloudFrame build(const DepthFrame& frame, double range_m, Work& work) override {
     DepthFrame asked = frame;
@@ -56,7 +56,7 @@ TEST(PointClouds, keep_their_contract) {
 
 TEST(PointCloudConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<PointCloudConformance, PointCloudBuilder>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<CloudCulprit>(crime); },
       {{"one_eyed", "does not put each pixel at its depth"},
        {"far", "beyond the range, into a clear ray"},
        {"scale", "does not put each pixel at its depth"},

@@ -9,9 +9,9 @@ namespace flyball {
 namespace {
 
 /// An honest smoother whose curve is spoilt.
-class Culprit final : public Smoother {
+class SmootherCulprit final : public Smoother {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit SmootherCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Result<SmoothPath> smooth(const SmoothRequest& request, const OccupancyView& map) override {
     SmoothRequest asked = request;
@@ -79,7 +79,7 @@ TEST(Smoothers, keep_their_contract) {
 
 TEST(SmootherConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<SmootherConformance, Smoother>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<SmootherCulprit>(crime); },
       {{"credulous", "accepts too few way-points"},
        {"reckless", "accelerates more than it may"},
        {"deaf", "does not begin in the direction of the start velocity"},

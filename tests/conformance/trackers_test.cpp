@@ -9,9 +9,9 @@ namespace flyball {
 namespace {
 
 /// An honest tracker whose answers are spoilt.
-class Culprit final : public Tracker {
+class TrackerCulprit final : public Tracker {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit TrackerCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   [[nodiscard]] PixelRegion learns_from(const ImageBox& box,
                                         const Intrinsics& camera) const override {
@@ -70,7 +70,7 @@ TEST(Trackers, keep_their_contract) {
 
 TEST(TrackerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<TrackerConformance, Tracker>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<TrackerCulprit>(crime); },
       {{"demands", "asks for pixels outside of the image"},
        {"faithful", "does not forget what it followed before"},
        {"credulous", "begins on a box of which next to nothing is inside"},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/governors/energy_search.h"
 
 #include "flyball/governors/policy_conformance.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: fault
+// compiled-alone
 //
 // Scripts that somebody wrote to break a mission: each ends in a sentence that names what it did.
 #ifdef FLYBALL_HAS_LUA

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 //
 // Revisions of maps, of all mappers: a reader keeps the map that it began with. With the preset
 // tsan the last test shows that it needs no lock for that.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/kernels/kernels.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/atmosphere.h"

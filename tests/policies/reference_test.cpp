@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "counting_new.h"
 #include "cruising.h"
 #include "policy_start.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 // The world of the paper's two-resolution case: open on a .15 m map, shut on a .80 m one.
 #include "floor_plan.h"
 #include "made_world.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/sim/person.h"
 
 #include "flyball/sim/world.h"

@@ -29,7 +29,7 @@ constexpr std::array<Rgb, 5> ramp{{{253.0, 231.0, 37.0},
 
 constexpr double cell_width_px = 92.0;
 constexpr double cell_height_px = 52.0;
-constexpr double top_px = 44.0;
+constexpr double first_row_px = 44.0;
 constexpr double dark_from = 0.45;  // Of the ramp: white reads better there than black.
 
 std::string fill_of(double share) {
@@ -79,11 +79,11 @@ std::string legend(const HeatMap& map, double x, double height) {
   std::string content;
   for (int i = 0; i < steps; ++i) {
     const double share = (static_cast<double>(i) + 0.5) / steps;
-    content += svg::rectangle({x, top_px + height - (i + 1) * step_px, 12.0, step_px + 0.3},
+    content += svg::rectangle({x, first_row_px + height - (i + 1) * step_px, 12.0, step_px + 0.3},
                               "fill=\"" + fill_of(share) + "\"", "");
   }
-  return content + svg::text(x + 18.0, top_px + 10.0, "start", rounded(map.high, digits)) +
-         svg::text(x + 18.0, top_px + height, "start", rounded(map.low, digits));
+  return content + svg::text(x + 18.0, first_row_px + 10.0, "start", rounded(map.high, digits)) +
+         svg::text(x + 18.0, first_row_px + height, "start", rounded(map.low, digits));
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::string heat_map_svg(const HeatMap& map) {
   std::string content = svg::text(0.0, 14.0, "start", map.title, "font-weight=\"600\"") +
                         svg::text(0.0, 34.0, "start", map.y_title);
   for (std::size_t y = 0; y < map.y_values.size(); ++y) {
-    const double from_top = top_px + height - cell_height_px * static_cast<double>(y + 1);
+    const double from_top = first_row_px + height - cell_height_px * static_cast<double>(y + 1);
     content +=
         svg::text(left_px - 8.0, from_top + 0.5 * cell_height_px + 4.0, "end", map.y_values[y]);
     for (std::size_t x = 0; x < map.x_values.size(); ++x) {
@@ -122,12 +122,13 @@ std::string heat_map_svg(const HeatMap& map) {
   }
   for (std::size_t x = 0; x < map.x_values.size(); ++x) {
     content += svg::text(left_px + cell_width_px * (static_cast<double>(x) + 0.5),
-                         top_px + height + 16.0, "middle", map.x_values[x]);
+                         first_row_px + height + 16.0, "middle", map.x_values[x]);
   }
-  content += svg::text(left_px + 0.5 * width, top_px + height + 34.0, "middle", map.x_title) +
+  content += svg::text(left_px + 0.5 * width, first_row_px + height + 34.0, "middle", map.x_title) +
              legend(map, left_px + width + 12.0, height);
   const double least_px = std::max(svg::width_of(map.title), svg::width_of(map.x_title));
-  return svg::picture(std::max(left_px + width + 90.0, least_px), top_px + height + 42.0, content);
+  return svg::picture(std::max(left_px + width + 90.0, least_px), first_row_px + height + 42.0,
+                      content);
 }
 
 }  // namespace flyball

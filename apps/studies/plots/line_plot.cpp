@@ -11,10 +11,10 @@
 namespace flyball {
 namespace {
 
-constexpr double left_px = 60.0;
-constexpr double right_px = 390.0;
-constexpr double top_px = 30.0;
-constexpr double bottom_px = 260.0;
+constexpr double frame_left_px = 60.0;
+constexpr double frame_right_px = 390.0;
+constexpr double frame_top_px = 30.0;
+constexpr double frame_bottom_px = 260.0;
 constexpr double legend_row_px = 16.0;
 
 /// Where each place stands along the axis, in units of the axis; empty when not all are different
@@ -44,23 +44,23 @@ svg::Scale heights_of(const LinePlot& plot) {
     }
   }
   if (ends.empty()) {
-    return svg::around(0.0, 1.0, bottom_px, top_px);
+    return svg::around(0.0, 1.0, frame_bottom_px, frame_top_px);
   }
   const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
   // At least a twentieth from end to end, so that what hardly differs looks level.
   const double missing = std::max(0.0, 0.05 * std::abs(*high) - (*high - *low));
-  return svg::around(*low - 0.5 * missing, *high + 0.5 * missing, bottom_px, top_px);
+  return svg::around(*low - 0.5 * missing, *high + 0.5 * missing, frame_bottom_px, frame_top_px);
 }
 
 svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {
   svg::Frame frame{{}, heights_of(plot)};
   if (numbers.empty()) {
-    frame.x = {-0.5, static_cast<double>(plot.places.size()) - 0.5, left_px, right_px};
+    frame.x = {-0.5, static_cast<double>(plot.places.size()) - 0.5, frame_left_px, frame_right_px};
     return frame;
   }
   const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
   const double margin = *most > *least ? 0.05 * (*most - *least) : 1.0;
-  frame.x = {*least - margin, *most + margin, left_px, right_px};
+  frame.x = {*least - margin, *most + margin, frame_left_px, frame_right_px};
   return frame;
 }
 
@@ -69,8 +69,8 @@ std::string axes_of(const LinePlot& plot, const svg::Frame& frame, const std::ve
   std::string content = svg::y_axis(frame);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double x = frame.x.at(at[i]);
-    content += svg::line(x, top_px, x, bottom_px, svg::grid) +
-               svg::text(x, bottom_px + 16.0, "middle", plot.places[i]);
+    content += svg::line(x, frame_top_px, x, frame_bottom_px, svg::grid) +
+               svg::text(x, frame_bottom_px + 16.0, "middle", plot.places[i]);
   }
   return content;
 }
@@ -102,9 +102,9 @@ std::string line_of(const PlottedLine& line,
 std::string legend_of(const LinePlot& plot) {
   std::string content;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
-    const double y = top_px + 8.0 + legend_row_px * static_cast<double>(i);
-    content += svg::dot(right_px + 14.0, y, svg::colour(i), plot.lines[i].name) +
-               svg::text(right_px + 24.0, y + 4.0, "start", plot.lines[i].name);
+    const double y = frame_top_px + 8.0 + legend_row_px * static_cast<double>(i);
+    content += svg::dot(frame_right_px + 14.0, y, svg::colour(i), plot.lines[i].name) +
+               svg::text(frame_right_px + 24.0, y + 4.0, "start", plot.lines[i].name);
   }
   return content;
 }
@@ -119,15 +119,15 @@ std::string line_plot_svg(const LinePlot& plot) {
   }
   std::string content = svg::text(0.0, 14.0, "start", plot.title, "font-weight=\"600\"") +
                         axes_of(plot, frame, at) +
-                        svg::text(right_px, bottom_px + 34.0, "end", plot.x_title);
+                        svg::text(frame_right_px, frame_bottom_px + 34.0, "end", plot.x_title);
   double legend_px = 0.0;
   const bool has_legend = plot.lines.size() > 1;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     content += line_of(plot.lines[i], frame, at, i);
     legend_px = has_legend ? std::max(legend_px, svg::width_of(plot.lines[i].name)) : 0.0;
   }
-  const double rows_px = legend_row_px * static_cast<double>(plot.lines.size()) + top_px;
-  return svg::picture(right_px + 30.0 + legend_px, std::max(bottom_px + 42.0, rows_px),
+  const double rows_px = legend_row_px * static_cast<double>(plot.lines.size()) + frame_top_px;
+  return svg::picture(frame_right_px + 30.0 + legend_px, std::max(frame_bottom_px + 42.0, rows_px),
                       content + (has_legend ? legend_of(plot) : ""));
 }
 

@@ -9,7 +9,7 @@
 namespace flyball {
 namespace {
 
-constexpr int coarsest_level = 3;
+constexpr int coarsest_written = 3;
 
 }  // namespace
 
@@ -18,11 +18,11 @@ Status write_map_file(const BrickMap& map,
                       const std::string& path) {
   const double finest_m = map.lattice().cell_m(0);
   int level = 0;
-  while (level <= coarsest_level &&
+  while (level <= coarsest_written &&
          std::abs(map.lattice().cell_m(level) - resolution_m.value_or(finest_m)) > 1e-9) {
     ++level;
   }
-  if (level > coarsest_level) {
+  if (level > coarsest_written) {
     return Error{ErrorCode::invalid_input, "a map file's cells must be 1, 2, 4 or 8 times " +
                                                std::to_string(finest_m) + " m, and not " +
                                                std::to_string(*resolution_m) + " m"};

@@ -26,7 +26,7 @@ std::uint64_t morton(const CellKey& cell) {
 }
 
 /// Gathers every third bit: the inverse of `spread`.
-int gathered(std::uint64_t code) {
+int every_third_bit(std::uint64_t code) {
   int x = 0;
   for (unsigned bit = 0; bit < brick_depth; ++bit) {
     x |= static_cast<int>(code >> 3U * bit & 1U) << bit;
@@ -198,7 +198,9 @@ class Writer {
     descent_.add_states(node, 4, 0, states);
     for (std::size_t i = first; i < last; ++i) {
       const std::uint64_t code = items_[i].code;
-      changed_.push_back({{gathered(code), gathered(code >> 1U), gathered(code >> 2U)}, states});
+      changed_.push_back(
+          {{every_third_bit(code), every_third_bit(code >> 1U), every_third_bit(code >> 2U)},
+           states});
     }
   }
   [[nodiscard]] bool is_free_block(unsigned depth, std::size_t first, std::size_t last) const {
@@ -263,7 +265,7 @@ void OctreeRecord::write_first_cell(Item& item, octomap::OcTree& tree) {
   const std::uint64_t cell = cells & (~cells + 1);
   const auto bit = static_cast<int>(std::bitset<64>{cell - 1}.count());
   const auto key = [&](unsigned axis, int offset) {
-    return static_cast<octomap::key_type>(4 * gathered(item.code >> axis) + (offset & 3));
+    return static_cast<octomap::key_type>(4 * every_third_bit(item.code >> axis) + (offset & 3));
   };
   tree.updateNode(octomap::OcTreeKey{key(0, bit), key(1, bit >> 2), key(2, bit >> 4)},
                   (item.hit & cell) != 0, false);

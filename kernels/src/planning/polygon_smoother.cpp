@@ -18,7 +18,7 @@
 namespace flyball {
 namespace {
 
-constexpr double same_place_m = 1e-6;
+constexpr double same_point_m = 1e-6;
 // Chosen by hand.
 constexpr int rounds = 6;           // Of smaller cuts; the vehicle stops where all of them collide.
 constexpr double margin_m = 0.002;  // The curve is checked and flown as chords, not the same ones.
@@ -32,7 +32,7 @@ constexpr double sampling_reserve = 1.002;  // Peaks between samples.
 std::vector<Vec3> without_repeats(const std::vector<Vec3>& points_W) {
   std::vector<Vec3> kept{points_W.front()};
   for (std::size_t i = 1; i < points_W.size(); ++i) {
-    if ((points_W[i] - kept.back()).norm() > same_place_m) {
+    if ((points_W[i] - kept.back()).norm() > same_point_m) {
       kept.push_back(points_W[i]);
     } else if (i + 1 == points_W.size() && kept.size() > 1) {
       kept.back() = points_W[i];

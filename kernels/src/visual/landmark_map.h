@@ -24,6 +24,8 @@ struct Landmark {
 };
 
 constexpr int no_landmark = -1;
+/// Keyframes whose landmarks a frame is compared with.
+constexpr std::size_t local_keyframes = 10;
 
 struct Keyframe {
   MissionTime captured{};

@@ -12,7 +12,7 @@
 namespace flyball {
 namespace {
 
-constexpr double nearest_m = 0.2;
+constexpr double nearest_used_m = 0.2;
 constexpr double farthest_m = 100.0;
 
 Vec3 in_camera(const BodyPose& from, const Vec3& p_W) {
@@ -102,7 +102,7 @@ std::optional<Vec3> triangulate(const std::vector<BodyPose>& window,
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Vec3 right = Vec3::Zero();
     for (const Glimpse& seen : glimpses) {
-      if (in_camera(window[seen.pose], *p_W).z() < nearest_m) {
+      if (in_camera(window[seen.pose], *p_W).z() < nearest_used_m) {
         return std::nullopt;
       }
       const Reprojection reprojection = compare(window[seen.pose], seen, *p_W, reach);
@@ -116,7 +116,7 @@ std::optional<Vec3> triangulate(const std::vector<BodyPose>& window,
   }
   for (const Glimpse& seen : glimpses) {
     const Vec3 p_C = in_camera(window[seen.pose], *p_W);
-    const bool plausible = p_C.z() > nearest_m && p_C.z() < farthest_m;
+    const bool plausible = p_C.z() > nearest_used_m && p_C.z() < farthest_m;
     if (!plausible || (p_C.head<2>() / p_C.z() - seen.ray).norm() > reach) {
       return std::nullopt;
     }

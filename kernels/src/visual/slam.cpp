@@ -12,7 +12,6 @@
 namespace flyball {
 namespace {
 
-constexpr std::size_t local_keyframes = 10;
 // Search radius as a share of the image's width: 13 px at 320, as wide as ORB-SLAM's 15 px at 640
 // is when it looks again. Motion that the prediction misses by more is lost.
 constexpr double search_share = 0.04;

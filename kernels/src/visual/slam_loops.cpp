@@ -10,7 +10,6 @@
 namespace flyball {
 namespace {
 
-constexpr std::size_t local_keyframes = 10;
 constexpr std::size_t least_age = 20;    // Keyframes between then and now.
 constexpr std::size_t rest_after = 10;   // Keyframes between two loops.
 constexpr double first_reach_m = 2.0;    // How far the estimate may be off: this, and

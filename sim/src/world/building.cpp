@@ -96,6 +96,10 @@ bool holds_coarse_cell(double low_m, double high_m) {
 
 }  // namespace
 
+double on_wall_grid(double x_m) {
+  return std::round(x_m / voxel_m) * voxel_m;
+}
+
 double door_centre_m(const BuildingPlan& plan, double wish_m, double low_m, double high_m) {
   const double inside_m = std::clamp(wish_m, low_m, high_m);
   if (!plan.fine_doors) {

@@ -33,6 +33,9 @@ struct BuildingPlan {
 constexpr double half_wall_m = 0.075;  ///< Faces in the middle of voxels.
 constexpr double ceiling_z_m = 2.775;  ///< In the middle of a voxel.
 
+/// The nearest multiple of .15 m, where wall centres lie.
+[[nodiscard]] double on_wall_grid(double x_m);
+
 /// A stretch of wall between two crossings, from wall centre to wall centre.
 struct WallStretch {
   bool along_y{};

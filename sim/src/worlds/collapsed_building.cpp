@@ -10,7 +10,6 @@
 
 #include "world/building.h"
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace {
@@ -31,10 +30,6 @@ constexpr double slab_m = 0.12;        // Thick: a usual concrete floor less its
 constexpr double passage_m = 1.6;      // Kept free around start and holes.
 constexpr double person_room_m = 1.0;  // Kept free around the person.
 constexpr int tries = 60;
-
-double snap(double x_m) {
-  return std::round(x_m / 0.15) * 0.15;
-}
 
 double apart_m(const Aabb& box, const Vec3& place_W) {
   const Vec3 nearest = place_W.cwiseMax(box.min).cwiseMin(box.max);
@@ -81,8 +76,8 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     RandomStream debris{seed, "world/collapsed_building/debris"};
     RandomStream person{seed, "world/collapsed_building/person"};
     Ruin ruin;
-    ruin.length_m = snap(given.number("length_m"));
-    ruin.half_width_m = snap(0.5 * given.number("width_m"));
+    ruin.length_m = flyball::on_wall_grid(given.number("length_m"));
+    ruin.half_width_m = flyball::on_wall_grid(0.5 * given.number("width_m"));
     ruin.world.start_W = ruin.world.goal_W = {start_m, 0.0, 0.0};
     ruin.free.emplace_back(ruin.world.start_W, passage_m);
     flyball::Building building = shell(ruin);
@@ -123,7 +118,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     plan.door_width_m = given.number("hole_m");
     double at_m = 0.0;
     for (int i = 1; i <= walls; ++i) {
-      at_m = snap(ruin.length_m * i / (walls + 1.0));
+      at_m = flyball::on_wall_grid(ruin.length_m * i / (walls + 1.0));
       const double reach_m = ruin.half_width_m - 0.5 * plan.door_width_m - 0.6;
       const double hole_m =
           door_centre_m(plan, random.uniform(-reach_m, reach_m), -reach_m, reach_m);

@@ -27,7 +27,7 @@ constexpr double gate_m = 4.0;  // Left open in each fence.
 constexpr double barn_length_m = 18.0;
 constexpr double barn_width_m = 10.0;
 constexpr double barn_height_m = 7.0;
-constexpr double trunk_radius_m = 0.3;
+constexpr double farm_trunk_radius_m = 0.3;
 constexpr double crown_share = 0.45;  // Of the tree's height, from the top down.
 constexpr double ceiling_m = 60.0;
 
@@ -115,7 +115,7 @@ class Farm final : public flyball::WorldGenerator {
       if (yard < yard_m + half_m) {
         continue;
       }
-      world.pillars.push_back({foot_W, trunk_radius_m, height_m - crown_m});
+      world.pillars.push_back({foot_W, farm_trunk_radius_m, height_m - crown_m});
       world.boxes.push_back({foot_W + Vec3{-half_m, -half_m, height_m - crown_m},
                              foot_W + Vec3{half_m, half_m, height_m}});
     }

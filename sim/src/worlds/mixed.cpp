@@ -11,7 +11,6 @@
 #include "world/building.h"
 #include "world/congestion.h"
 #include <algorithm>
-#include <cmath>
 
 namespace {
 
@@ -25,19 +24,15 @@ constexpr double half_width_m = 15.3;  // Three rooms of 10.2 m.
 constexpr double room_m = 10.05;       // Wall centres are multiples of .15 m.
 constexpr int rows = 6;                // A building is 60 m deep.
 constexpr double crowd_m = 80.0;
-constexpr double slab_m = 3.0;         // Depth of a wall with a slit.
+constexpr double slit_wall_m = 3.0;    // Depth of a wall with a slit.
 constexpr double open_m = 20.0;        // At least, before and behind each thing.
 constexpr double apron_m = 1.5;        // Before a door the vehicle has slowed down.
 constexpr double wall_height_m = 6.0;  // Above the flight ceiling.
 
-double snap(double x_m) {
-  return std::round(x_m / 0.15) * 0.15;
-}
-
 enum class Thing : std::uint8_t { building, crowd, slit };
 
 double depth_m(Thing thing) {
-  return thing == Thing::building ? rows * room_m : thing == Thing::crowd ? crowd_m : slab_m;
+  return thing == Thing::building ? rows * room_m : thing == Thing::crowd ? crowd_m : slit_wall_m;
 }
 
 class Mixed final : public flyball::WorldGenerator {
@@ -116,7 +111,7 @@ class Mixed final : public flyball::WorldGenerator {
                     std::uint64_t seed) {
     double used_m = 0.0;
     for (std::size_t i = 0; i < things.size(); ++i) {
-      const double at_m = snap(used_m + open_m + spare_before_m[i]);
+      const double at_m = flyball::on_wall_grid(used_m + open_m + spare_before_m[i]);
       RandomStream random{seed, "world/mixed/thing", i};
       switch (things[i]) {
         case Thing::building:
@@ -185,9 +180,9 @@ class Mixed final : public flyball::WorldGenerator {
     const double half_slit_m = 0.5 * plan.door_width_m;
     const double end_m = half_width_m + 0.075;
     world.boxes.push_back(
-        {{at_m, -end_m, 0.0}, {at_m + slab_m, centre_m - half_slit_m, wall_height_m}});
+        {{at_m, -end_m, 0.0}, {at_m + slit_wall_m, centre_m - half_slit_m, wall_height_m}});
     world.boxes.push_back(
-        {{at_m, centre_m + half_slit_m, 0.0}, {at_m + slab_m, end_m, wall_height_m}});
+        {{at_m, centre_m + half_slit_m, 0.0}, {at_m + slit_wall_m, end_m, wall_height_m}});
   }
 };
 

@@ -10,7 +10,6 @@
 
 #include "world/building.h"
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace {
@@ -25,10 +24,6 @@ using flyball::WallStretch;
 constexpr double start_from_wall_m = 1.5;
 constexpr double lowest_m = 0.5;           // Of the body's centre: over nothing but the floor.
 constexpr double below_ceiling_m = 0.675;  // The body, its tube, and a hand's breadth of air.
-
-double snap(double x_m) {
-  return std::round(x_m / 0.15) * 0.15;
-}
 
 /// All at wall centres.
 struct Layout {
@@ -67,9 +62,9 @@ class Office final : public flyball::WorldGenerator {
     RandomStream random{seed, "world/office"};
     Layout layout;
     layout.rooms = static_cast<int>(given.number("rooms_per_side"));
-    layout.width_m = snap(given.number("room_width_m"));
-    layout.depth_m = snap(given.number("room_depth_m"));
-    layout.corridor_m = 2.0 * snap(0.5 * given.number("corridor_width_m"));
+    layout.width_m = flyball::on_wall_grid(given.number("room_width_m"));
+    layout.depth_m = flyball::on_wall_grid(given.number("room_depth_m"));
+    layout.corridor_m = 2.0 * flyball::on_wall_grid(0.5 * given.number("corridor_width_m"));
     BuildingPlan plan;
     plan.door_width_m = given.number("door_width_m");
     plan.fine_doors = given.text("door_alignment") == "fine";

@@ -24,10 +24,6 @@ constexpr double block_height_m = 4.0;      // Above the flight ceiling.
 constexpr double apron_m = 1.5;             // Before the door the vehicle has slowed down.
 constexpr double goal_behind_wall_m = 3.0;  // The goal's room begins this far before it.
 
-double snap(double x_m) {
-  return std::round(x_m / 0.15) * 0.15;
-}
-
 class OutdoorToIndoor final : public flyball::WorldGenerator {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
@@ -52,7 +48,7 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
     flyball::RandomStream blocks{seed, "world/outdoor_to_indoor/blocks"};
     flyball::World world;
     const double indoors_m = given.number("indoors_m");
-    BuildingPlan plan = plan_rooms(snap(given.number("outdoors_m")), indoors_m);
+    BuildingPlan plan = plan_rooms(flyball::on_wall_grid(given.number("outdoors_m")), indoors_m);
     world.goal_W = {plan.facade_x_m + indoors_m, layout.uniform(-3.0, 3.0), 0.0};
     const double line_y_m = world.goal_W.y() * plan.facade_x_m / world.goal_W.x();
     plan.entrance_y_m = line_y_m + layout.uniform(-4.0, 4.0);
@@ -80,7 +76,7 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
     plan.facade_x_m = facade_x_m;
     const double before_last_m = indoors_m - goal_behind_wall_m;
     const double rows = std::max(1.0, std::round(before_last_m / 10.0));
-    plan.room_depth_m = snap(before_last_m / rows);
+    plan.room_depth_m = flyball::on_wall_grid(before_last_m / rows);
     plan.rows = static_cast<int>(rows) + 1;
     return plan;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/recordings/recorded_map.h"
 
 #include "circle_flight.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "bricks/chunk_log.h"
 
 #include "flyball/kernels/kernels.h"

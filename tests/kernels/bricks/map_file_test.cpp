@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "bricks/map_file.h"
 
 #include "flyball/kernels/kernels.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "bricks/octree_record.h"
 
 #include "bricks/brick_map.h"

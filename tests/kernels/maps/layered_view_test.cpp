@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "maps/layered_view.h"
 
 #include "maps/octomap_tree.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "scans/pyramid_scan.h"
 
 #include "mask_cells.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "visual/pose_solver.h"
 
 #include "flyball/runtime/random.h"

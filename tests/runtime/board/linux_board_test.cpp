@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/runtime/board/linux_board.h"
 
 #include "fake_kernel.h"
