@@ -2,8 +2,7 @@
 //
 // What a map costs over the size of its cells: MAVBench's curve for OctoMap on the TX2.
 
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 #include "flyball/studies/platform_fit.h"
 
 #include "experiments/framework/papers.h"
@@ -49,11 +48,7 @@ Claim limit_of(const std::string& what, double paper_ms, Match match, double our
 }
 
 Result<Findings> evaluate(const Evidence& /*evidence*/) {
-  const auto file = find_shipped("platforms", "jetson_tx2");
-  if (!file) {
-    return file.error();
-  }
-  const auto model = load_platform(*file);
+  const auto model = find_platform("jetson_tx2");
   if (!model) {
     return model.error();
   }

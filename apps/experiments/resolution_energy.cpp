@@ -3,6 +3,7 @@
 // MAVBench's case study of a map whose cells change in flight: fine, coarse, or both.
 
 #include "experiments/framework/papers.h"
+#include "experiments/framework/plots_of.h"
 
 namespace flyball::experiments {
 namespace {
@@ -16,15 +17,6 @@ Claim saved_by(const Evidence& evidence, const std::string& policy, const std::s
                      flight_figure("battery_used_percent"));
   claim.neutral = 1.0;
   return claim;
-}
-
-Figure plot_of(const Evidence& evidence, const std::string& figure, const std::string& title) {
-  DotPlot plot{title, {}};
-  for (const std::string& policy : evidence.sweep(flown).plan.policies) {
-    plot.values.push_back(
-        {policy, median(evidence.at(flown, {}, policy), flight_figure(figure)).value});
-  }
-  return {figure, "Median with interval over the flights that succeed.", plot};
 }
 
 Result<Findings> evaluate(const Evidence& evidence) {
@@ -42,9 +34,9 @@ Result<Findings> evaluate(const Evidence& evidence) {
   findings.claims.push_back(coarse);
   findings.claims.push_back(
       saved_by(evidence, "mission_energy", "battery: .15 m everywhere over mission_energy"));
-  findings.figures = {plot_of(evidence, "battery_used_percent", "battery used, %"),
-                      plot_of(evidence, "mission_time_s", "mission time, s"),
-                      plot_of(evidence, "mean_speed_m_s", "mean speed, m/s")};
+  findings.figures = {policies_plot(evidence, flown, "battery_used_percent", "battery used, %"),
+                      policies_plot(evidence, flown, "mission_time_s", "mission time, s"),
+                      policies_plot(evidence, flown, "mean_speed_m_s", "mean speed, m/s")};
   return findings;
 }
 

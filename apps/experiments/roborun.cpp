@@ -4,6 +4,7 @@
 // latencies.
 
 #include "experiments/framework/papers.h"
+#include "experiments/framework/plots_of.h"
 
 namespace flyball::experiments {
 namespace {
@@ -30,23 +31,14 @@ Claim compared(const Evidence& evidence,
   return claim;
 }
 
-Figure plot_of(const Evidence& evidence, const std::string& figure, const std::string& title) {
-  DotPlot plot{title, {}};
-  for (const std::string& policy : evidence.sweep(flown).plan.policies) {
-    plot.values.push_back(
-        {policy, median(evidence.at(flown, {}, policy), flight_figure(figure)).value});
-  }
-  return {figure, "Median with interval over the flights that succeed.", plot};
-}
-
 Result<Findings> evaluate(const Evidence& evidence) {
   Findings findings;
   findings.claims = {compared(evidence, "mission time, static over RoboRun", "mission_time_s", 4.5),
                      compared(evidence, "energy, static over RoboRun", "energy_total_kj", 4.0),
                      compared(evidence, "mean speed, RoboRun over static", "mean_speed_m_s", 5.0)};
-  findings.figures = {plot_of(evidence, "mission_time_s", "mission time, s"),
-                      plot_of(evidence, "energy_total_kj", "energy, kJ"),
-                      plot_of(evidence, "mean_speed_m_s", "mean speed, m/s")};
+  findings.figures = {policies_plot(evidence, flown, "mission_time_s", "mission time, s"),
+                      policies_plot(evidence, flown, "energy_total_kj", "energy, kJ"),
+                      policies_plot(evidence, flown, "mean_speed_m_s", "mean speed, m/s")};
   findings.notes.emplace_back(
       "The paper's published logs show less than its abstract: one static flight of 1536 s and 703 "
       "kJ "

@@ -4,8 +4,7 @@
 #include "flyball/kernels/detector.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/decision.h"
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_edge.h"
@@ -189,11 +188,7 @@ Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario, const Pla
 }
 
 Result<std::vector<KnobSpec>> standard_knobs(const Scenario& scenario) {
-  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
-  if (!file) {
-    return file.error();
-  }
-  Result<PlatformModel> model = load_platform(*file);
+  Result<PlatformModel> model = find_platform(scenario.platform.name);
   if (!model) {
     return model.error();
   }

@@ -3,8 +3,7 @@
 #include "scenario/scenario_edge.h"
 
 #include "flyball/scenario/catalogue.h"
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include "scenario/scenario_keys.h"
 #include <array>
@@ -30,12 +29,6 @@ constexpr std::array<OffloadChoice, 4> choices{{
 
 std::string key_of(const OffloadChoice& choice) {
   return std::string{"offload."} + choice.node;
-}
-
-/// The file of the edge computer's prices.
-Result<PlatformModel> edge_platform(const Scenario& scenario) {
-  const Result<std::string> file = find_shipped("platforms", scenario.edge.platform);
-  return file ? load_platform(*file) : Result<PlatformModel>{file.error()};
 }
 
 }  // namespace
@@ -84,7 +77,7 @@ std::vector<Error> check_edge(const Scenario& scenario, const GivenValues& given
     }
   }
   if (has_edge(scenario)) {
-    if (const auto platform = edge_platform(scenario); !platform) {
+    if (const auto platform = find_platform(scenario.edge.platform); !platform) {
       errors.push_back({platform.error().code, "edge.platform = \"" + scenario.edge.platform +
                                                    "\"" + place_of("edge.platform", given) + ": " +
                                                    platform.error().message});
@@ -117,7 +110,7 @@ Result<std::optional<EdgeModel>> make_edge(const Scenario& scenario) {
   if (!has_edge(scenario)) {
     return std::optional<EdgeModel>{};
   }
-  auto platform = edge_platform(scenario);
+  auto platform = find_platform(scenario.edge.platform);
   if (!platform) {
     return platform.error();
   }

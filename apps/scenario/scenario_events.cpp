@@ -3,8 +3,7 @@
 #include "scenario/scenario_events.h"
 
 #include "flyball/runtime/text/listed.h"
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include "scenario/computer_strain.h"
 #include "scenario/scenario_keys.h"
@@ -197,11 +196,11 @@ std::vector<Error> read_events(Scenario& scenario, const GivenValues& given) {
   for (int i = 0; i < events; ++i) {
     scenario.events.push_back(read_event(static_cast<std::size_t>(i), given, errors));
   }
-  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
-  if (!errors.empty() || scenario.events.empty() || !file) {
-    return errors;  // An unknown platform is named elsewhere.
+  if (!errors.empty() || scenario.events.empty()) {
+    return errors;
   }
-  const Result<PlatformModel> platform = load_platform(*file);
+  const Result<PlatformModel> platform = find_platform(scenario.platform.name);
+  // An unknown platform is named elsewhere.
   return platform ? impossible_events(scenario.events, *platform) : std::vector<Error>{};
 }
 

@@ -2,9 +2,8 @@
 #include "flyball/studies/calibration.h"
 
 #include "flyball/records/report.h"
-#include "flyball/scenario/files.h"
 #include "flyball/scenario/scenario.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
 
 #include <algorithm>
@@ -129,11 +128,7 @@ class Calibrator {
 
 /// The platform whose prices are to be replaced, with the clocks and cores of this computer.
 Result<PlatformModel> draft_of(const CalibrationOptions& options) {
-  const auto file = find_shipped("platforms", options.like);
-  if (!file) {
-    return file.error();
-  }
-  auto model = load_platform(*file);
+  auto model = find_platform(options.like);
   if (model) {
     model->max_cores = options.cores;
     model->power.idle_core_w = 0.0;  // That of another computer's cores.

@@ -3,8 +3,7 @@
 
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/text/listed.h"
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include "studies/fit_exploration.h"
 #include "studies/fit_scenes.h"
@@ -152,11 +151,7 @@ bool PlatformFit::is_in_step() const {
 }
 
 Result<PlatformFit> fit_platform(const std::string& name_or_path) {
-  const auto file = find_shipped("platforms", name_or_path);
-  if (!file) {
-    return file.error();
-  }
-  const auto model = load_platform(*file);
+  const auto model = find_platform(name_or_path);
   if (!model) {
     return model.error();
   }

@@ -3,15 +3,13 @@
 #include "flyball/records/report.h"
 #include "flyball/runtime/program.h"
 
-#include "cli/claimed_folder.h"
 #include "cli/commands.h"
 #include "cli/reproduce/experiment_flights.h"
 #include "cli/sweep/on_slurm.h"
-#include "cli/sweep/slurm.h"
+#include "cli/sweep/stored_study.h"
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -21,11 +19,8 @@ namespace {
 struct ReproduceOptions {
   std::vector<std::string> experiments{};  ///< Empty: all.
   std::size_t seeds{3};
-  std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
   std::string out{"flights/reproduce"};
-  bool keeps_records{};
-  std::string on{};    ///< `slurm`, or empty: here.
-  std::string part{};  ///< `2/8`: the second of eight tasks of an array.
+  StudyOptions study{};
 };
 
 /// Those that were asked for, in the order of their names.
@@ -104,29 +99,6 @@ std::vector<std::string> task_command(const ReproduceRequest& request) {
   return words;
 }
 
-int fly_and_show(const ReproduceRequest& request,
-                 ExperimentFlights& planned,
-                 std::optional<std::size_t> slurm_processors) {
-  const auto claimed = ClaimedFolder::claim(request.batch.folder);
-  if (!claimed) {
-    return refuse({claimed.error()});
-  }
-  auto store = FlightStore::open(request.batch.folder + "/reproduce.db");
-  if (!store) {
-    remove_empty(claimed->made());
-    return refuse({store.error()});
-  }
-  const std::vector<StoredFlight*> all = pointers_to(planned.flights);
-  std::optional<int> code;
-  if (slurm_processors) {
-    const FlightArray array{request.batch.folder, task_command(request), *slurm_processors};
-    code = fly_on_slurm(array, *store, all);
-  } else {
-    code = unfinished(fly_stored(request.batch, *store, all));
-  }
-  return code ? *code : show(request, planned);
-}
-
 /// One task of an array: the flight of a number, with its record in the task's own folder.
 int fly_own_part(const ReproduceRequest& request, const std::string& part) {
   std::optional<std::variant<ExperimentFlights, std::vector<Error>>> planned;
@@ -156,25 +128,22 @@ int reproduce(const ReproduceOptions& options) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&experiments)) {
     return refuse(*errors);
   }
-  const ReproduceRequest request{std::move(std::get<std::vector<NamedExperiment>>(experiments)),
-                                 options.seeds,
-                                 {options.out, options.jobs, options.keeps_records, true}};
-  if (!options.part.empty()) {
-    return fly_own_part(request, options.part);
+  const ReproduceRequest request{
+      std::move(std::get<std::vector<NamedExperiment>>(experiments)),
+      options.seeds,
+      {options.out, options.study.jobs, options.study.keeps_records, true}};
+  if (!options.study.part.empty()) {
+    return fly_own_part(request, options.study.part);
   }
   auto planned = plan_experiments(request);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
-  std::optional<std::size_t> processors;
-  if (!options.on.empty()) {
-    const auto of_slurm = slurm_processors();
-    if (!of_slurm) {
-      return refuse({of_slurm.error()});
-    }
-    processors = *of_slurm;
-  }
-  return fly_and_show(request, std::get<ExperimentFlights>(planned), processors);
+  auto& flown = std::get<ExperimentFlights>(planned);
+  const Study study{request.batch, "reproduce.db", task_command(request),
+                    pointers_to(flown.flights)};
+  const auto code = fly_study(study, options.study);
+  return code ? *code : show(request, flown);
 }
 
 }  // namespace
@@ -189,23 +158,11 @@ void add_reproduce(CLI::App& program, int& exit_code) {
       ->capture_default_str()
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  add_jobs(*command, options->jobs);
-  CLI::Option* const on =
-      command
-          ->add_option("--on", options->on,
-                       "where to fly: `slurm` hands the flights to a cluster as one job array, "
-                       "which shares the folder --out")
-          ->check(CLI::IsMember({"slurm"}))
-          ->type_name("slurm");
-  on->excludes(command->get_option("--jobs"));
+  add_study_options(*command, options->study);
   refuse_empty(*command
                     ->add_option("--out", options->out,
                                  "folder for the results (default: flights/reproduce)")
                     ->type_name("DIR"));
-  command->add_flag("--keep-records", options->keeps_records,
-                    "keeps the whole record of each flight, not only its summary");
-  // What the tasks of an array are started with.
-  command->add_option("--part", options->part)->group("")->excludes(on);
   command->callback([options, &exit_code] { exit_code = reproduce(*options); });
 }
 

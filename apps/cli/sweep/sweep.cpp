@@ -5,17 +5,13 @@
 #include "flyball/records/report.h"
 #include "flyball/runtime/program.h"
 
-#include "cli/claimed_folder.h"
 #include "cli/commands.h"
 #include "cli/seed_list.h"
 #include "cli/sweep/on_slurm.h"
-#include "cli/sweep/slurm.h"
+#include "cli/sweep/stored_study.h"
 #include "cli/sweep/sweep_flights.h"
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <set>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -27,10 +23,7 @@ struct SweepOptions {
   std::vector<std::string> over{};
   std::vector<std::string> policies{};  ///< Empty: that of the scenario.
   std::string seeds{"1..3"};
-  std::size_t jobs{std::max(1U, std::thread::hardware_concurrency())};
-  bool keeps_records{};
-  std::string on{};    ///< `slurm`, or empty: here.
-  std::string part{};  ///< `2/8`: the second of eight tasks of an array.
+  StudyOptions study{};
 };
 
 Error bad(const std::string& sentence) {
@@ -94,7 +87,7 @@ std::variant<SweepRequest, std::vector<Error>> request_of(const SweepOptions& op
   }
   request.batch = {
       options.flight.out.empty() ? "flights/sweep_" + scenario.name : options.flight.out,
-      options.jobs, options.keeps_records, true};
+      options.study.jobs, options.study.keeps_records, true};
   return request;
 }
 
@@ -124,23 +117,12 @@ int show(const SweepRequest& request, const std::vector<StoredFlight>& flights) 
   return exit_success;
 }
 
-int fly_and_show(const SweepRequest& request,
-                 FlightStore& store,
-                 std::vector<StoredFlight>& flights,
-                 std::optional<std::size_t> slurm_processors) {
-  const std::vector<StoredFlight*> all = pointers_to(flights);
-  if (slurm_processors) {
-    std::vector<std::string> task = sweep_words(request);
-    task.front() = program_file();
-    task.insert(task.end(), {"--out", request.batch.folder, "--part"});
-    const FlightArray array{request.batch.folder, std::move(task), *slurm_processors};
-    if (const auto code = fly_on_slurm(array, store, all)) {
-      return *code;
-    }
-  } else if (const auto code = unfinished(fly_stored(request.batch, store, all))) {
-    return *code;
-  }
-  return show(request, flights);
+/// What a task of an array is started with, up to its part.
+std::vector<std::string> task_command(const SweepRequest& request) {
+  std::vector<std::string> words = sweep_words(request);
+  words.front() = program_file();
+  words.insert(words.end(), {"--out", request.batch.folder, "--part"});
+  return words;
 }
 
 int sweep(const SweepOptions& options) {
@@ -149,8 +131,8 @@ int sweep(const SweepOptions& options) {
     return refuse(*errors);
   }
   const SweepRequest& request = std::get<SweepRequest>(read);
-  if (!options.part.empty()) {
-    return fly_part(request.batch, options.part,
+  if (!options.study.part.empty()) {
+    return fly_part(request.batch, options.study.part,
                     [&](std::size_t number, const std::string& folder) {
                       SweepRequest part = request;
                       part.batch.folder = folder;
@@ -161,24 +143,10 @@ int sweep(const SweepOptions& options) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
-  std::optional<std::size_t> processors;
-  if (!options.on.empty()) {
-    const auto of_slurm = slurm_processors();
-    if (!of_slurm) {
-      return refuse({of_slurm.error()});
-    }
-    processors = *of_slurm;
-  }
-  const auto claimed = ClaimedFolder::claim(request.batch.folder);
-  if (!claimed) {
-    return refuse({claimed.error()});
-  }
-  auto store = FlightStore::open(request.batch.folder + "/sweep.db");
-  if (!store) {
-    remove_empty(claimed->made());
-    return refuse({store.error()});
-  }
-  return fly_and_show(request, *store, std::get<std::vector<StoredFlight>>(planned), processors);
+  auto& flights = std::get<std::vector<StoredFlight>>(planned);
+  const Study study{request.batch, "sweep.db", task_command(request), pointers_to(flights)};
+  const auto code = fly_study(study, options.study);
+  return code ? *code : show(request, flights);
 }
 
 }  // namespace
@@ -201,19 +169,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
   command->get_option("--policies")
       ->required(false)
       ->description("names from `flyball list policies`, or files (default: the scenario's own)");
-  add_jobs(*command, options->jobs);
-  CLI::Option* const on =
-      command
-          ->add_option("--on", options->on,
-                       "where to fly: `slurm` hands the flights to a cluster as one job array, "
-                       "which shares the folder --out")
-          ->check(CLI::IsMember({"slurm"}))
-          ->type_name("slurm");
-  on->excludes(command->get_option("--jobs"));
-  command->add_flag("--keep-records", options->keeps_records,
-                    "keeps the whole record of each flight, not only its summary");
-  // What the tasks of an array are started with.
-  command->add_option("--part", options->part)->group("")->excludes(on);
+  add_study_options(*command, options->study);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = sweep(*options); });
 }

@@ -47,6 +47,18 @@ struct RowsOf {
     }
     return rows;
   }
+  Rows operator()(const CellPicture& picture) const {
+    Rows rows{{"x_m", "y_m", "state"}};
+    const auto centre = [&](double least_m, std::size_t i) {
+      return csv_number(least_m + picture.square_m * (static_cast<double>(i) + 0.5));
+    };
+    for (std::size_t i = 0; i < picture.squares.size(); ++i) {
+      rows.push_back({centre(picture.least_x_m, i % picture.columns),
+                      centre(picture.least_y_m, i / picture.columns),
+                      to_string(picture.squares[i])});
+    }
+    return rows;
+  }
   Rows operator()(const TextTable& table) const { return table.rows; }
 };
 
@@ -56,6 +68,7 @@ struct HtmlOf {
   std::string operator()(const DotPlot& plot) const {
     return dot_plot_svg(plot.title, plot.values);
   }
+  std::string operator()(const CellPicture& picture) const { return cell_picture_svg(picture); }
   std::string operator()(const TextTable& table) const {
     std::string rows;
     for (const auto& row : table.rows) {

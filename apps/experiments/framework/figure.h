@@ -4,6 +4,7 @@
 /// @file
 /// A plot of an experiment, and the same numbers as CSV.
 
+#include "studies/plots/cell_picture.h"
 #include "studies/plots/dot_plot.h"
 #include "studies/plots/heat_map.h"
 #include "studies/plots/line_plot.h"
@@ -28,7 +29,7 @@ struct TextTable {
 struct Figure {
   std::string file{};     ///< The stem of its CSV file, once in an experiment.
   std::string caption{};  ///< How many flights each value has, and what else the reader must know.
-  std::variant<LinePlot, HeatMap, DotPlot, TextTable> content{};
+  std::variant<LinePlot, HeatMap, DotPlot, CellPicture, TextTable> content{};
 };
 
 /// What stands in the page.

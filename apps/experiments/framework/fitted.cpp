@@ -3,8 +3,7 @@
 #include "experiments/framework/fitted.h"
 
 #include "flyball/records/text_table.h"
-#include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include <array>
 
@@ -98,11 +97,7 @@ std::vector<Fitted> other_values() {
 }  // namespace
 
 Result<std::vector<Fitted>> fitted_values() {
-  const auto file = find_shipped("platforms", "jetson_tx2");
-  if (!file) {
-    return file.error();
-  }
-  const auto model = load_platform(*file);
+  const auto model = find_platform("jetson_tx2");
   if (!model) {
     return model.error();
   }

@@ -113,4 +113,16 @@ std::string counts_text(const Evidence& evidence, const PlotOf& wanted) {
          (*most == 1 ? " flight" : " flights") + "; lines reach from end to end of the interval.";
 }
 
+Figure policies_plot(const Evidence& evidence,
+                     const std::string& sweep,
+                     const std::string& figure,
+                     const std::string& title) {
+  DotPlot plot{title, {}};
+  for (const std::string& policy : evidence.sweep(sweep).plan.policies) {
+    plot.values.push_back(
+        {policy, median(evidence.at(sweep, {}, policy), flight_figure(figure)).value});
+  }
+  return {figure, "Median with interval over the flights that succeed.", plot};
+}
+
 }  // namespace flyball

@@ -33,6 +33,13 @@ struct PlotOf {
 /// one.
 /// @pre The sweep has one axis or two.
 [[nodiscard]] LinePlot line_plot_of(const Evidence& evidence, const PlotOf& wanted);
+/// A dot for each policy of a sweep: the median with its interval over the flights that succeed.
+/// @param figure  A name of `flight_figure`, also of the figure's file.
+/// @param title   Of what is plotted, with its unit.
+[[nodiscard]] Figure policies_plot(const Evidence& evidence,
+                                   const std::string& sweep,
+                                   const std::string& figure,
+                                   const std::string& title);
 /// `Each value: 3 flights.` or `Each value: 0 to 3 flights.`, of those that count.
 [[nodiscard]] std::string counts_text(const Evidence& evidence, const PlotOf& wanted);
 

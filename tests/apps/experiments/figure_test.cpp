@@ -20,6 +20,8 @@ TEST(Figure, writes_every_kind_of_plot_as_csv) {
   HeatMap map{"time", "clock", "cores", {"1"}, {"2", "3"}, {{value, "n 3"}, {{}, "0 of 3"}}};
   EXPECT_EQ(to_csv({"f", "c", map}),
             "cores,clock,flights,time,lo,hi\n2,1,n 3,2.5,1.0,4.0\n3,1,0 of 3,,,\n");
+  EXPECT_EQ(to_csv({"f", "c", CellPicture{"t", 0.5, 1.0, 2.0, 1, {PlaceState::free}}}),
+            "x_m,y_m,state\n1.25,2.25,free\n");
   EXPECT_EQ(to_csv({"f", "c", TextTable{"t", {{"a", "b"}, {"1", ""}}}}), "a,b\n1,\n");
 }
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What maps of three resolutions make of a door: MAVBench's pictures, with numbers.
+
+#include "experiments/framework/papers.h"
+#include "studies/fit_perception.h"
+#include "studies/plots/csv.h"
+#include <algorithm>
+#include <array>
+
+namespace flyball::experiments {
+namespace {
+
+constexpr std::array<const char*, 3> cells_m{"0.15", "0.50", "0.80"};
+constexpr std::array<double, 4> seen_from_m{5.0, 4.0, 3.0, 2.0};  // Before the wall.
+constexpr double half_picture_m = 2.5;
+constexpr double square_m = 0.05;  // A third of the finest cells.
+constexpr std::size_t squares = 100;
+
+/// A door in a wall across x.
+struct Door {
+  double wall_x_m{};
+  double low_y_m{};
+  double high_y_m{};
+  [[nodiscard]] double middle_y_m() const { return 0.5 * (low_y_m + high_y_m); }
+};
+
+/// The gap in the first wall of the world's building, at the height at which the vehicle flies.
+Result<Door> entrance_of(const World& world) {
+  constexpr double thickest_m = 0.2;  // Blocks outdoors are wider.
+  std::vector<Aabb> wall;
+  for (const Aabb& box : world.boxes) {
+    const bool is_wall = box.max.x() - box.min.x() < thickest_m &&
+                         box.min.z() < world.cruise_height_m && box.max.z() > world.cruise_height_m;
+    if (is_wall && (wall.empty() || box.min.x() < wall.front().min.x())) {
+      wall.assign(1, box);
+    } else if (is_wall && box.min.x() == wall.front().min.x()) {
+      wall.push_back(box);
+    }
+  }
+  std::sort(wall.begin(), wall.end(),
+            [](const Aabb& a, const Aabb& b) { return a.min.y() < b.min.y(); });
+  for (std::size_t i = 1; i < wall.size(); ++i) {
+    if (wall[i].min.y() > wall[i - 1].max.y()) {
+      return Door{0.5 * (wall[i].min.x() + wall[i].max.x()), wall[i - 1].max.y(), wall[i].min.y()};
+    }
+  }
+  return Error{ErrorCode::failed, "the building of the pictures has no entrance"};
+}
+
+PlaceState state_of(const OccupancyView& map, const Vec3& p_W, const Cylinder& body) {
+  switch (map.state(p_W)) {
+    case CellState::occupied:
+      return PlaceState::occupied;
+    case CellState::unknown:
+      return PlaceState::unknown;
+    default:
+      return map.body_state(p_W, body) == CellState::free ? PlaceState::passable : PlaceState::free;
+  }
+}
+
+CellPicture picture_of(const OccupancyView& map,
+                       const Door& door,
+                       double height_m,
+                       const Cylinder& body) {
+  CellPicture picture;
+  picture.square_m = square_m;
+  picture.least_x_m = door.wall_x_m - half_picture_m;
+  picture.least_y_m = door.middle_y_m() - half_picture_m;
+  picture.columns = squares;
+  for (std::size_t i = 0; i < squares * squares; ++i) {
+    const double x_m = picture.least_x_m + square_m * (static_cast<double>(i % squares) + 0.5);
+    const double y_m = picture.least_y_m + square_m * (static_cast<double>(i / squares) + 0.5);
+    picture.squares.push_back(state_of(map, {x_m, y_m, height_m}, body));
+  }
+  return picture;
+}
+
+/// How wide the way is that the body's centre has through the wall.
+double open_width_m(const CellPicture& picture) {
+  std::size_t open = 0;
+  for (std::size_t row = 0; row < picture.rows(); ++row) {
+    open += picture.squares[row * picture.columns + picture.columns / 2] == PlaceState::passable;
+  }
+  return square_m * static_cast<double>(open);
+}
+
+struct Seen {
+  CellPicture picture{};
+  double door_m{};
+};
+
+/// The map after a straight approach to the door.
+Result<Seen> approach(const std::string& cells) {
+  Scenario scenario = scene_a().scenario;
+  scenario.map.resolution_m = std::stod(cells);
+  const auto setup = set_up_without_governor(scenario);
+  if (!setup) {
+    return setup.error();
+  }
+  const World& world = setup->things.world;
+  const auto door = entrance_of(world);
+  if (!door) {
+    return door.error();
+  }
+  const Workbench bench = workbench_of(scenario, *setup);
+  Perception perception{bench, world};
+  KernelLoads loads;
+  for (const double away_m : seen_from_m) {
+    const Vec3 here_W{door->wall_x_m - away_m, door->middle_y_m(), world.cruise_height_m};
+    if (const Status seen = perception.look(looking(here_W, 0.0), loads); !seen) {
+      return seen.error();
+    }
+  }
+  return Seen{picture_of(bench.kernels.mapper->view(), *door, world.cruise_height_m,
+                         bench.brief.narrow_body()),
+              door->high_y_m - door->low_y_m};
+}
+
+Result<Findings> evaluate(const Evidence& /*evidence*/) {
+  Findings findings;
+  for (const char* cells : cells_m) {
+    auto seen = approach(cells);
+    if (!seen) {
+      return seen.error();
+    }
+    Claim claim{std::string{"cells of "} + cells +
+                    " m: width of the way that the body's centre has through the door",
+                "m"};
+    claim.ours = computed(open_width_m(seen->picture));
+    findings.claims.push_back(claim);
+    seen->picture.title = std::string{"A door of "} + csv_number(seen->door_m) +
+                          " m on a map with cells of " + cells + " m";
+    findings.figures.push_back({std::string{"door_"} + cells,
+                                "A level cut at flying height; x is along the flight. From four "
+                                "images, 5 to 2 m before the wall.",
+                                std::move(seen->picture)});
+  }
+  return findings;
+}
+
+}  // namespace
+
+Experiment perception_pictures() {
+  return {
+      "What do coarse cells make of a door?",
+      std::string{mavbench} + ", picture of OctoMap at three resolutions (no number is printed)",
+      "The first door of the delivery's building, seen from 5, 4, 3 and 2 m by a camera without "
+      "noise, in maps with cells of .15, .50 and .80 m. Nothing is flown.",
+      {},
+      {},
+      evaluate};
+}
+
+}  // namespace flyball::experiments
