@@ -100,6 +100,23 @@ foreach(folder IN ITEMS runtime governors policies kernels apps/flight apps/work
   endforeach()
 endforeach()
 
+# Two types of one name in two headers: the linker keeps one of their destructors for both.
+set(types "")
+foreach(folder IN ITEMS runtime governors policies kernels sim apps)
+  file(GLOB_RECURSE files ${root}/${folder}/*.h)
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} own REGEX "^(struct|class|enum class) [A-Za-z0-9]+ ?(final )?(: [^;]*)?{")
+    list(TRANSFORM own REPLACE "^(struct|enum class|class) ([A-Za-z0-9]+).*" "\\2")
+    list(REMOVE_DUPLICATES own)  # One of two, by the preprocessor.
+    foreach(type IN LISTS own)
+      if(type IN_LIST types)
+        string(APPEND bad "\n  ${file}: another header has a type ${type}, too")
+      endif()
+    endforeach()
+    list(APPEND types ${own})
+  endforeach()
+endforeach()
+
 if(bad)
   message(FATAL_ERROR "against the plan of the tree:${bad}")
 endif()

@@ -68,10 +68,12 @@ CellPicture picture_of(const OccupancyView& map,
   picture.least_x_m = door.wall_x_m - half_picture_m;
   picture.least_y_m = door.middle_y_m() - half_picture_m;
   picture.columns = squares;
-  for (std::size_t i = 0; i < squares * squares; ++i) {
-    const double x_m = picture.least_x_m + square_m * (static_cast<double>(i % squares) + 0.5);
-    const double y_m = picture.least_y_m + square_m * (static_cast<double>(i / squares) + 0.5);
-    picture.squares.push_back(state_of(map, {x_m, y_m, height_m}, body));
+  for (std::size_t row = 0; row < squares; ++row) {
+    const double y_m = picture.least_y_m + square_m * (static_cast<double>(row) + 0.5);
+    for (std::size_t column = 0; column < squares; ++column) {
+      const double x_m = picture.least_x_m + square_m * (static_cast<double>(column) + 0.5);
+      picture.squares.push_back(state_of(map, {x_m, y_m, height_m}, body));
+    }
   }
   return picture;
 }
@@ -80,7 +82,9 @@ CellPicture picture_of(const OccupancyView& map,
 double open_width_m(const CellPicture& picture) {
   std::size_t open = 0;
   for (std::size_t row = 0; row < picture.rows(); ++row) {
-    open += picture.squares[row * picture.columns + picture.columns / 2] == PlaceState::passable;
+    if (picture.squares[row * picture.columns + picture.columns / 2] == PlaceState::passable) {
+      ++open;
+    }
   }
   return square_m * static_cast<double>(open);
 }
@@ -145,8 +149,8 @@ Experiment perception_pictures() {
   return {
       "What do coarse cells make of a door?",
       std::string{mavbench} + ", picture of OctoMap at three resolutions (no number is printed)",
-      "The first door of the delivery's building, seen from 5, 4, 3 and 2 m by a camera without "
-      "noise, in maps with cells of .15, .50 and .80 m. Nothing is flown.",
+      "The first door of the delivery's building, seen from 5, 4, 3 and 2 m with the noise of "
+      "an RGB-D camera, in maps with cells of .15, .50 and .80 m. Nothing is flown.",
       {},
       {},
       evaluate};

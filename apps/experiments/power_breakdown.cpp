@@ -37,19 +37,19 @@ void add_claims(const Evidence& evidence, const std::string& mission, Findings& 
   const Point point = flown(evidence, mission);
   Claim share{mission + ": computer's share", "%"};
   share.paper = PaperValue{5.0, in_text};
-  share.match = Match::at_most;
+  share.match = PaperMatch::at_most;
   share.ours = median(point, computer_percent);
   Claim computer{mission + ": computer", "W"};
   computer.paper = PaperValue{10.0, in_text};
   computer.ours = median(point, computer_w);
   Claim least{mission + ": rotors, at least", "W"};
   least.paper = PaperValue{300.0, in_text};
-  least.match = Match::at_least;
+  least.match = PaperMatch::at_least;
   least.ours = median(point, rotor_w);
   Claim most = least;
   most.what = mission + ": rotors, at most";
   most.paper = PaperValue{400.0, in_text};
-  most.match = Match::at_most;
+  most.match = PaperMatch::at_most;
   if (mission != "delivery") {
     const Cause loaded{"with the delivery's payload of .5 kg",
                        median(flown(evidence, mission + "_loaded"), rotor_w)};

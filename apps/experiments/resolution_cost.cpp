@@ -39,7 +39,7 @@ Result<std::vector<double>> times_ms(const PlatformModel& model) {
   return times;
 }
 
-Claim limit_of(const std::string& what, double paper_ms, Match match, double ours_ms) {
+Claim limit_of(const std::string& what, double paper_ms, PaperMatch match, double ours_ms) {
   Claim claim{what, "ms"};
   claim.paper = PaperValue{paper_ms, in_plot};
   claim.match = match;
@@ -68,8 +68,9 @@ Result<Findings> evaluate(const Evidence& /*evidence*/) {
   gain.causes.push_back(
       {"with a fixed cost of 5.2 ms of the host per frame, which flights do not pay",
        computed(fit->resolution_ratio_with_fixed_cost)});
-  findings.claims = {gain, limit_of("one frame at .15 m", 400.0, Match::at_least, times->front()),
-                     limit_of("one frame at .98 m", 100.0, Match::at_most, times->back())};
+  findings.claims = {gain,
+                     limit_of("one frame at .15 m", 400.0, PaperMatch::at_least, times->front()),
+                     limit_of("one frame at .98 m", 100.0, PaperMatch::at_most, times->back())};
   LinePlot plot{"time of a frame on the TX2, ms", "cells, m", {"0.15"}, {{"octomap", {}}}};
   plot.places.insert(plot.places.end(), wider_m.begin(), wider_m.end());
   for (const double time : *times) {

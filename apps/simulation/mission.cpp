@@ -209,7 +209,7 @@ void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenar
   summary.scenario = scenario.name;
   summary.policy = scenario.governor.policy;
   summary.seed = scenario.seed;
-  const Verdict verdict = flight.referee->verdict();
+  const FlightVerdict verdict = flight.referee->verdict();
   summary.status = verdict.status;
   summary.failure = verdict.failure;
   summary.mission_time_s = to_seconds(flight.queue.now());

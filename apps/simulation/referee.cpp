@@ -99,7 +99,7 @@ void Referee::check() {
   }
 }
 
-Verdict Referee::verdict() const {
+FlightVerdict Referee::verdict() const {
   const MissionEnd end = link_.outcome().value_or(MissionEnd{});
   if (end.status != MissionStatus::succeeded) {
     return {end.status, end.failure};

@@ -13,7 +13,7 @@
 
 namespace flyball {
 
-struct Verdict {
+struct FlightVerdict {
   MissionStatus status{MissionStatus::interrupted};
   MissionFailure failure{MissionFailure::none};
 };
@@ -40,7 +40,7 @@ class Referee {
   /// From now on it looks. After `ClosedLoop::start`.
   void start();
   /// What the vehicle claims, unless a judge objects.
-  [[nodiscard]] Verdict verdict() const;
+  [[nodiscard]] FlightVerdict verdict() const;
   [[nodiscard]] std::map<std::string, double> figures() const;
   [[nodiscard]] std::vector<MissionFrame> frames() const;
   /// The least distance so far between the airborne body and anything, 5 m at most.

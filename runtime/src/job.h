@@ -15,11 +15,11 @@
 namespace flyball {
 
 /// Which servers a job waits for.
-enum class Place : std::uint8_t { board, gpu, edge };
+enum class ComputePlace : std::uint8_t { board, gpu, edge };
 
 struct Job {
   std::uint64_t id{};  ///< In the order of release.
-  Place place{Place::board};
+  ComputePlace place{ComputePlace::board};
   bool has_started{};
   bool is_in_transit{};  ///< Its inputs or its outputs are on the link.
   bool is_done{};        ///< On the edge computer, and its outputs are on the way.

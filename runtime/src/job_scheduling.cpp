@@ -27,21 +27,21 @@ void VirtualComputer::dispatch() {
   is_dispatch_pending = false;
   advance();
   send_inputs();
-  serve(Place::board, queue.now() < stalled_until ? 0.0 : free_cores());
+  serve(ComputePlace::board, queue.now() < stalled_until ? 0.0 : free_cores());
   serve_gpu();
   if (edge) {
-    serve(Place::edge, edge->model.point.cores);
+    serve(ComputePlace::edge, edge->model.point.cores);
   }
 }
 
-void VirtualComputer::serve(Place place, double cores) {
+void VirtualComputer::serve(ComputePlace place, double cores) {
   const std::vector<int> urgent = nodes_by_urgency(place);
   std::vector<double> shares = shares_of(urgent, cores);
   // A job that has computed may leave cores to others: only then it is known what they would bring.
   while (compute_new(urgent, shares)) {
     shares = shares_of(urgent, cores);
   }
-  const double busy = (place == Place::board ? taken_cores : 0.0) +
+  const double busy = (place == ComputePlace::board ? taken_cores : 0.0) +
                       std::accumulate(shares.begin(), shares.end(), 0.0);
   for (std::size_t i = 0; i < urgent.size(); ++i) {
     const int node = urgent[i];
@@ -83,7 +83,7 @@ bool VirtualComputer::compute_new(const std::vector<int>& urgent,
 
 /// One job at a time: the most urgent of those that wait. It is not interrupted.
 void VirtualComputer::serve_gpu() {
-  const std::vector<int> urgent = nodes_by_urgency(Place::gpu);
+  const std::vector<int> urgent = nodes_by_urgency(ComputePlace::gpu);
   if (urgent.empty()) {
     return;
   }
@@ -101,11 +101,12 @@ void VirtualComputer::serve_gpu() {
 
 bool VirtualComputer::has_moved(int node) {
   Job& job = *nodes[index(node)].job;
-  if (!job.has_started || job.place == Place::edge) {
+  if (!job.has_started || job.place == ComputePlace::edge) {
     return false;
   }
-  const Place place =
-      platform.runs_on_gpu(price_list(node, job.record.work)) ? Place::gpu : Place::board;
+  const ComputePlace place = platform.runs_on_gpu(price_list(node, job.record.work))
+                                 ? ComputePlace::gpu
+                                 : ComputePlace::board;
   if (place == job.place) {
     return false;
   }
@@ -116,11 +117,11 @@ bool VirtualComputer::has_moved(int node) {
 
 bool VirtualComputer::is_gpu_busy() const {
   return std::any_of(nodes.begin(), nodes.end(), [](const NodeState& node) {
-    return node.job && node.job->place == Place::gpu && node.job->share > 0.0;
+    return node.job && node.job->place == ComputePlace::gpu && node.job->share > 0.0;
   });
 }
 
-std::vector<int> VirtualComputer::nodes_by_urgency(Place place) const {
+std::vector<int> VirtualComputer::nodes_by_urgency(ComputePlace place) const {
   std::vector<int> urgent;
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
     const auto& job = nodes[index(node)].job;
@@ -177,12 +178,12 @@ void VirtualComputer::compute(int node) {
   }
 }
 
-Hertz VirtualComputer::clock_of(Place place) const {
-  return place == Place::edge ? edge->model.point.frequency : point.frequency;
+Hertz VirtualComputer::clock_of(ComputePlace place) const {
+  return place == ComputePlace::edge ? edge->model.point.frequency : point.frequency;
 }
 
 const Platform& VirtualComputer::platform_of(int node) const {
-  return nodes[index(node)].job->place == Place::edge ? *edge->model.platform : platform;
+  return nodes[index(node)].job->place == ComputePlace::edge ? *edge->model.platform : platform;
 }
 
 const std::string& VirtualComputer::price_list(int node, const Work& work) const {
@@ -194,7 +195,7 @@ Duration VirtualComputer::time_on_one_core(int node, const Work& work) const {
   if (kernel.empty()) {
     return Duration::zero();
   }
-  return nodes[index(node)].job->place == Place::edge
+  return nodes[index(node)].job->place == ComputePlace::edge
              ? edge->job_time(kernel, work)
              : platform.job_time(kernel, work, point.frequency);
 }
@@ -256,7 +257,7 @@ double VirtualComputer::free_cores() const {
 double VirtualComputer::busy_cores() const {
   double sum = taken_cores;
   for (const NodeState& node : nodes) {
-    sum += node.job && node.job->place == Place::board ? node.job->share : 0.0;
+    sum += node.job && node.job->place == ComputePlace::board ? node.job->share : 0.0;
   }
   return sum;
 }
@@ -264,7 +265,7 @@ double VirtualComputer::busy_cores() const {
 void VirtualComputer::rescale_running_jobs() {
   for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
     auto& job = nodes[index(node)].job;
-    if (job && job->has_started && job->place != Place::edge) {
+    if (job && job->has_started && job->place != ComputePlace::edge) {
       job->one_core_s = to_seconds(time_on_one_core(node, job->record.work));
       job->has_end = false;  // at the same share it still ends at another time
     }

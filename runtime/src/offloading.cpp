@@ -12,18 +12,18 @@ void VirtualComputer::place(int node, bool on_edge) {
   nodes[index(node)].is_offloaded = on_edge;
 }
 
-Place VirtualComputer::place_of(int node) const {
+ComputePlace VirtualComputer::place_of(int node) const {
   if (edge && nodes[index(node)].is_offloaded) {
-    return Place::edge;
+    return ComputePlace::edge;
   }
-  return platform.runs_on_gpu(spec(node).cost) ? Place::gpu : Place::board;
+  return platform.runs_on_gpu(spec(node).cost) ? ComputePlace::gpu : ComputePlace::board;
 }
 
 void VirtualComputer::send_inputs() {
   if (!edge) {
     return;
   }
-  for (const int node : nodes_by_urgency(Place::edge)) {
+  for (const int node : nodes_by_urgency(ComputePlace::edge)) {
     if (!nodes[index(node)].job->has_started) {
       send_inputs(node);
     }

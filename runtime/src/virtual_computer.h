@@ -48,7 +48,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   // Scheduling.
   void request_dispatch();
   void dispatch();
-  void serve(Place place, double cores);
+  void serve(ComputePlace place, double cores);
   void serve_gpu();
   /// How many of so many cores each of these nodes gets.
   [[nodiscard]] std::vector<double> shares_of(const std::vector<int>& urgent, double cores) const;
@@ -68,7 +68,7 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   [[nodiscard]] double free_cores() const;
   /// Where the job of `node` runs.
   [[nodiscard]] const Platform& platform_of(int node) const;
-  [[nodiscard]] Hertz clock_of(Place place) const;
+  [[nodiscard]] Hertz clock_of(ComputePlace place) const;
   /// The kernel whose price list counts for a node's work.
   [[nodiscard]] const std::string& price_list(int node, const Work& work) const;
   [[nodiscard]] Duration time_on_one_core(int node, const Work& work) const;
@@ -76,13 +76,13 @@ struct VirtualComputer : std::enable_shared_from_this<VirtualComputer> {
   /// How many times faster than on one core the node's job is on `cores`.
   [[nodiscard]] double speed_on(int node, double cores) const;
   /// Those whose jobs wait for these servers, or have them.
-  [[nodiscard]] std::vector<int> nodes_by_urgency(Place place) const;
+  [[nodiscard]] std::vector<int> nodes_by_urgency(ComputePlace place) const;
   [[nodiscard]] double busy_cores() const;
   [[nodiscard]] bool is_gpu_busy() const;
 
   // The edge computer: offloading.cpp.
   void place(int node, bool on_edge);
-  [[nodiscard]] Place place_of(int node) const;
+  [[nodiscard]] ComputePlace place_of(int node) const;
   /// Computes the offloaded jobs that have not begun, and sends what they have read.
   void send_inputs();
   void send_inputs(int node);

@@ -143,7 +143,8 @@ void VirtualComputer::end_job(int node) {
     kill_job(node);
     return;
   }
-  if (const Job& ended = *nodes[index(node)].job; ended.place == Place::edge && !ended.is_done) {
+  if (const Job& ended = *nodes[index(node)].job;
+      ended.place == ComputePlace::edge && !ended.is_done) {
     send_outputs(node);
     return;
   }
@@ -154,7 +155,7 @@ void VirtualComputer::end_job(int node) {
   }
   for (const auto& [topic, message] : job.outputs) {
     publish(topic, message);
-    if (job.place == Place::edge) {
+    if (job.place == ComputePlace::edge) {
       edge->knows(topic, exchange.version(topic));
     }
   }

@@ -18,11 +18,11 @@ bool is_near(const Claim& claim, double ours) {
   const double paper = claim.paper->value;
   const double distance = std::max(tolerance * std::abs(paper), claim.slack);
   switch (claim.match) {
-    case Match::at_least:
+    case PaperMatch::at_least:
       return ours >= paper - claim.slack;
-    case Match::at_most:
+    case PaperMatch::at_most:
       return ours <= paper + claim.slack;
-    case Match::value:
+    case PaperMatch::value:
       break;
   }
   return std::abs(ours - paper) <= distance;

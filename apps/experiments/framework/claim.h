@@ -32,7 +32,7 @@ struct Measured {
 [[nodiscard]] Measured computed(double value);
 
 /// What the paper's number is for ours.
-enum class Match : std::uint8_t { value, at_least, at_most };
+enum class PaperMatch : std::uint8_t { value, at_least, at_most };
 
 /// A cause that was tested: the same measurement with one thing changed.
 struct Cause {
@@ -46,7 +46,7 @@ struct Claim {
   std::string unit{};                 ///< Empty: a ratio.
   std::optional<PaperValue> paper{};  ///< Empty: a figure of ours.
   Measured ours{};
-  Match match{Match::value};
+  PaperMatch match{PaperMatch::value};
   /// The value that means "no effect" (1 for a ratio). With it a number that is off can still have
   /// the paper's trend.
   std::optional<double> neutral{};

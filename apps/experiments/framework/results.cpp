@@ -48,11 +48,11 @@ std::string paper_text(const Claim& claim) {
   std::string number =
       four_digits(claim.paper->value) + (claim.unit.empty() ? "" : " " + claim.unit);
   switch (claim.match) {
-    case Match::at_least:
+    case PaperMatch::at_least:
       return "at least " + number;
-    case Match::at_most:
+    case PaperMatch::at_most:
       return "at most " + number;
-    case Match::value:
+    case PaperMatch::value:
       break;
   }
   return number;

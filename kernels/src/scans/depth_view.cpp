@@ -162,28 +162,28 @@ bool DepthView::sees_through(const Eigen::Vector3f& centre_C, int level) const {
          centre_C.z() + extent.half.z() <= depth_.span(image.pixels(probe_.grid), texels).least;
 }
 
-Visibility DepthView::visibility_of(const Eigen::Vector3f& centre_C, int level) const {
+BlockVisibility DepthView::visibility_of(const Eigen::Vector3f& centre_C, int level) const {
   const Extent& extent = extents_[static_cast<std::size_t>(level)];
   const float first_z = centre_C.z() - extent.half.z();
   const float last_z = centre_C.z() + extent.half.z();
   const float squared_distance = squared_length(centre_C);
   if (last_z <= probe_.nearest_m || squared_distance > extent.squared_far) {
-    return Visibility::none;
+    return BlockVisibility::none;
   }
   if (first_z <= probe_.nearest_m) {
-    return Visibility::part;
+    return BlockVisibility::part;
   }
   const Image image = image_of(centre_C, extent);
   if (image.is_beside(probe_.grid)) {
-    return Visibility::none;
+    return BlockVisibility::none;
   }
   const DepthSpan behind = depth_.span(image.pixels(probe_.grid));
   if (first_z >= behind.most) {
-    return Visibility::none;
+    return BlockVisibility::none;
   }
   const bool is_whole = image.is_inside(probe_.grid) && squared_distance <= extent.squared_near &&
                         last_z <= behind.least;
-  return is_whole ? Visibility::whole : Visibility::part;
+  return is_whole ? BlockVisibility::whole : BlockVisibility::part;
 }
 
 }  // namespace flyball

@@ -12,7 +12,7 @@
 namespace flyball {
 
 /// How much of a block the camera sees through.
-enum class Visibility : std::uint8_t {
+enum class BlockVisibility : std::uint8_t {
   none,   ///< Behind every surface, out of view or out of range.
   part,   ///< Perhaps some.
   whole,  ///< All: in view, in range, and nearer than the least depth behind it.
@@ -39,7 +39,7 @@ class DepthView {
   /// The box in W around the camera and all that it sees within the range, and a margin.
   [[nodiscard]] Aabb box_of_view(const Pose& X_WC, double range_m, double margin_m) const;
   /// A cube of level 1..5 around a point of C.
-  [[nodiscard]] Visibility visibility_of(const Eigen::Vector3f& centre_C, int level) const;
+  [[nodiscard]] BlockVisibility visibility_of(const Eigen::Vector3f& centre_C, int level) const;
   /// `visibility_of` looks up to the cube's own width beside it, where the ground may come nearer
   /// than the cube. This looks closely, for several times as much work.
   [[nodiscard]] bool sees_through(const Eigen::Vector3f& centre_C, int level) const;

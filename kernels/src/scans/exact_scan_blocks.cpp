@@ -28,10 +28,10 @@ void ExactScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
   const Block block{(X_CW * centre_W).cast<float>(), centre_W - camera_W_, window_.place(chunk),
                     chunk_level};
-  const Visibility visible = view_.visibility_of(block.centre_C, block.level);
-  if (visible == Visibility::whole && fills_pixels(block)) {
+  const BlockVisibility visible = view_.visibility_of(block.centre_C, block.level);
+  if (visible == BlockVisibility::whole && fills_pixels(block)) {
     window_.free_block(block.place, std::size_t{512});
-  } else if (visible != Visibility::none) {
+  } else if (visible != BlockVisibility::none) {
     free_inside(block);
   }
 }

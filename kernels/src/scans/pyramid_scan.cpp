@@ -100,10 +100,10 @@ void PyramidScan::free_chunk(const CellKey& chunk, const Pose& X_CW) {
   const Aabb cube = lattice_.cube(chunk, chunk_level);
   const Vec3 centre_W = 0.5 * (cube.min + cube.max);
   const Block block{(X_CW * centre_W).cast<float>(), window_.place(chunk), chunk_level};
-  const Visibility visible = view_.visibility_of(block.centre_C, block.level);
-  if (visible == Visibility::whole) {
+  const BlockVisibility visible = view_.visibility_of(block.centre_C, block.level);
+  if (visible == BlockVisibility::whole) {
     window_.free_block(block.place, bricks_in(chunk_level));
-  } else if (visible == Visibility::part) {
+  } else if (visible == BlockVisibility::part) {
     free_inside(block);
   }
 }

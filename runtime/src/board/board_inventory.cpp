@@ -80,7 +80,7 @@ std::vector<Hertz> listed_clocks(const LinuxSystem& system, const std::string& f
   return clocks;
 }
 
-std::optional<ClockPolicy> policy_in(const LinuxSystem& system, const std::string& folder) {
+std::optional<CpufreqPolicy> policy_in(const LinuxSystem& system, const std::string& folder) {
   const auto lowest = clock_in(system, folder + "/cpuinfo_min_freq");
   const auto highest = clock_in(system, folder + "/cpuinfo_max_freq");
   const auto min = clock_in(system, folder + "/scaling_min_freq");
@@ -88,7 +88,7 @@ std::optional<ClockPolicy> policy_in(const LinuxSystem& system, const std::strin
   if (!lowest || !highest || !min || !max) {
     return std::nullopt;  // All its cores are off-line.
   }
-  ClockPolicy policy;
+  CpufreqPolicy policy;
   policy.folder = folder;
   policy.cpus = cpu_list_of(text_in(system, folder + "/related_cpus").value_or(""));
   policy.driver = text_in(system, folder + "/scaling_driver").value_or("");
@@ -103,8 +103,8 @@ std::optional<ClockPolicy> policy_in(const LinuxSystem& system, const std::strin
   return policy;
 }
 
-std::vector<ClockPolicy> find_policies(const LinuxSystem& system) {
-  std::vector<ClockPolicy> policies;
+std::vector<CpufreqPolicy> find_policies(const LinuxSystem& system) {
+  std::vector<CpufreqPolicy> policies;
   for (const std::string& folder : clock_folders(system)) {
     auto policy = policy_in(system, folder);
     if (!policy) {
@@ -112,7 +112,7 @@ std::vector<ClockPolicy> find_policies(const LinuxSystem& system) {
     }
     const bool is_known =
         std::any_of(policies.begin(), policies.end(),
-                    [&](const ClockPolicy& other) { return other.cpus == policy->cpus; });
+                    [&](const CpufreqPolicy& other) { return other.cpus == policy->cpus; });
     if (!is_known || policy->cpus.empty()) {
       policies.push_back(std::move(*policy));
     }
@@ -267,7 +267,7 @@ std::string model_of(const LinuxSystem& system) {
 
 }  // namespace
 
-bool ClockPolicy::has_set_speed() const {
+bool CpufreqPolicy::has_set_speed() const {
   return std::find(governors.begin(), governors.end(), "userspace") != governors.end();
 }
 

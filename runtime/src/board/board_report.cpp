@@ -39,7 +39,7 @@ std::string permission(const LinuxSystem& system, const std::vector<std::string>
 }
 
 std::string clock_line(const LinuxSystem& system,
-                       const ClockPolicy& policy,
+                       const CpufreqPolicy& policy,
                        const BoardFile& board) {
   const std::vector<Hertz> clocks = clocks_of(policy, board);
   std::string text = "cores " + listed(policy.cpus) + ": " + std::to_string(clocks.size()) +
@@ -113,7 +113,7 @@ std::string board_report(const LinuxSystem& system,
   std::string text;
   text += line("board", board.name + (found.model.empty() ? "" : " (" + found.model + ")") +
                             (found.kernel.empty() ? "" : ", Linux " + found.kernel));
-  for (const ClockPolicy& policy : found.policies) {
+  for (const CpufreqPolicy& policy : found.policies) {
     text += line("clock", clock_line(system, policy, board));
   }
   if (found.policies.empty()) {

@@ -10,7 +10,7 @@ namespace flyball {
 
 ClockControl::ClockControl(LinuxSystem& system,
                            SettingsKeeper& keeper,
-                           ClockPolicy policy,
+                           CpufreqPolicy policy,
                            std::vector<Hertz> clocks)
     : system_{system},
       keeper_{keeper},
@@ -144,7 +144,7 @@ bool ClockControl::is_as_set() const {
   return is_governed && *now == *set_limits_;
 }
 
-std::vector<Hertz> clocks_of(const ClockPolicy& policy, const BoardFile& board) {
+std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board) {
   const Hertz lowest = std::max(policy.lowest, board.lowest_kept_clock);
   std::vector<Hertz> all = policy.frequencies;
   if (all.empty()) {

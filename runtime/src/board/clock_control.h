@@ -22,7 +22,7 @@ class ClockControl {
   /// @param clocks  That may be set, ascending: `clocks_of`.
   ClockControl(LinuxSystem& system,
                SettingsKeeper& keeper,
-               ClockPolicy policy,
+               CpufreqPolicy policy,
                std::vector<Hertz> clocks);
 
   /// Sets the highest of its clocks that is not above `wanted`, or the lowest, and reads it back.
@@ -36,7 +36,7 @@ class ClockControl {
   /// Whether the files still hold what `set` left there; true before, and while all cores are
   /// off-line.
   [[nodiscard]] bool is_as_set() const;
-  [[nodiscard]] const ClockPolicy& policy() const { return policy_; }
+  [[nodiscard]] const CpufreqPolicy& policy() const { return policy_; }
 
  private:
   struct Limits {
@@ -56,7 +56,7 @@ class ClockControl {
 
   LinuxSystem& system_;
   SettingsKeeper& keeper_;
-  ClockPolicy policy_;
+  CpufreqPolicy policy_;
   std::vector<Hertz> clocks_;
   bool is_by_hand_;  ///< By `scaling_setspeed`.
   bool is_kept_{};
@@ -67,6 +67,6 @@ class ClockControl {
 /// The clocks that may be asked of a policy, ascending: those that its driver lists, or steps of
 /// `board.clock_step`. Not above the limit that was found, which is the power mode's (nvpmodel),
 /// and not below what the firmware keeps.
-[[nodiscard]] std::vector<Hertz> clocks_of(const ClockPolicy& policy, const BoardFile& board);
+[[nodiscard]] std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board);
 
 }  // namespace flyball

@@ -39,7 +39,7 @@ double process_seconds() {
 }
 
 /// The limits before an adopted session changed them.
-void undo_adopted(ClockPolicy& policy, const std::vector<KeptSetting>& kept) {
+void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept) {
   for (const KeptSetting& setting : kept) {
     const auto clock = clock_of(trimmed(setting.content));
     if (clock && setting.path == policy.folder + "/scaling_min_freq") {
@@ -50,7 +50,7 @@ void undo_adopted(ClockPolicy& policy, const std::vector<KeptSetting>& kept) {
   }
 }
 
-Duration switching_time_of(const LinuxSystem& system, const std::vector<ClockPolicy>& policies) {
+Duration switching_time_of(const LinuxSystem& system, const std::vector<CpufreqPolicy>& policies) {
   constexpr long long unknown_ns = 4294967295;  // CPUFREQ_ETERNAL
   if (policies.empty()) {
     return {};
@@ -119,7 +119,7 @@ struct LinuxBoard::State {
 };
 
 void LinuxBoard::State::add_controls() {
-  for (const ClockPolicy& policy : found.policies) {
+  for (const CpufreqPolicy& policy : found.policies) {
     const bool is_used = std::any_of(policy.cpus.begin(), policy.cpus.end(), [this](int id) {
       return std::find(order.begin(), order.end(), id) != order.end();
     });
@@ -272,7 +272,7 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
     return keeper.error();
   }
   BoardInventory found = discover_board(system);
-  for (ClockPolicy& policy : found.policies) {
+  for (CpufreqPolicy& policy : found.policies) {
     undo_adopted(policy, (*keeper)->kept());
     const bool is_locked = policy.min == policy.max && policy.lowest < policy.highest;
     if (is_locked && !options.keeper.adopt) {

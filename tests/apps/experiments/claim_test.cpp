@@ -58,12 +58,12 @@ TEST(Claim, has_the_same_trend_only_with_its_whole_interval) {
 
 TEST(Claim, takes_limits_for_limits) {
   Claim least = claim_of(300.0, 290.0);
-  least.match = Match::at_least;
+  least.match = PaperMatch::at_least;
   EXPECT_EQ(verdict_of(least), Verdict::not_reproduced);
   least.ours.value->median = 900.0;
   EXPECT_EQ(verdict_of(least), Verdict::reproduced);
   Claim most = claim_of(5.0, 5.1);
-  most.match = Match::at_most;
+  most.match = PaperMatch::at_most;
   EXPECT_EQ(verdict_of(most), Verdict::not_reproduced);
   most.ours.value->median = 0.1;
   EXPECT_EQ(verdict_of(most), Verdict::reproduced);

@@ -46,13 +46,13 @@ TEST(DepthView, says_of_eight_cubes_at_once_no_more_than_of_each) {
       ASSERT_EQ(visible.whole & visible.part, 0U);
       ASSERT_EQ((*view).whole_octants(centre_C, level), visible.whole);
       for (unsigned octant = 0; octant < 8; ++octant) {
-        const Visibility expected =
+        const BlockVisibility expected =
             (*view).visibility_of(centre_C + (*view).to_octant(level, octant), level - 1);
-        const Visibility seen = (visible.whole >> octant & 1U) != 0  ? Visibility::whole
-                                : (visible.part >> octant & 1U) != 0 ? Visibility::part
-                                                                     : Visibility::none;
+        const BlockVisibility seen = (visible.whole >> octant & 1U) != 0  ? BlockVisibility::whole
+                                     : (visible.part >> octant & 1U) != 0 ? BlockVisibility::part
+                                                                          : BlockVisibility::none;
         // One scale for all eight: for the smaller ones it may be too coarse to be sure.
-        ASSERT_TRUE(seen == expected || seen == Visibility::part) << "level " << level;
+        ASSERT_TRUE(seen == expected || seen == BlockVisibility::part) << "level " << level;
         same += seen == expected ? 1 : 0;
         ++of_each[static_cast<int>(expected)];
       }

@@ -19,7 +19,7 @@ class ClockControlTest : public testing::Test {
     auto opened = SettingsKeeper::open(kernel_, {tree_.root() + "/run", false});
     EXPECT_TRUE(opened.ok());
     keeper_ = std::move(*opened);
-    const ClockPolicy policy = discover_board(kernel_).policies.front();
+    const CpufreqPolicy policy = discover_board(kernel_).policies.front();
     control_.emplace(kernel_, *keeper_, policy, clocks_of(policy, {}));
     return *control_;
   }
@@ -135,7 +135,7 @@ TEST_F(ClockControlTest, names_the_file_that_is_read_only) {
 }
 
 TEST(ClocksOf, are_steps_where_the_driver_lists_none) {
-  ClockPolicy policy;
+  CpufreqPolicy policy;
   policy.lowest = Hertz{400e6};
   policy.max = Hertz{1250e6};
   const std::vector<Hertz> clocks = clocks_of(policy, {});
@@ -146,7 +146,7 @@ TEST(ClocksOf, are_steps_where_the_driver_lists_none) {
 }
 
 TEST(ClocksOf, end_at_the_power_mode_and_begin_where_the_firmware_listens) {
-  ClockPolicy policy;
+  CpufreqPolicy policy;
   policy.frequencies = {Hertz{1e9}, Hertz{1.5e9}, Hertz{2e9}, Hertz{2.4e9}};
   policy.lowest = Hertz{1e9};
   policy.max = Hertz{2e9};

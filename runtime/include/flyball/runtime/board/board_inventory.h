@@ -15,7 +15,7 @@
 namespace flyball {
 
 /// One group of cores with one clock: a folder of cpufreq.
-struct ClockPolicy {
+struct CpufreqPolicy {
   std::string folder{};
   std::vector<int> cpus{};  ///< All that share the clock, ascending; some may be off-line.
   std::string driver{};
@@ -72,7 +72,7 @@ struct Rival {
 struct BoardInventory {
   std::string model{};  ///< Of the device tree, or of the firmware (DMI).
   std::string kernel{};
-  std::vector<ClockPolicy> policies{};
+  std::vector<CpufreqPolicy> policies{};
   std::vector<BoardCore> cores{};  ///< Present ones, ascending.
   std::vector<ThermalZone> zones{};
   std::vector<PowerRail> rails{};
