@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::array<const char*, 3> cells_m{"0.15", "0.50", "0.80"};
 constexpr std::array<double, 4> seen_from_m{5.0, 4.0, 3.0, 2.0};  // Before the wall.
-constexpr double half_picture_m = 2.5;
-constexpr double square_m = 0.05;  // A third of the finest cells.
-constexpr std::size_t squares = 100;
+constexpr double square_m = 0.05;                                 // A third of the finest cells.
+constexpr std::size_t squares = 101;  // Odd: the middle one lies in the middle of the door.
+constexpr double half_picture_m = 0.5 * square_m * squares;
 
 /// A door in a wall across x.
 struct Door {
@@ -78,20 +78,25 @@ CellPicture picture_of(const OccupancyView& map,
   return picture;
 }
 
-/// How wide the way is that the body's centre has through the wall.
-double open_width_m(const CellPicture& picture) {
-  std::size_t open = 0;
-  for (std::size_t row = 0; row < picture.rows(); ++row) {
-    if (picture.squares[row * picture.columns + picture.columns / 2] == PlaceState::passable) {
-      ++open;
-    }
+/// How wide the way is that the body's centre has through the wall, to a centimetre.
+double open_width_m(const OccupancyView& map,
+                    const Door& door,
+                    double height_m,
+                    const Cylinder& body) {
+  constexpr double step_m = 0.01;
+  const int steps = static_cast<int>(0.5 * (door.high_y_m - door.low_y_m) / step_m);
+  int open = 0;
+  for (int i = -steps; i <= steps; ++i) {
+    const Vec3 p_W{door.wall_x_m, door.middle_y_m() + step_m * i, height_m};
+    open += map.body_state(p_W, body) == CellState::free ? 1 : 0;
   }
-  return square_m * static_cast<double>(open);
+  return step_m * open;
 }
 
 struct Seen {
   CellPicture picture{};
   double door_m{};
+  double open_m{};  ///< Of the door, for the body's centre.
 };
 
 /// The map after a straight approach to the door.
@@ -116,9 +121,11 @@ Result<Seen> approach(const std::string& cells) {
       return seen.error();
     }
   }
-  return Seen{picture_of(bench.kernels.mapper->view(), *door, world.cruise_height_m,
-                         bench.brief.narrow_body()),
-              door->high_y_m - door->low_y_m};
+  const OccupancyView& map = bench.kernels.mapper->view();
+  const Cylinder body = bench.brief.narrow_body();
+  const double height_m = world.cruise_height_m;
+  return Seen{picture_of(map, *door, height_m, body), door->high_y_m - door->low_y_m,
+              open_width_m(map, *door, height_m, body)};
 }
 
 Result<Findings> evaluate(const Evidence& /*evidence*/) {
@@ -131,7 +138,7 @@ Result<Findings> evaluate(const Evidence& /*evidence*/) {
     Claim claim{std::string{"cells of "} + cells +
                     " m: width of the way that the body's centre has through the door",
                 "m"};
-    claim.ours = computed(open_width_m(seen->picture));
+    claim.ours = computed(seen->open_m);
     findings.claims.push_back(claim);
     seen->picture.title = std::string{"A door of "} + csv_number(seen->door_m) +
                           " m on a map with cells of " + cells + " m";

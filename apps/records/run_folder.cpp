@@ -173,7 +173,7 @@ Result<std::vector<std::string>> try_to_prepare(const std::string& folder) {
 Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
   // Another process that shares the folder may remove what is empty at any moment, between two
   // steps of ours too. So many times in a row it does not; then the place itself is at fault.
-  constexpr int most_attempts = 100;
+  constexpr int most_attempts = 1000;
   for (int attempt = 1;; ++attempt) {
     auto made = try_to_prepare(folder);
     if (made || attempt == most_attempts) {
