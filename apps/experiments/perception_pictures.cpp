@@ -2,9 +2,10 @@
 //
 // What maps of three resolutions make of a door: MAVBench's pictures, with numbers.
 
+#include "flyball/records/text_table.h"
+
 #include "experiments/framework/papers.h"
 #include "studies/fit_perception.h"
-#include "studies/plots/csv.h"
 #include <algorithm>
 #include <array>
 
@@ -140,7 +141,7 @@ Result<Findings> evaluate(const Evidence& /*evidence*/) {
                 "m"};
     claim.ours = computed(seen->open_m);
     findings.claims.push_back(claim);
-    seen->picture.title = std::string{"A door of "} + csv_number(seen->door_m) +
+    seen->picture.title = std::string{"A door of "} + rounded(seen->door_m, 2) +
                           " m on a map with cells of " + cells + " m";
     findings.figures.push_back({std::string{"door_"} + cells,
                                 "A level cut at flying height; x is along the flight. From four "

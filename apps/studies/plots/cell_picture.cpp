@@ -44,7 +44,7 @@ std::string row_svg(const CellPicture& picture, std::size_t row, double top_px, 
       ++end;
     }
     content += filled({map_left_px + square_px * static_cast<double>(begin), top_px,
-                       square_px * static_cast<double>(end - begin), square_px},
+                       square_px * static_cast<double>(end - begin), square_px + 0.3},
                       look_of(states[begin]));
     begin = end;
   }
