@@ -3,6 +3,8 @@
 
 #include "cli/sweep/stored_study.h"
 
+#include "flyball/records/report.h"
+
 #include "cli/claimed_folder.h"
 #include "cli/commands.h"
 #include "cli/sweep/on_slurm.h"
