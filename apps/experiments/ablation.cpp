@@ -28,17 +28,23 @@ struct Place {
   const char* sweep;
   const char* scenario;
   const char* title;
+  std::vector<std::string> settings;
 };
 
-constexpr std::array<Place, 3> places{{
-    {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building"},
-    {"forest", "delivery_forest", "forest"},
-    {"mixed", "delivery_mixed", "building, crowd and slit"},
-}};
+std::vector<Place> places() {
+  return {
+      {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building", {}},
+      {"forest", "delivery_forest", "forest", {}},
+      {"mixed",
+       "delivery_mixed",
+       "building, crowd and slit",
+       {"world.length_m=260", "world.buildings=1", "world.crowds=1", "world.slits=1"}},
+  };
+}
 
 Result<Findings> evaluate(const Evidence& evidence) {
   Findings findings;
-  for (const Place& place : places) {
+  for (const Place& place : places()) {
     const Point all = evidence.at(place.sweep, {}, whole);
     Claim success{std::string{place.title} + ": flights with all parts that succeed", "%"};
     success.ours = success_percent(all);
@@ -67,13 +73,10 @@ Result<Findings> evaluate(const Evidence& evidence) {
 }
 
 ExperimentSweep sweep_of(const Place& place) {
-  ExperimentSweep sweep{place.sweep, place.scenario, quick_map(), {}, {whole}};
+  ExperimentSweep sweep{
+      place.sweep, place.scenario, joined(quick_map(), place.settings), {}, {whole}};
   for (const Part& part : parts) {
     sweep.policies.emplace_back(part.preset);
-  }
-  if (place.scenario == std::string{"delivery_mixed"}) {  // One of each on 260 m.
-    sweep.settings = joined(sweep.settings, {"world.length_m=260", "world.buildings=1",
-                                             "world.crowds=1", "world.slits=1"});
   }
   return sweep;
 }
@@ -91,7 +94,7 @@ Experiment ablation() {
       {},
       {},
       evaluate};
-  for (const Place& place : places) {
+  for (const Place& place : places()) {
     experiment.sweeps.push_back(sweep_of(place));
   }
   return experiment;

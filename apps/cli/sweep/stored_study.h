@@ -7,7 +7,6 @@
 
 #include "cli/stored_flights.h"
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

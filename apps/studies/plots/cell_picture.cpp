@@ -34,7 +34,8 @@ std::string filled(const svg::Box& box, const Look& look) {
   return svg::rectangle(box, std::string{"fill=\""} + look.fill + "\"", "");
 }
 
-/// Neighbours in a row that look alike are one rectangle.
+/// Neighbours in a row that look alike are one rectangle. It reaches a little under the row below
+/// it, so that no gap shows between them.
 std::string row_svg(const CellPicture& picture, std::size_t row, double top_px, double square_px) {
   std::string content;
   const PlaceState* const states = &picture.squares[row * picture.columns];

@@ -2,18 +2,12 @@
 
 #include "studies/plots/cell_picture.h"
 
+#include "text_count.h"
+
 #include <gtest/gtest.h>
 
 namespace flyball {
 namespace {
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
 
 TEST(CellPicture, draws_neighbours_that_are_alike_as_one_rectangle) {
   CellPicture picture{"a door", 0.5, 10.0, -1.0, 4, {}};
@@ -24,7 +18,7 @@ TEST(CellPicture, draws_neighbours_that_are_alike_as_one_rectangle) {
   ASSERT_EQ(picture.rows(), 2U);
   const std::string svg = cell_picture_svg(picture);
   constexpr std::size_t in_legend = 4;
-  EXPECT_EQ(count_of(svg, "<rect"), 5 + in_legend) << svg;
+  EXPECT_EQ(kit::count(svg, "<rect"), 5 + in_legend) << svg;
   EXPECT_LT(svg.find("#f3f5f7"), svg.rfind("#f3f5f7")) << "once in the map, once in the legend";
 }
 

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/plots/dot_plot.h"
 
+#include "text_count.h"
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 namespace flyball {
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
 
 /// The number behind the last `key` before `mark`; behind the first one without it.
 double number_after(const std::string& text, const std::string& key, const std::string& mark = "") {
@@ -30,8 +23,8 @@ PlottedPoint point(const std::string& name, double x, double y) {
 TEST(DotPlot, has_a_dot_for_each_value_there_is) {
   const std::string svg =
       dot_plot_svg("time", {{"a", MedianInterval{3.0, 2.0, 4.0}}, {"b", std::nullopt}});
-  EXPECT_EQ(count(svg, "<circle"), 1U);
-  EXPECT_EQ(count(svg, "no flight succeeded"), 1U);
+  EXPECT_EQ(kit::count(svg, "<circle"), 1U);
+  EXPECT_EQ(kit::count(svg, "no flight succeeded"), 1U);
 }
 
 TEST(DotPlot, puts_a_value_of_zero_at_the_left_end) {
@@ -70,8 +63,8 @@ TEST(ParetoPlot, marks_what_nothing_beats_in_both) {
 TEST(ParetoPlot, joins_the_best_and_draws_each_point_once) {
   const std::string svg = pareto_plot_svg(
       "s", "kJ", {point("quick", 10, 40), point("thrifty", 20, 20), point("worst", 30, 50)});
-  EXPECT_EQ(count(svg, "<circle"), 3U);
-  EXPECT_EQ(count(svg, "stroke-dasharray"), 1U);
+  EXPECT_EQ(kit::count(svg, "<circle"), 3U);
+  EXPECT_EQ(kit::count(svg, "stroke-dasharray"), 1U);
 }
 
 TEST(ParetoPlot, draws_one_point_without_extent) {

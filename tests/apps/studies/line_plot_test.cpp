@@ -2,6 +2,8 @@
 
 #include "studies/plots/line_plot.h"
 
+#include "text_count.h"
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -19,14 +21,6 @@ LinePlot made_plot(const std::vector<std::string>& places) {
 double place_of(const std::string& svg, const std::string& text) {
   const std::size_t at = svg.rfind("<text x=\"", svg.find(">" + text + "<"));
   return at == std::string::npos ? -1.0 : std::stod(svg.substr(at + 9));
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
 }
 
 TEST(LinePlot, puts_numbers_where_they_belong) {
@@ -48,15 +42,15 @@ TEST(LinePlot, puts_names_in_a_row) {
 
 TEST(LinePlot, leaves_a_gap_where_nothing_is_known) {
   const std::string svg = line_plot_svg(made_plot({"1", "2", "3"}));
-  EXPECT_EQ(count(svg, "stroke-width=\"1.5\""), 2U) << "from 1 to 2 for a, from 2 to 3 for b";
-  EXPECT_EQ(count(svg, "stroke-width=\"2.5\""), 4U);
-  EXPECT_EQ(count(svg, ">a</text>"), 1U) << "in the legend";
+  EXPECT_EQ(kit::count(svg, "stroke-width=\"1.5\""), 2U) << "from 1 to 2 for a, from 2 to 3 for b";
+  EXPECT_EQ(kit::count(svg, "stroke-width=\"2.5\""), 4U);
+  EXPECT_EQ(kit::count(svg, ">a</text>"), 1U) << "in the legend";
 }
 
 TEST(LinePlot, needs_no_legend_for_one_line) {
   LinePlot plot = made_plot({"1", "2", "3"});
   plot.lines.pop_back();
-  EXPECT_EQ(count(line_plot_svg(plot), "<circle"), 2U);
+  EXPECT_EQ(kit::count(line_plot_svg(plot), "<circle"), 2U);
   plot.lines[0].values = {std::nullopt, std::nullopt, std::nullopt};
   EXPECT_EQ(line_plot_svg(plot).find("nan"), std::string::npos);
 }

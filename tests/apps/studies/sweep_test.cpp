@@ -3,6 +3,7 @@
 #include "flyball/studies/sweep.h"
 
 #include "made_flights.h"
+#include "text_count.h"
 #include <algorithm>
 #include <sstream>
 
@@ -73,14 +74,6 @@ Sweep made_sweep(std::vector<SweepAxis> axes = {{"a", {"1", "2"}}, {"b,c", {"\"x
   return sweep_of(plan, commands, flights);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
-
 TEST(Sweep, a_cell_has_the_medians_of_the_flights_that_succeed) {
   const Sweep sweep = made_sweep();
   ASSERT_EQ(sweep.cells.size(), 4U);
@@ -105,13 +98,13 @@ TEST(Sweep, its_tables_have_a_row_for_each_cell_and_each_flight) {
   EXPECT_NE(text.find("201.5 [201.0, 202.0]"), std::string::npos) << text;
   EXPECT_NE(text.find("2 collision"), std::string::npos);
   const std::string cells = cells_csv(sweep);
-  EXPECT_EQ(count(cells, "\n"), 5U);
+  EXPECT_EQ(kit::count(cells, "\n"), 5U);
   EXPECT_EQ(cells.rfind("policy,a,\"b,c\",n,succeeded,failures,command,mission_time_s,", 0), 0U);
   EXPECT_NE(cells.find("\nfixed,1,\"\"\"x\"\"\",2,2,,compare 0,101.5,101.0,102.0,"),
             std::string::npos)
       << cells;
   const std::string flights = flights_csv(sweep);
-  EXPECT_EQ(count(flights, "\n"), 9U);
+  EXPECT_EQ(kit::count(flights, "\n"), 9U);
   EXPECT_NE(flights.find("\nfixed,2,y,2,failed,collision,0123456789abcdef,run 7,402.0,"),
             std::string::npos)
       << flights;
@@ -124,7 +117,8 @@ TEST(Sweep, its_tables_have_a_row_for_each_cell_and_each_flight) {
 TEST(Sweep, its_page_draws_what_differs_and_names_every_command) {
   const Sweep sweep = made_sweep();
   const std::string page = sweep_page(sweep);
-  EXPECT_EQ(count(page, "<svg"), 2U) << "success and mission time; the rest is the same everywhere";
+  EXPECT_EQ(kit::count(page, "<svg"), 2U)
+      << "success and mission time; the rest is the same everywhere";
   EXPECT_NE(page.find("mission_time_s: fixed"), std::string::npos);
   EXPECT_NE(page.find("same in every cell"), std::string::npos);
   EXPECT_NE(page.find("replans 7"), std::string::npos);
@@ -136,11 +130,11 @@ TEST(Sweep, its_page_draws_what_differs_and_names_every_command) {
 
 TEST(Sweep, draws_lines_over_one_setting_and_a_map_for_each_value_of_a_third) {
   const std::string lines = sweep_page(made_sweep({{"a", {"1", "5", "9"}}}));
-  EXPECT_EQ(count(lines, "<svg"), 2U);
-  EXPECT_EQ(count(lines, "<rect"), 0U);
+  EXPECT_EQ(kit::count(lines, "<svg"), 2U);
+  EXPECT_EQ(kit::count(lines, "<rect"), 0U);
   const std::string maps =
       sweep_page(made_sweep({{"a", {"1", "2", "3"}}, {"b", {"1", "2"}}, {"c", {"1", "2"}}}));
-  EXPECT_EQ(count(maps, "<svg"), 6U) << "two figures for three values of a";
+  EXPECT_EQ(kit::count(maps, "<svg"), 6U) << "two figures for three values of a";
   EXPECT_NE(maps.find("mission_time_s: fixed, a=3"), std::string::npos);
 }
 
