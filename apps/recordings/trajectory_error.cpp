@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration widest_gap = 20ms;  // TUM's evaluate_ate.py: --max_difference 0.02.
+constexpr Duration widest_match = 20ms;  // TUM's evaluate_ate.py: --max_difference 0.02.
 
 /// @pre `truth` is in order of time and not empty.
 const TimedPose& nearest(const std::vector<TimedPose>& truth, MissionTime t) {
@@ -32,7 +32,7 @@ std::optional<TrajectoryError> absolute_trajectory_error(const std::vector<Timed
   for (const TimedPose& pose : estimate) {
     if (!truth.empty()) {
       const TimedPose& real = nearest(truth, pose.stamp);
-      if (std::chrono::abs(real.stamp - pose.stamp) <= widest_gap) {
+      if (std::chrono::abs(real.stamp - pose.stamp) <= widest_match) {
         pairs.emplace_back(pose.X_WB.translation(), real.X_WB.translation());
       }
     }

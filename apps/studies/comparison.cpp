@@ -15,10 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Flights = std::vector<const Summary*>;
 
-bool has_succeeded(const Summary& flight) {
-  return flight.status == MissionStatus::succeeded;
-}
-
 template <class Quantity>
 std::optional<MedianInterval> median_over(const Flights& flights, Quantity quantity) {
   std::vector<double> values;

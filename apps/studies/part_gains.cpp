@@ -32,10 +32,6 @@ Pairing flights_of(const std::vector<Summary>& flights, const std::string& polic
 
 constexpr double same_percent = 0.1;  // Chosen: less is no gain that anybody would fly for.
 
-bool has_succeeded(const Summary& flight) {
-  return flight.status == MissionStatus::succeeded;
-}
-
 /// Sign test: how likely so lopsided a count is, in this direction, where both are equally likely
 /// (McNemar 1947, doi:10.1007/BF02295996, exact and one-sided).
 double chance_of(int one, int other) {

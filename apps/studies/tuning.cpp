@@ -28,10 +28,6 @@ Error wrong(const std::string& text, const std::string& why) {
           "--try " + text + " " + why + "; give for example range_m=7,15,25"};
 }
 
-bool has_succeeded(const Summary& flight) {
-  return flight.status == MissionStatus::succeeded;
-}
-
 std::string quoted(const std::string& text) {
   std::string safe;
   for (const char c : text) {

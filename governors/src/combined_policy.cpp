@@ -9,7 +9,7 @@
 namespace flyball {
 namespace {
 
-constexpr std::string_view clock_knob = "cpu.frequency_hz";
+constexpr std::string_view own_clock_knob = "cpu.frequency_hz";
 
 std::optional<Duration> period_of(const Policy* policy) {
   const auto* chooses = dynamic_cast<const ChoosesPeriod*>(policy);
@@ -70,12 +70,12 @@ Decision CombinedPolicy::decide(const Observation& seen) noexcept {
   Decision both;
   both.reason = wish_.reason;
   for (const auto& [knob, value] : wish_) {
-    if (knob != clock_knob) {
+    if (knob != own_clock_knob) {
       both.set(knob, value);
     }
   }
   for (const auto& [knob, value] : clock_->decide(seen)) {
-    if (knob == clock_knob) {
+    if (knob == own_clock_knob) {
       both.set(knob, value);
     }
   }

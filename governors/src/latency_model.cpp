@@ -10,7 +10,7 @@ namespace flyball {
 namespace {
 
 // Of each sample the next 200 or so still know something: 10 s of frames at 20 Hz.
-constexpr double forgetting = 0.995;
+constexpr double latency_forgetting = 0.995;
 // How much less than the level the slopes are expected to be wrong: a level is off by a factor, a
 // slope by some tenths.
 constexpr double slope_share = 0.3;
@@ -30,7 +30,7 @@ LatencyModel::LatencyModel(const LatencyPrior& prior)
               prior.sigma *
                   (Solver::Vector() << 1.0, slope_share, slope_share, slope_share, clock_share)
                       .finished(),
-              forgetting} {}
+              latency_forgetting} {}
 
 LatencyModel::Solver::Vector LatencyModel::row(const LatencyFeatures& features) const {
   FLYBALL_ASSERT(features.resolution_m > 0.0 && features.points > 0.0 && features.clock.value() > 0,

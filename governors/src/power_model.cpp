@@ -11,7 +11,7 @@ namespace {
 
 // Speeds change within one sample, and climbing is not in the model; tens of watts in a delivery.
 constexpr double noise_w = 30.0;
-constexpr double forgetting = 0.999;
+constexpr double power_forgetting = 0.999;
 // A quarter of hover: no multirotor flies level on less, and a fit from few samples might say so.
 constexpr double least_share = 0.25;
 constexpr double most_speed_m_s = 100.0;
@@ -25,7 +25,7 @@ RotorPower::RotorPower(const Prior& prior)
     : solver_{Row{prior.hover_w, prior.linear_w_s_m, prior.quadratic_w_s2_m2},
               Row{prior.sigma_hover_w, prior.sigma_linear_w_s_m, prior.sigma_quadratic_w_s2_m2} /
                   noise_w,
-              forgetting} {}
+              power_forgetting} {}
 
 Watts RotorPower::power(double speed_m_s) const {
   const double fitted_w = solver_.predict({1.0, speed_m_s, speed_m_s * speed_m_s});

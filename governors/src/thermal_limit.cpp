@@ -23,7 +23,7 @@ constexpr double prior_sigmas = 3.0;
 // Of a difference of two readings in steps of .5 K: .5 sqrt(2 / 12).
 constexpr double noise_k = 0.2;
 // Wind and sun change in minutes: after some 50 windows, 8 minutes, a sample counts a third.
-constexpr double forgetting = 0.98;
+constexpr double thermal_forgetting = 0.98;
 
 // A fit from few samples may say anything; no module weighs 10 g or 10 kg, or cools in 20 s.
 constexpr double least_g_k_j = 1e-4;
@@ -49,7 +49,8 @@ ThermalLimit::ThermalLimit(PowerCost computer, const ThermalLimitSettings& setti
     : settings_{settings},
       computer_{std::move(computer)},
       solver_{Row{prior_q_k_s, prior_g_k_j, prior_k_1_s},
-              Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} * (prior_sigmas / noise_k), forgetting},
+              Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} * (prior_sigmas / noise_k),
+              thermal_forgetting},
       window_s_{first_window * settings.window_s} {
   FLYBALL_ASSERT(settings.guard_k >= 0.0 && settings.horizon_s > 0.0 && settings.window_s > 0.0,
                  "guard_k=%g, horizon_s=%g, window_s=%g", settings.guard_k, settings.horizon_s,

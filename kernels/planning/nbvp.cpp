@@ -24,7 +24,7 @@ using flyball::Viewpoint;
 
 constexpr double two_pi = 6.283185307179586;
 // Chosen by hand.
-constexpr double pose_step_m = 0.075;  // Half a fine cell, so that nothing fits between two poses.
+constexpr double view_step_m = 0.075;  // Half a fine cell, so that nothing fits between two poses.
 constexpr int tries_per_node = 25;     // In a corner hardly any sample is free.
 constexpr double branch_slack_m =
     0.5;  // The old branch is used if it begins this near to the vehicle.
@@ -138,7 +138,7 @@ class Tree {
 
   bool is_free(const Vec3& from_W, const Vec3& to_W) {
     const double length_m = (to_W - from_W).norm();
-    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / pose_step_m)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / view_step_m)));
     // The root is where the vehicle stands, free or not.
     for (int i = 1; i <= steps; ++i) {
       queries_ += 1.0;

@@ -15,11 +15,11 @@
 
 namespace {
 
-constexpr double usual_range_m = 4.0;  // That of rrt_connect.
+constexpr double usual_star_range_m = 4.0;  // That of rrt_connect.
 
-flyball::StageResult search(double range_m,
-                            const flyball::SearchStage& stage,
-                            flyball::MotionChecker& checker) {
+flyball::StageResult search_star(double range_m,
+                                 const flyball::SearchStage& stage,
+                                 flyball::MotionChecker& checker) {
   using Planner = ompl::geometric::RRTstar;
   return flyball::search_with_ompl<Planner>(
       stage, checker, [range_m](Planner& planner) { planner.setRange(range_m); },
@@ -32,7 +32,7 @@ flyball::StageResult search(double range_m,
 class RrtStar final : public flyball::PathPlanner {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    return {{"range_m", usual_range_m, 0.1, 100.0,
+    return {{"range_m", usual_star_range_m, 0.1, 100.0,
              "longest step: longer ones are blocked more often, shorter ones cost iterations"}};
   }
   flyball::Status configure(const flyball::Parameters& chosen,
@@ -45,12 +45,12 @@ class RrtStar final : public flyball::PathPlanner {
                      const flyball::OccupancyView& map) override {
     return flyball::staged_plan(
         request, map, [this](const flyball::SearchStage& stage, flyball::MotionChecker& checker) {
-          return search(range_m_, stage, checker);
+          return search_star(range_m_, stage, checker);
         });
   }
 
  private:
-  double range_m_{usual_range_m};
+  double range_m_{usual_star_range_m};
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Eyes,
                          testing::Values("visual_slam", "visual_inertial"),
                          [](const auto& one) { return std::string{one.param}; });
 
-Result<MissionRecord> photograph(std::vector<std::string> settings) {
+Result<MissionRecord> photograph_with(std::vector<std::string> settings) {
   settings.insert(settings.end(), {"photography.limit_s=4", "photography.success_s=3",
                                    "photography.lost_after_detections=3"});
   auto loaded = load_scenario("photography_park", settings);
@@ -63,7 +63,7 @@ TEST(ExchangedDetector, yolo_keeps_a_person_in_view) {
     GTEST_SKIP() << weights.error().message;
   }
   const std::string folder = std::filesystem::path{*weights}.parent_path().string();
-  const auto record = photograph({"kernels.detector=yolo", "detector.models_folder=" + folder});
+  const auto record = photograph_with({"kernels.detector=yolo", "detector.models_folder=" + folder});
   ASSERT_TRUE(record) << record.error().message;
   EXPECT_EQ(record->summary.status, MissionStatus::succeeded) << to_string(record->summary.failure);
   EXPECT_GT(record->summary.kernels.at("yolo").calls, 3U);
@@ -71,7 +71,7 @@ TEST(ExchangedDetector, yolo_keeps_a_person_in_view) {
 
 /// It sees one person in ten at this distance: that it looks and is charged is all that is asked.
 TEST(ExchangedDetector, haar_looks_until_it_gives_up_or_succeeds) {
-  const auto record = photograph({"kernels.detector=haar", "detector.scale=1"});
+  const auto record = photograph_with({"kernels.detector=haar", "detector.scale=1"});
   if (!record && record.error().code == ErrorCode::not_found) {
     GTEST_SKIP() << record.error().message;
   }

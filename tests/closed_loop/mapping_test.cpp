@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 // test-label: closed_loop
 #include "flyball/simulation/mission.h"
 

@@ -8,9 +8,9 @@
 namespace flyball {
 namespace {
 
-class Culprit final : public PathTracker {
+class PathTrackerCulprit final : public PathTracker {
  public:
-  explicit Culprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit PathTrackerCulprit(std::string crime) : crime_{std::move(crime)} {}
 
   Setpoint track(const Path& path,
                  const PathReference& reference,
@@ -54,7 +54,7 @@ TEST(PathTrackers, keep_their_contract) {
 
 TEST(PathTrackerConformance, finds_each_kind_of_breach) {
   kit::expect_crimes_found<PathTrackerConformance, PathTracker>(
-      [](const std::string& crime) { return std::make_unique<Culprit>(crime); },
+      [](const std::string& crime) { return std::make_unique<PathTrackerCulprit>(crime); },
       {{"drifts", "moves without a path"},
        {"repels", "does not correct towards the path"},
        {"leaps", "turns a jump of the estimate into a jump of the vehicle"},

@@ -6,7 +6,7 @@
 namespace flyball {
 namespace {
 
-KnobSettings knobs() {
+KnobSettings fixed_knobs() {
   KnobSpec range;
   range.name = "map.range_m";
   range.min = 2.0;
@@ -17,7 +17,7 @@ KnobSettings knobs() {
 
 Result<Decision> pinned(const std::map<std::string, ParameterValue>& given) {
   const auto resolved = Parameters::resolve("x", fixed_setting_parameters(), given);
-  return fixed_settings("policy \"x\"", std::get<Parameters>(resolved), knobs());
+  return fixed_settings("policy \"x\"", std::get<Parameters>(resolved), fixed_knobs());
 }
 
 TEST(FixedSettings, wish_only_what_was_given) {

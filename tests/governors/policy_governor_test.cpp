@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// compiled-alone
 #include "flyball/governors/policy_governor.h"
 
 #include "rule_policy.h"

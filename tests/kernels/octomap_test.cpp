@@ -18,7 +18,7 @@ using kit::insert;
 using kit::looking_along_x;
 using kit::wall_scan;
 
-constexpr Cylinder body{0.35, 0.15};
+constexpr Cylinder octomap_body{0.35, 0.15};
 
 std::unique_ptr<Mapper> make_octomap() {
   Registry registry;
@@ -36,7 +36,7 @@ TEST(Octomap, shows_a_scan_only_after_commit) {
   EXPECT_EQ(mapper->view().state({1.5, 0.0, 0.0}), CellState::free);
   EXPECT_EQ(mapper->view().state({3.4, 0.0, 0.0}), CellState::unknown);
   EXPECT_EQ(mapper->view().body_state({2.0, 0.0, 0.0}, {0.3, 0.15}), CellState::free);
-  EXPECT_EQ(mapper->view().body_state({2.8, 0.0, 0.0}, body), CellState::occupied);
+  EXPECT_EQ(mapper->view().body_state({2.8, 0.0, 0.0}, octomap_body), CellState::occupied);
 }
 
 TEST(Octomap, replaces_a_change_that_was_not_committed) {
@@ -119,7 +119,7 @@ TEST(Octomap, keeps_what_was_mapped_when_the_resolution_changes) {
   EXPECT_EQ(view.state({5.01, 0.01, 0.01}),
             CellState::occupied);  // fine, unknown to the coarse map
   EXPECT_EQ(view.state({4.5, 0.0, 0.0}), CellState::free);
-  EXPECT_EQ(view.body_state({4.2, 0.0, 0.0}, body), CellState::free);
+  EXPECT_EQ(view.body_state({4.2, 0.0, 0.0}, octomap_body), CellState::free);
   insert(*mapper, wall_scan(5.0F), {0.15, 7.0});
   EXPECT_EQ(view.resolution_m(), 0.15);
   EXPECT_EQ(view.state({2.5, 0.0, 0.0}), CellState::free);
@@ -145,9 +145,9 @@ TEST(Octomap, trusts_no_coarse_cell_that_was_freed_after_a_hit_once_there_is_a_f
   EXPECT_EQ(view.state({2.8, 0.1, 0.1}), CellState::free);
   insert(*mapper, wall_scan(1.0F), {0.15, 7.0});  // sees nothing of it
   EXPECT_EQ(view.state({2.8, 0.1, 0.1}), CellState::unknown);
-  EXPECT_EQ(view.body_state({2.1, 0.1, 0.1}, body), CellState::unknown);  // reaches to 2.45
+  EXPECT_EQ(view.body_state({2.1, 0.1, 0.1}, octomap_body), CellState::unknown);  // reaches to 2.45
   EXPECT_EQ(view.state({4.4, 0.1, 0.1}), CellState::free);
-  EXPECT_EQ(view.body_state({4.4, 0.1, 0.1}, body), CellState::free);
+  EXPECT_EQ(view.body_state({4.4, 0.1, 0.1}, octomap_body), CellState::free);
 }
 
 TEST(Octomap, trusts_no_coarse_cell_beside_space_that_nobody_saw_once_there_is_a_finer_map) {
@@ -227,9 +227,9 @@ TEST(Octomap, lists_cells_of_another_resolution_only_where_the_active_one_knows_
 TEST(Octomap, frees_declared_space_at_once_and_only_where_it_is_unknown) {
   const auto mapper = make_octomap();
   mapper->declare_clear({0.0, 0.0, 1.25}, {1.0, 1.25});
-  EXPECT_EQ(mapper->view().body_state({0.2, 0.3, 1.0}, body), CellState::free);
+  EXPECT_EQ(mapper->view().body_state({0.2, 0.3, 1.0}, octomap_body), CellState::free);
   insert(*mapper, wall_scan(0.7F), {0.15, 7.0});
-  EXPECT_EQ(mapper->view().body_state({0.5, 0.0, 0.3}, body), CellState::occupied);
+  EXPECT_EQ(mapper->view().body_state({0.5, 0.0, 0.3}, octomap_body), CellState::occupied);
 }
 
 }  // namespace

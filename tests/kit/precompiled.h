@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What most tests include, read once for each test program: a third of the time that a test takes
+/// What most tests include, read once for all test programs: a third of the time that a test takes
 /// to compile. A test includes what it uses all the same.
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 namespace flyball {
 namespace {
 
-constexpr double top_hz = 2e9;
+constexpr double search_top_hz = 2e9;
 constexpr double slow_hz = 0.5e9;
 constexpr double step_m = 4.0;
 constexpr std::size_t places = 16;
@@ -23,12 +23,12 @@ constexpr double deceleration_m_s2 = 3.0;
 /// Fine and coarse cells, one range, three clocks.
 struct Made {
   Made()
-      : search{*EnergySearch::make(
-            {},
-            {{0.15, 0.5, 2.2, 25.0, 7.0, top_hz}, {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}},
-            {12.0},
-            kit::search_knobs({slow_hz, 1e9, top_hz}),
-            *conformance_board().power)},
+      : search{*EnergySearch::make({},
+                                   {{0.15, 0.5, 2.2, 25.0, 7.0, search_top_hz},
+                                    {0.80, 0.1, 1.0, 25.0, 7.0, search_top_hz}},
+                                   {12.0},
+                                   kit::search_knobs({slow_hz, 1e9, search_top_hz}),
+                                   *conformance_board().power)},
         horizon{{}, search} {
     Surroundings open;
     open.speed_limit_m_s = 6.0;
@@ -47,7 +47,7 @@ struct Made {
     truth.frame_s.clear();
     for (std::size_t i = 0; i < places; ++i) {
       for (const MapSetting& one : horizon.points()) {
-        truth.frame_s.push_back((one.resolution_m < 0.5 ? fine_s : coarse_s) * top_hz /
+        truth.frame_s.push_back((one.resolution_m < 0.5 ? fine_s : coarse_s) * search_top_hz /
                                 one.clock_hz);
       }
     }
@@ -77,13 +77,13 @@ TEST(HorizonSearch, in_the_open_holds_the_limit_of_speed_at_the_cheapest_clock_t
   Made one;
   one.set_frames(0.5, 0.05);
   // Of 12 m ahead: at .5 GHz a frame takes .2 s, and is soon enough for 6 m/s.
-  ASSERT_GE(fastest_m_s(0.05 * top_hz / slow_hz), 6.0);
+  ASSERT_GE(fastest_m_s(0.05 * search_top_hz / slow_hz), 6.0);
   const EnergyEstimate quick = one.choose(6.0);
   EXPECT_EQ(quick.setting, (MapSetting{0.80, 12.0, slow_hz}));
   EXPECT_EQ(quick.speed_m_s, 6.0);
   one.set_frames(0.5, 0.10);
-  ASSERT_LT(fastest_m_s(0.10 * top_hz / slow_hz), 6.0);
-  ASSERT_GE(fastest_m_s(0.10 * top_hz / 1e9), 6.0);
+  ASSERT_LT(fastest_m_s(0.10 * search_top_hz / slow_hz), 6.0);
+  ASSERT_GE(fastest_m_s(0.10 * search_top_hz / 1e9), 6.0);
   EXPECT_EQ(one.choose(6.0).setting, (MapSetting{0.80, 12.0, 1e9}));
 }
 
@@ -95,9 +95,9 @@ TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
     only_top.needs_top_clock = true;
     return only_top;
   }());
-  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  one.search.put_in_force({0.80, 12.0, search_top_hz}, {});
   const EnergyEstimate best = one.choose(6.0);
-  ASSERT_EQ(best.setting, (MapSetting{0.80, 12.0, top_hz}));
+  ASSERT_EQ(best.setting, (MapSetting{0.80, 12.0, search_top_hz}));
   const double watts =
       (one.search.rotor_power(6.0) + one.search.computer_power(best.setting, 0.1)).value();
   EXPECT_NEAR(best.joules_per_m, watts / 6.0, 1e-9 * watts);
@@ -106,7 +106,7 @@ TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
 // From rest at 3 m/s^2 the limit of 6 m/s is reached within 6 m: two steps.
 TEST(HorizonSearch, from_rest_takes_what_the_slower_beginning_costs_more) {
   Made one;
-  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  one.search.put_in_force({0.80, 12.0, search_top_hz}, {});
   const double moving = one.choose(6.0).joules_per_m;
   const double standing = one.choose(0.0).joules_per_m;
   const auto j_m = [&](double v_m_s) { return one.search.rotor_power(v_m_s).value() / v_m_s; };
@@ -120,7 +120,7 @@ TEST(HorizonSearch, from_rest_takes_what_the_slower_beginning_costs_more) {
 double refines_at_m(double fine_s) {
   Made one;
   one.set_frames(fine_s, 0.1);
-  one.search.put_in_force({0.80, 12.0, top_hz}, {});
+  one.search.put_in_force({0.80, 12.0, search_top_hz}, {});
   constexpr double gap_m = 48.0;
   constexpr double look_m = 8.0;
   for (double at_m = 0.0; at_m < gap_m; at_m += 1.0) {
@@ -146,7 +146,7 @@ TEST(HorizonSearch, refines_before_a_known_gap_and_no_sooner_than_it_must) {
 TEST(HorizonSearch, weighs_what_lies_farther_on) {
   Made one;
   one.set_frames(0.8, 0.1);
-  one.search.put_in_force({0.15, 12.0, top_hz}, {});
+  one.search.put_in_force({0.15, 12.0, search_top_hz}, {});
   EXPECT_EQ(one.choose(4.0).setting.resolution_m, 0.80);
   for (std::size_t i = 1; i < places; ++i) {
     one.around[i].coarsest_m = 0.15;

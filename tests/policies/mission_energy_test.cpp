@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 using flyball::kit::cruising;
 using flyball::kit::top_hz;
 
-flyball::Observation before_a_door() {
+flyball::Observation near_a_door() {
   flyball::Observation seen = cruising();
   seen.narrowest_gap_m = 0.8;
   seen.gap_distance_m = seen.nearest_obstacle_m = 4.0;
@@ -20,7 +20,7 @@ flyball::Observation before_a_door() {
   return seen;
 }
 
-double wished(const flyball::Decision& decision, const std::string& knob) {
+double rule_wished(const flyball::Decision& decision, const std::string& knob) {
   for (const auto& wish : decision) {
     if (knob == wish.knob) {
       return wish.value;
@@ -30,17 +30,17 @@ double wished(const flyball::Decision& decision, const std::string& knob) {
   return 0.0;
 }
 
-struct Rule {
-  Rule() : started{flyball::start_policy("mission_energy", {})} {}
+struct EnergyRule {
+  EnergyRule() : started{flyball::start_policy("mission_energy", {})} {}
   double wish(const flyball::Observation& seen, const std::string& knob) {
-    return wished(started.policy->decide(seen), knob);
+    return rule_wished(started.policy->decide(seen), knob);
   }
   flyball::StartedPolicy started;
 };
 
 TEST(MissionEnergy, gives_each_plan_in_fine_cells_twice_the_budget_of_the_one_that_failed) {
-  flyball::Observation seen = before_a_door();
-  Rule rule;
+  flyball::Observation seen = near_a_door();
+  EnergyRule rule;
   ASSERT_TRUE(rule.started.status.ok());
   const double full = flyball::conformance_knobs().value("planner.budget");
   EXPECT_EQ(rule.wish(seen, "planner.budget"), full / 4.0);
@@ -53,15 +53,15 @@ TEST(MissionEnergy, gives_each_plan_in_fine_cells_twice_the_budget_of_the_one_th
 }
 
 TEST(MissionEnergy, has_finest_cells_at_the_top_clock_before_a_door) {
-  Rule rule;
-  EXPECT_EQ(rule.wish(before_a_door(), "map.resolution_m"), 0.15);
-  EXPECT_EQ(rule.wish(before_a_door(), "cpu.frequency_hz"), top_hz);
+  EnergyRule rule;
+  EXPECT_EQ(rule.wish(near_a_door(), "map.resolution_m"), 0.15);
+  EXPECT_EQ(rule.wish(near_a_door(), "cpu.frequency_hz"), top_hz);
 }
 
 TEST(MissionEnergy, has_no_large_cells_where_the_mission_is_slow) {
   flyball::Observation seen = cruising();
   seen.speed_limit_m_s = 1.0;
-  EXPECT_LE(Rule{}.wish(seen, "map.resolution_m"), 0.355);
+  EXPECT_LE(EnergyRule{}.wish(seen, "map.resolution_m"), 0.355);
 }
 
 /// A small vehicle, whose computer's watts count, flies on like this for half a minute.
@@ -70,7 +70,7 @@ double clock_hz(double speed_m_s) {
   seen.speed_limit_m_s = 3.0;
   seen.speed_m_s = speed_m_s;
   seen.rotor_power = flyball::Watts{20.0};
-  Rule rule;
+  EnergyRule rule;
   for (int i = 0; i < 120; ++i) {
     seen.now += 250ms;
     ++seen.map_revision;
@@ -88,7 +88,7 @@ TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed
   flyball::Observation seen = cruising();
   seen.speed_limit_m_s = 12.0;
   seen.speed_m_s = 8.0;
-  Rule rule;
+  EnergyRule rule;
   const auto resolution_m = [&] {
     seen.now += 250ms;
     ++seen.map_revision;
@@ -111,8 +111,8 @@ TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed
 
 // A plan that is being made in fine cells must still be true in the map when it comes.
 TEST(MissionEnergy, has_no_larger_cells_than_before_while_it_stands_and_waits_for_a_plan) {
-  flyball::Observation seen = before_a_door();
-  Rule rule;
+  flyball::Observation seen = near_a_door();
+  EnergyRule rule;
   ASSERT_EQ(rule.wish(seen, "map.resolution_m"), 0.15);
   const flyball::MissionTime at_door = seen.now;
   seen = cruising();
@@ -134,7 +134,7 @@ TEST(MissionEnergy, has_no_large_cells_before_a_new_goal_asks_for_a_plan) {
     flyball::Observation seen = cruising();
     seen.phase = phase;
     seen.speed_m_s = 0.0;
-    EXPECT_LE(Rule{}.wish(seen, "map.resolution_m"), 0.355);
+    EXPECT_LE(EnergyRule{}.wish(seen, "map.resolution_m"), 0.355);
   }
 }
 

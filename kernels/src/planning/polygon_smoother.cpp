@@ -20,8 +20,9 @@ namespace {
 
 constexpr double same_point_m = 1e-6;
 // Chosen by hand.
-constexpr int rounds = 6;           // Of smaller cuts; the vehicle stops where all of them collide.
-constexpr double margin_m = 0.002;  // The curve is checked and flown as chords, not the same ones.
+constexpr int rounds = 6;  // Of smaller cuts; the vehicle stops where all of them collide.
+constexpr double chord_margin_m =
+    0.002;  // The curve is checked and flown as chords, not the same ones.
 constexpr double chord_tolerance_m = 0.0005;  // A quarter of that margin.
 constexpr double longest_chord_m = 1.0;
 constexpr double height_tolerance_m = 0.05;  // A bend may leave the polygon's heights by this.
@@ -177,7 +178,7 @@ class Smoothing {
     if (chord.norm() > longest_chord_m || off.norm() > chord_tolerance_m) {
       return is_clear(piece, from_s, middle_s) && is_clear(piece, middle_s, to_s);
     }
-    return !hits(from, to, {body_.radius_m + margin_m, body_.half_height_m + margin_m});
+    return !hits(from, to, {body_.radius_m + chord_margin_m, body_.half_height_m + chord_margin_m});
   }
 
   bool hits(const Vec3& from, const Vec3& to, const Cylinder& body) {

@@ -11,7 +11,7 @@
 namespace flyball {
 namespace {
 
-constexpr int cell_px = 16;
+constexpr int grid_cell_px = 16;
 // Lowe 2004's ratio test, and ORB-SLAM's limits on a difference (TH_HIGH 100, TH_LOW 50; Mur-Artal
 // et al. 2015) between them.
 constexpr int widest_by_place = 70;
@@ -109,13 +109,13 @@ void keep_octave(std::vector<std::size_t>& candidates,
 
 FeatureGrid::FeatureGrid(const std::vector<Feature>& features, const CameraModel& camera)
     : features_{features},
-      columns_{camera.width_px / cell_px + 1},
-      rows_{camera.height_px / cell_px + 1},
+      columns_{camera.width_px / grid_cell_px + 1},
+      rows_{camera.height_px / grid_cell_px + 1},
       cells_(static_cast<std::size_t>(columns_ * rows_)) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (is_inside(camera, features[i].pixel)) {
-      const int column = static_cast<int>(features[i].pixel.x()) / cell_px;
-      const int row = static_cast<int>(features[i].pixel.y()) / cell_px;
+      const int column = static_cast<int>(features[i].pixel.x()) / grid_cell_px;
+      const int row = static_cast<int>(features[i].pixel.y()) / grid_cell_px;
       cells_[place_of(column, row)].push_back(i);
     }
   }
@@ -126,7 +126,7 @@ void FeatureGrid::around(const Eigen::Vector2d& pixel,
                          std::vector<std::size_t>& out) const {
   out.clear();
   const auto cell = [](double at, int end) {
-    return std::clamp(static_cast<int>(std::floor(at / cell_px)), 0, end - 1);
+    return std::clamp(static_cast<int>(std::floor(at / grid_cell_px)), 0, end - 1);
   };
   for (int row = cell(pixel.y() - radius_px, rows_); row <= cell(pixel.y() + radius_px, rows_);
        ++row) {

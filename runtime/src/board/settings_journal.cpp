@@ -15,7 +15,7 @@
 namespace flyball {
 namespace {
 
-constexpr const char* way_out =
+constexpr const char* journal_way_out =
     "; make the folder yours, name another one, or see: flyball board setup --print";
 
 /// From its beginning, without moving what others append.
@@ -78,7 +78,7 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
   const int lock = ::open(lock_path.c_str(), flags, 0660);
   if (lock < 0) {
     const Error error = system_error("the lock " + lock_path + " cannot be opened", errno);
-    return Error{ErrorCode::unavailable, error.message + way_out};
+    return Error{ErrorCode::unavailable, error.message + journal_way_out};
   }
   if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
     const std::string owner = trimmed(content_of(lock));
@@ -93,7 +93,7 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
   if (journal < 0) {
     const Error error = system_error("the journal " + path + " cannot be opened", errno);
     close(lock);
-    return Error{ErrorCode::unavailable, error.message + way_out};
+    return Error{ErrorCode::unavailable, error.message + journal_way_out};
   }
   share_with_group(lock);
   share_with_group(journal);

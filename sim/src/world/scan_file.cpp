@@ -125,7 +125,7 @@ ScanHeader read_header(std::istream& stream) {
   return header;
 }
 
-Error unreadable(const std::string& path, const std::string& why) {
+Error unreadable_scan(const std::string& path, const std::string& why) {
   return {ErrorCode::invalid_input, "map file \"" + path + "\" " + why};
 }
 
@@ -133,7 +133,7 @@ Result<ScanGrid> grid_of(const std::string& path,
                          double resolution_m,
                          const std::vector<Leaf>& leaves) {
   if (leaves.empty()) {
-    return unreadable(path, "is empty");
+    return unreadable_scan(path, "is empty");
   }
   Index low = leaves.front().low;
   Index high = low;
@@ -142,7 +142,8 @@ Result<ScanGrid> grid_of(const std::string& path,
     high = high.cwiseMax(leaf.low + Index::Constant(leaf.size - 1));
   }
   if ((high - low + Index::Ones()).cast<double>().prod() > most_grid_cells) {
-    return unreadable(path, "has an extent of more than 2e8 cells; crop it or use a coarser one");
+    return unreadable_scan(path,
+                           "has an extent of more than 2e8 cells; crop it or use a coarser one");
   }
   ScanGrid grid{resolution_m, low, high};
   for (const Leaf& leaf : leaves) {
@@ -170,17 +171,17 @@ Result<ScanGrid> read_scan(const std::string& path) {
   }
   const ScanHeader header = read_header(stream);
   if (!header.is_octree) {
-    return unreadable(path, "is no OcTree of OctoMap's (.bt or .ot)");
+    return unreadable_scan(path, "is no OcTree of OctoMap's (.bt or .ot)");
   }
   if (!(header.resolution_m >= least_cell_m && header.resolution_m <= widest_cell_m)) {
-    return unreadable(path, "has cells that are not between 0.01 and 10 m");
+    return unreadable_scan(path, "has cells that are not between 0.01 and 10 m");
   }
   TreeReader tree{stream};
   const Index low = Index::Constant(-tree_centre);
   const bool good = header.has_log_odds ? tree.read_log_odds(low, 2 * tree_centre)
                                         : tree.read_states(low, 2 * tree_centre);
   if (!good) {
-    return unreadable(path, "ends early or is damaged");
+    return unreadable_scan(path, "ends early or is damaged");
   }
   return grid_of(path, header.resolution_m, tree.leaves);
 }

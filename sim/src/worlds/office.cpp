@@ -22,8 +22,9 @@ using flyball::Vec3;
 using flyball::WallStretch;
 
 constexpr double start_from_wall_m = 1.5;
-constexpr double lowest_m = 0.5;           // Of the body's centre: over nothing but the floor.
-constexpr double below_ceiling_m = 0.675;  // The body, its tube, and a hand's breadth of air.
+constexpr double office_lowest_m = 0.5;  // Of the body's centre: over nothing but the floor.
+constexpr double office_below_ceiling_m =
+    0.675;  // The body, its tube, and a hand's breadth of air.
 
 /// All at wall centres.
 struct Layout {
@@ -86,8 +87,8 @@ class Office final : public flyball::WorldGenerator {
     world.volume_W = building.extent_W;
     world.volume_W.max.z() = flyball::ceiling_z_m;
     world.bounds_W = world.volume_W;
-    world.bounds_W.min.z() = lowest_m;
-    world.bounds_W.max.z() -= below_ceiling_m;
+    world.bounds_W.min.z() = office_lowest_m;
+    world.bounds_W.max.z() -= office_below_ceiling_m;
     world.zones = {{building.extent_W, given.number("indoor_speed_m_s")}};
     world.cruise_height_m = 1.2;
     return world;

@@ -18,10 +18,10 @@ using flyball::Aabb;
 using flyball::BuildingPlan;
 using flyball::Vec3;
 
-constexpr double half_width_m = 40.0;       // Of the flight area.
+constexpr double area_half_width_m = 40.0;  // Of the flight area.
 constexpr double clear_of_blocks_m = 6.0;   // Around the start and before the facade.
 constexpr double block_height_m = 4.0;      // Above the flight ceiling.
-constexpr double apron_m = 1.5;             // Before the door the vehicle has slowed down.
+constexpr double door_apron_m = 1.5;        // Before the door the vehicle has slowed down.
 constexpr double goal_behind_wall_m = 3.0;  // The goal's room begins this far before it.
 
 class OutdoorToIndoor final : public flyball::WorldGenerator {
@@ -60,11 +60,11 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
     const flyball::Building building = make_building(plan, building_stream);
     world.boxes = building.boxes;
     scatter_blocks(world, plan.facade_x_m, given.number("block_spacing_m"), blocks);
-    const Vec3 around{apron_m, apron_m, apron_m};
+    const Vec3 around{door_apron_m, door_apron_m, door_apron_m};
     world.zones = {{{building.extent_W.min - around, building.extent_W.max + around},
                     given.number("indoor_speed_m_s")}};
-    world.bounds_W = {{-10.0, -half_width_m, 0.9},
-                      {building.extent_W.max.x() + 20.0, half_width_m, 1.7}};
+    world.bounds_W = {{-10.0, -area_half_width_m, 0.9},
+                      {building.extent_W.max.x() + 20.0, area_half_width_m, 1.7}};
     world.cruise_height_m = 1.2;  // Centre of the .8 m cell [.8, 1.6).
     return world;
   }
@@ -89,13 +89,13 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
                              flyball::RandomStream& random) {
     constexpr double margin_m = 1.5;
     const int rows = static_cast<int>(std::ceil(facade_x_m / spacing_m));
-    const int columns = std::max(1, static_cast<int>(2.0 * half_width_m / spacing_m));
-    const double pitch_y_m = 2.0 * half_width_m / columns;
+    const int columns = std::max(1, static_cast<int>(2.0 * area_half_width_m / spacing_m));
+    const double pitch_y_m = 2.0 * area_half_width_m / columns;
     for (int i = 0; i < rows * columns; ++i) {
       const int row = i / columns;
       const int column = i % columns;
       const double x_m = row * spacing_m;
-      const double y_m = -half_width_m + column * pitch_y_m;
+      const double y_m = -area_half_width_m + column * pitch_y_m;
       Vec3 size{0.0, 0.0, block_height_m};
       Vec3 corner = Vec3::Zero();
       size.x() = random.uniform(1.5, 4.0);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double focal_px = 100.0;
 
-MissionTime at(double t_s) {
+MissionTime at_time(double t_s) {
   return MissionTime{from_seconds(t_s)};
 }
 
@@ -25,10 +25,10 @@ std::vector<TrackedPoint> corners(double shift_px, std::uint64_t count = 20) {
 TEST(RestWatch, compares_with_the_same_view_while_nothing_moves) {
   RestWatch watch;
   for (int i = 0; i < 10; ++i) {
-    const auto view = watch.see(corners(0.0), at(0.1 * i), focal_px);
+    const auto view = watch.see(corners(0.0), at_time(0.1 * i), focal_px);
     EXPECT_EQ(view.has_value(), i == 5) << "twice a second";
   }
-  const auto later = watch.see(corners(0.2), at(1.0), focal_px);
+  const auto later = watch.see(corners(0.2), at_time(1.0), focal_px);
   ASSERT_TRUE(later);
   EXPECT_NEAR(later->lasted_s, 1.0, 1e-9) << "since the first one";
   EXPECT_NEAR(later->moved_ray, 0.002, 1e-9);
@@ -37,22 +37,22 @@ TEST(RestWatch, compares_with_the_same_view_while_nothing_moves) {
 
 TEST(RestWatch, begins_anew_after_motion_and_where_the_corners_have_changed) {
   RestWatch watch;
-  (void)watch.see(corners(0.0), at(0.0), focal_px);
-  const auto moved = watch.see(corners(5.0), at(0.5), focal_px);
+  (void)watch.see(corners(0.0), at_time(0.0), focal_px);
+  const auto moved = watch.see(corners(5.0), at_time(0.5), focal_px);
   ASSERT_TRUE(moved);
   EXPECT_NEAR(moved->moved_ray, 0.05, 1e-9);
-  const auto after = watch.see(corners(5.0), at(1.0), focal_px);
+  const auto after = watch.see(corners(5.0), at_time(1.0), focal_px);
   ASSERT_TRUE(after);
   EXPECT_NEAR(after->lasted_s, 0.5, 1e-9);
   EXPECT_NEAR(after->moved_ray, 0.0, 1e-9);
-  EXPECT_FALSE(watch.see(corners(0.0, 3), at(2.0), focal_px)) << "three corners say nothing";
-  EXPECT_FALSE(watch.see(corners(0.0), at(2.4), focal_px)) << "nor is there a view before";
+  EXPECT_FALSE(watch.see(corners(0.0, 3), at_time(2.0), focal_px)) << "three corners say nothing";
+  EXPECT_FALSE(watch.see(corners(0.0), at_time(2.4), focal_px)) << "nor is there a view before";
 }
 
 TEST(Standstill, corrects_speed_tilt_and_biases) {
   InertialFilter filter{{}};
   filter.start(Pose::Identity(), 0.05);
-  const ImuSample felt{at(0.0), Vec3{0.01, 0.0, 0.0}, Vec3{0.0, 0.0, 9.80665}};
+  const ImuSample felt{at_time(0.0), Vec3{0.01, 0.0, 0.0}, Vec3{0.0, 0.0, 9.80665}};
   for (int i = 0; i < 200; ++i) {
     filter.propagate(felt, 0.01, 0.0);
   }
@@ -67,7 +67,7 @@ TEST(Standstill, weighs_a_slow_view_by_what_it_allows_for) {
   InertialFilter filter{{}};
   filter.start(Pose::Identity(), 0.05);
   for (int i = 0; i < 200; ++i) {
-    filter.propagate({at(0.0), Vec3::Zero(), Vec3{0.1, 0.0, 9.80665}}, 0.01, 0.0);
+    filter.propagate({at_time(0.0), Vec3::Zero(), Vec3{0.1, 0.0, 9.80665}}, 0.01, 0.0);
   }
   InertialFilter vague = filter;
   filter.correct(slow(filter, 0.01));

@@ -22,7 +22,7 @@ StepBack after_a_corner() {
   return back;
 }
 
-struct Ride {
+struct BackRide {
   StepBack back{after_a_corner()};
   StepBack::Hover hover{Vec3{2.0, 1.0, 1.5}, 0.0};
   MissionTime now{10s};
@@ -46,7 +46,7 @@ TEST(BlindZone, begins_where_the_camera_sees_a_whole_cell) {
 }
 
 TEST(StepBack, flies_back_along_its_own_track) {
-  Ride ride;
+  BackRide ride;
   ASSERT_TRUE(ride.back.begin(2.0, 0.0));
   ride.tick(300);
   EXPECT_NEAR(ride.hover.p_W.x(), 1.0, 0.1);
@@ -55,7 +55,7 @@ TEST(StepBack, flies_back_along_its_own_track) {
 }
 
 TEST(StepBack, goes_no_farther_than_it_has_come) {
-  Ride ride;
+  BackRide ride;
   ASSERT_TRUE(ride.back.begin(20.0, 0.0));
   ride.tick(1000);
   EXPECT_NEAR(ride.hover.p_W.norm(), 1.5, 1e-9);  // Where it began.
@@ -66,14 +66,14 @@ TEST(StepBack, does_not_begin_without_a_track) {
   EXPECT_FALSE(back.begin(1.0, 0.0));
   back.flew(Vec3::Zero());
   EXPECT_FALSE(back.begin(1.0, 0.0));
-  Ride ride;
+  BackRide ride;
   ride.back.forget();
   EXPECT_FALSE(ride.back.begin(1.0, 0.0));
   EXPECT_FALSE(ride.back.is_active());
 }
 
 TEST(StepBack, ends_with_a_frame_that_was_taken_at_rest) {
-  Ride ride;
+  BackRide ride;
   ASSERT_TRUE(ride.back.begin(1.0, 1.5));
   EXPECT_FALSE(ride.back.has_looked(ride.now + 1h)) << "it has not arrived yet";
   ride.tick(50);

@@ -11,7 +11,7 @@ namespace {
 using kit::GridMap;
 
 const Vec3 start_W{0.0, 0.0, 1.5};
-const Vec3 goal_W{200.0, 0.0, 1.5};
+const Vec3 far_goal_W{200.0, 0.0, 1.5};
 
 /// The first 60 m of a strip, 30 m wide.
 struct Strip {
@@ -23,14 +23,14 @@ struct Strip {
     Site site;
     site.bounds_W = {Vec3{-10.0, -15.0, 1.0}, Vec3{210.0, 15.0, 2.0}};
     const kit::MissionRig rig{map, scenario, site};
-    return sub_goal_W(rig.situation(), start_W, goal_W, failures);
+    return sub_goal_W(rig.situation(), start_W, far_goal_W, failures);
   }
   GridMap map;
 };
 
 TEST(SubGoal, is_the_goal_itself_when_it_is_near_or_no_horizon_is_set) {
-  EXPECT_EQ(Strip{}.place(0.0), goal_W);
-  EXPECT_EQ(Strip{}.place(200.0), goal_W);
+  EXPECT_EQ(Strip{}.place(0.0), far_goal_W);
+  EXPECT_EQ(Strip{}.place(200.0), far_goal_W);
 }
 
 TEST(SubGoal, lies_on_the_straight_line_at_the_horizon) {
@@ -58,7 +58,7 @@ TEST(SubGoal, is_another_place_after_each_failure) {
   for (int failures = 0; failures < 10; ++failures) {
     EXPECT_GT((strip.place(40.0, failures) - strip.place(40.0, failures + 1)).norm(), 1.0);
   }
-  EXPECT_EQ(strip.place(40.0, 1000), goal_W) << "when every place has been tried";
+  EXPECT_EQ(strip.place(40.0, 1000), far_goal_W) << "when every place has been tried";
 }
 
 }  // namespace

@@ -71,6 +71,10 @@ struct Summary {
   }
 };
 
+[[nodiscard]] inline bool has_succeeded(const Summary& flight) {
+  return flight.status == MissionStatus::succeeded;
+}
+
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
 /// {name: {...}}`, `quality {name: number}` and `latency_bounds`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
