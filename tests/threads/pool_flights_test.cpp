@@ -91,9 +91,11 @@ void expect_overlaps(const Flown& flown, const std::vector<std::string>& nodes) 
   }
 }
 
-/// Two rooms on a corridor of 5 m.
+/// Two rooms on a corridor of 5 m, seen ten times a second: a picture is what takes most of the
+/// time.
 Scenario small_office() {
-  return loaded("mapping_office", {"world.rooms_per_side=1", "world.furniture_per_room=1"});
+  return loaded("mapping_office",
+                {"world.rooms_per_side=1", "world.furniture_per_room=1", "camera.rate_hz=10"});
 }
 
 TEST(PoolFlight, delivers_among_trees) {
@@ -151,8 +153,9 @@ TEST(PoolFlight, maps_rooms_by_visual_slam) {
 
 TEST(PoolFlight, searches_a_collapsed_building) {
   const Flown flown = fly_long_enough(
-      loaded("search_collapsed_building", {"world.length_m=9", "world.width_m=6", "world.walls=1",
-                                           "world.slabs=0", "world.rubble=0", "world.hole_m=2"}));
+      loaded("search_collapsed_building",
+             {"world.length_m=9", "world.width_m=6", "world.walls=1", "world.slabs=0",
+              "world.rubble=0", "world.hole_m=2", "camera.rate_hz=10"}));
   expect_overlaps(flown, {"localize", "map", "follow", "detect"});
 }
 
