@@ -63,7 +63,8 @@ TEST(ExchangedDetector, yolo_keeps_a_person_in_view) {
     GTEST_SKIP() << weights.error().message;
   }
   const std::string folder = std::filesystem::path{*weights}.parent_path().string();
-  const auto record = photograph_with({"kernels.detector=yolo", "detector.models_folder=" + folder});
+  const auto record =
+      photograph_with({"kernels.detector=yolo", "detector.models_folder=" + folder});
   ASSERT_TRUE(record) << record.error().message;
   EXPECT_EQ(record->summary.status, MissionStatus::succeeded) << to_string(record->summary.failure);
   EXPECT_GT(record->summary.kernels.at("yolo").calls, 3U);
