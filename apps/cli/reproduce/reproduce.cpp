@@ -65,6 +65,7 @@ Status write_results(const ReproduceRequest& request,
                      const std::vector<ExperimentResult>& results) {
   const std::string& folder = request.batch.folder;
   Status written = write_file(folder + "/claims.csv", claims_csv(results));
+  written = written ? write_file(folder + "/RESULTS.md", experiments_markdown(results)) : written;
   for (const ExperimentResult& result : results) {
     written = written ? write_result(folder, result) : written;
   }
@@ -78,7 +79,8 @@ int show(const ReproduceRequest& request, const ExperimentFlights& flown) {
     return refuse({written.error()});
   }
   print(to_text(results) + "report: " + request.batch.folder +
-        "/reproduce.html, with claims.csv and a folder of CSV files for each experiment\n");
+        "/reproduce.html, with RESULTS.md, claims.csv and a folder of CSV files for each "
+        "experiment\n");
   const bool has_all = std::all_of(results.begin(), results.end(),
                                    [](const auto& result) { return result.trouble.empty(); });
   return has_all ? exit_success : exit_mission_failed;

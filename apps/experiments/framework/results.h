@@ -35,6 +35,9 @@ void evaluate(ExperimentResult& result);
 [[nodiscard]] std::string experiments_page(const std::vector<ExperimentResult>& results,
                                            std::size_t seeds);
 
+/// The same claims, notes and commands as Markdown, without plots: for a page that stays in a tree.
+[[nodiscard]] std::string experiments_markdown(const std::vector<ExperimentResult>& results);
+
 /// `3 reproduced, 1 same trend`; claims without a number of the paper are left out.
 [[nodiscard]] std::string verdict_counts(const Findings& findings);
 /// `0.16` or `at least 4.5 x`; `-` where the paper has none.

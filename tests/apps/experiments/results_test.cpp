@@ -66,6 +66,20 @@ TEST(Results, write_a_row_for_each_claim) {
   EXPECT_NE(csv.find("made,own,kJ,,,7.0,7.0,7.0,0,ours,\n"), std::string::npos) << csv;
 }
 
+TEST(Results, make_a_page_of_markdown_that_stays_a_table_whatever_a_name_holds) {
+  ExperimentResult result = made_result();
+  result.findings.claims.back().what = "own | a\nb";
+  const std::string page = experiments_markdown({result});
+  EXPECT_NE(page.find("Written by `flyball reproduce made`"), std::string::npos) << page;
+  EXPECT_NE(page.find("| time, 2 over 1 | 2 | 1.985 [1.980, 1.990], n 2 | reproduced |  |\n"),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("| own \\| a b | - | 7.00 kJ, computed | ours |  |\n"), std::string::npos)
+      << page;
+  EXPECT_NE(page.find("A note.\n"), std::string::npos);
+  EXPECT_NE(page.find("`flyball sweep made --over 'a=1,2'`\n"), std::string::npos);
+}
+
 TEST(Results, make_a_page_that_says_everything_and_needs_no_network) {
   const std::string page = experiments_page({made_result()}, 2);
   for (const char* part :
