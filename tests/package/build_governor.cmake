@@ -22,7 +22,8 @@ endforeach()
 set(toolchain -G ${generator} -D CMAKE_C_COMPILER=${c_compiler} -D CMAKE_CXX_COMPILER=${compiler}
     -D CMAKE_CXX_COMPILER_LAUNCHER=${launcher})
 run(${CMAKE_COMMAND} -S ${flyball} -B ${folder}/flyball ${toolchain} ${lacking} -D FLYBALL_BUILD_SIM=OFF
-    -D FLYBALL_BUILD_TESTS=OFF -D FLYBALL_BUILD_EXAMPLES=OFF)
+    -D FLYBALL_BUILD_TESTS=OFF -D FLYBALL_BUILD_EXAMPLES=OFF
+    -D CMAKE_UNITY_BUILD=ON)  # Quicker; build_consumer.cmake compiles each file alone.
 run(${CMAKE_COMMAND} --build ${folder}/flyball)
 run(${CMAKE_COMMAND} --install ${folder}/flyball --prefix ${folder}/first)
 # What is installed may be moved.
