@@ -82,10 +82,12 @@ class TomlScan {
     }
   }
 
-  /// toml++ takes a quotation mark within a bare value for a part of it, up to the next blank.
+  /// toml++ takes a quotation mark behind whatever is no mark of TOML's for a part of a bare value,
+  /// up to the next blank.
   void look_at_quoted() {
+    constexpr std::string_view quoted_stands_behind = "\r\n \t=,.[{";
     const char before = at_ == 0 ? '\n' : text_[at_ - 1];
-    if (is_key_character(before) || before == '+') {
+    if (quoted_stands_behind.find(before) == std::string_view::npos) {
       what_ = "a quotation mark stands within a word";
       return;
     }

@@ -38,7 +38,14 @@ TEST(TomlText, finds_quotation_marks_that_toml_plus_plus_takes_for_a_part_of_a_v
   EXPECT_EQ(1, line_of_fault("a = 0y\"½\""));
   EXPECT_EQ(2, line_of_fault("\na = 1.'½'"));
   EXPECT_EQ(1, line_of_fault("a = +'½'"));
-  EXPECT_EQ(0, line_of_fault("a.\"b c\" = 1"));
+  EXPECT_EQ(1, line_of_fault(std::string_view{"a=2\0\"\xef\xbb\xaf\"", 9}));
+  for (const std::string_view text : {"a = \"b\"'½'", "a = ['b']'½'", "a = {}\"½\"", "a = 1$'½'"}) {
+    EXPECT_EQ(1, line_of_fault(text)) << text;
+  }
+  for (const std::string_view text :
+       {"a.\"b c\" = 1", "[\"ä\"]", "a=['b','c']", "a={'b'='c'}\r\n'd'=1", "a = [\n'b'\n]"}) {
+    EXPECT_EQ(0, line_of_fault(text)) << text;
+  }
 }
 
 TEST(TomlText, finds_lists_that_end_as_tables_do) {
