@@ -95,7 +95,7 @@ Status add(const DriftEntry& entry, double at_s, Outcome& outcome) {
                   : record.error();
   }
   ++outcome.flights;
-  outcome.succeeded += picture->summary.status == MissionStatus::succeeded ? 1 : 0;
+  outcome.succeeded += has_succeeded(picture->summary) ? 1 : 0;
   outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
   outcome.energy_j += picture->summary.energy_total_j();
   const DriftCount count =

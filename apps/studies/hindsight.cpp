@@ -114,8 +114,7 @@ bool has_lost(const Candidate& flown, const Candidate& best) {
   }
   std::size_t dearer = 0;
   for (std::size_t i = 0; i < std::min(flown.flights.size(), best.flights.size()); ++i) {
-    const bool both = flown.flights[i].status == MissionStatus::succeeded &&
-                      best.flights[i].status == MissionStatus::succeeded;
+    const bool both = has_succeeded(flown.flights[i]) && has_succeeded(best.flights[i]);
     dearer += both && flown.flights[i].energy_total_j() > clearly * best.flights[i].energy_total_j()
                   ? 1
                   : 0;

@@ -14,7 +14,7 @@ using Flights = std::vector<const Summary*>;
 Flights flights_of(const std::vector<Summary>& all, const std::string& policy) {
   Flights found;
   for (const Summary& flight : all) {
-    if (flight.policy == policy && flight.status == MissionStatus::succeeded) {
+    if (flight.policy == policy && has_succeeded(flight)) {
       found.push_back(&flight);
     }
   }

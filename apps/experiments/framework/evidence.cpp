@@ -19,7 +19,7 @@ Measured measured_of(const std::vector<double>& values) {
 std::map<std::uint64_t, double> by_seed(const Point& point, const FlightFigure& of) {
   std::map<std::uint64_t, double> values;
   for (const Summary* flight : point.flights) {
-    const bool counts = point.counts_failed || flight->status == MissionStatus::succeeded;
+    const bool counts = point.counts_failed || has_succeeded(*flight);
     if (const auto value = counts ? of(*flight) : std::nullopt) {
       values[flight->seed] = *value;
     }
@@ -88,9 +88,9 @@ Measured success_percent(const Point& point) {
   if (point.flights.empty()) {
     return {};
   }
-  const auto succeeded = std::count_if(
-      point.flights.begin(), point.flights.end(),
-      [](const Summary* flight) { return flight->status == MissionStatus::succeeded; });
+  const auto succeeded =
+      std::count_if(point.flights.begin(), point.flights.end(),
+                    [](const Summary* flight) { return has_succeeded(*flight); });
   const auto n = static_cast<double>(point.flights.size());
   const double share = static_cast<double>(succeeded) / n;
   const double below = 1.0 + z * z / n;

@@ -72,7 +72,7 @@ SweepCell cell_of(const Sweep& sweep,
   cell.n = static_cast<int>(flights.size());
   std::map<std::string, std::vector<double>> values;
   for (const Summary* flight : flights) {
-    if (flight->status != MissionStatus::succeeded) {
+    if (!has_succeeded(*flight)) {
       const bool has_reason = flight->failure != MissionFailure::none;
       ++cell.failures[std::string{has_reason ? to_string(flight->failure)
                                              : to_string(flight->status)}];

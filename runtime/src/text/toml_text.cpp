@@ -108,9 +108,29 @@ class TomlScan {
       if (text_[at_] == '\n' && !goes_over_lines) {
         return;
       }
-      at_ += escapes && text_[at_] == '\\' ? 2 : 1;
+      if (escapes && text_[at_] == '\\') {
+        skip_escaped(goes_over_lines);
+      } else {
+        ++at_;
+      }
     }
     at_ = std::min(at_ + mark.size(), text_.size());
+    // `"""a"""""` ends with two marks that belong to the text.
+    constexpr int most_more = 2;
+    for (int more = 0; goes_over_lines && more < most_more && starts_with(mark.substr(0, 1));
+         ++more) {
+      ++at_;
+    }
+  }
+
+  /// A backslash and what it escapes. In a text of several lines these may be blanks and ends of
+  /// lines; toml++ asks whether the letter behind them is one more blank.
+  void skip_escaped(bool goes_over_lines) {
+    const std::size_t next = text_.find_first_not_of(" \t\r\n", at_ + 1);
+    if (goes_over_lines && next != std::string_view::npos && is_outside_of_ascii(text_[next])) {
+      what_ = "letters outside of ASCII must not be the next ones behind a backslash";
+    }
+    at_ += 2;
   }
 
   void skip_blanks() { at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size()); }

@@ -48,6 +48,21 @@ TEST(TomlText, finds_quotation_marks_that_toml_plus_plus_takes_for_a_part_of_a_v
   }
 }
 
+TEST(TomlText, finds_letters_that_toml_plus_plus_takes_for_blanks_behind_a_backslash) {
+  EXPECT_EQ(1, line_of_fault("a = \"\"\"2\\\\\\é\"\"\""));
+  EXPECT_EQ(2, line_of_fault("\na = \"\"\"\\  é\"\"\""));
+  EXPECT_NE(0, line_of_fault("a = \"\"\"one \\\r\n \t\n é\"\"\""));
+  EXPECT_EQ(0, line_of_fault("a = \"\"\"one \\\n two é \\n é \\\\ é\"\"\""));
+  EXPECT_EQ(0, line_of_fault("a = '''\\é'''"));
+}
+
+TEST(TomlText, lets_long_texts_end_with_quotation_marks_of_their_own) {
+  for (const std::string_view text :
+       {"a = \"\"\"x\"\"\"\"", "a = \"\"\"x\"\"\"\"\"", "a = '''x'''''"}) {
+    EXPECT_EQ(0, line_of_fault(text)) << text;
+  }
+}
+
 TEST(TomlText, finds_lists_that_end_as_tables_do) {
   EXPECT_EQ(2, line_of_fault("a = [\n}"));
   EXPECT_EQ(1, line_of_fault("a = {b = [[}"));
