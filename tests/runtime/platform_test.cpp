@@ -80,6 +80,15 @@ TEST(ModeledPlatform, the_memory_clock_rises_in_steps_with_the_cores) {
   EXPECT_NEAR(added_w(2.0e9), 1.24 * 0.4 * 1.9, 1e-12);
 }
 
+TEST(ModeledPlatform, a_price_that_no_mission_could_pay_is_the_longest_time) {
+  PlatformModel dear = model();
+  dear.kernels.find("mapper")->second.seconds_per["rays"] = 1e300;
+  const ModeledPlatform platform{dear};
+  EXPECT_NEAR(to_seconds(platform.job_time("mapper", scan(), Hertz{1e9})), 1e9, 1e-6);
+  dear.kernels.find("mapper")->second.scale = 1e300;
+  EXPECT_NEAR(to_seconds(ModeledPlatform{dear}.job_time("mapper", scan(), Hertz{1e9})), 1e9, 1e-6);
+}
+
 TEST(ModeledPlatformDeathTest, a_count_that_is_no_number_is_a_broken_kernel) {
   const ModeledPlatform platform{model()};
   Work work;

@@ -13,6 +13,15 @@ bool is_key_character(char c) {
          c == '-';
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Ends a bare value, for toml++.
+bool is_terminator(char c) {
+  return std::string_view{" \t\r\n\v\f]},#"}.find(c) != std::string_view::npos;
+}
+
 bool is_outside_of_ascii(char c) {
   return static_cast<unsigned char>(c) >= 0x80U;
 }
@@ -57,6 +66,10 @@ class TomlScan {
       what_ = "letters outside of ASCII must stand in quotes";
       return;
     }
+    if (next == ' ' && is_behind_date() && has_lone_digit(at_ + 1)) {
+      what_ = "a date is followed by a number that is no time";
+      return;
+    }
     if (next == '[' || next == '{') {
       open_ += next;
     } else if (next == '}' && !open_.empty() && open_.back() == '[') {
@@ -66,6 +79,26 @@ class TomlScan {
       open_.pop_back();
     }
     ++at_;
+  }
+
+  /// Whether toml++ takes what ends here for a date: `dddd-dd-dd`, of which it looks at the first
+  /// digit and at the dashes, and leaves out underscores.
+  [[nodiscard]] bool is_behind_date() const {
+    constexpr std::size_t length = 10;
+    constexpr std::size_t year_end = 4;
+    constexpr std::size_t month_end = 7;
+    std::string word;  // Backwards.
+    for (std::size_t i = at_; i > 0 && word.size() < length && !is_terminator(text_[i - 1]); --i) {
+      if (text_[i - 1] != '_') {
+        word += text_[i - 1];
+      }
+    }
+    return word.size() == length && is_digit(word.back()) && word[length - 1 - year_end] == '-' &&
+           word[length - 1 - month_end] == '-';
+  }
+
+  [[nodiscard]] bool has_lone_digit(std::size_t place) const {
+    return place + 1 < text_.size() && is_digit(text_[place]) && is_terminator(text_[place + 1]);
   }
 
   /// `[name]` or `[[name]]`: up to the first character of the name.

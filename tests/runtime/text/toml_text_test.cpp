@@ -63,6 +63,14 @@ TEST(TomlText, lets_long_texts_end_with_quotation_marks_of_their_own) {
   }
 }
 
+TEST(TomlText, finds_dates_behind_which_toml_plus_plus_expects_a_time) {
+  EXPECT_EQ(1, line_of_fault("a = [1979-05-27 3, 4]"));
+  EXPECT_EQ(2, line_of_fault("\na=1_979-05-27 3\n"));
+  EXPECT_EQ(1, line_of_fault("a = [3-e3-e3-ex 3,"));
+  EXPECT_EQ(0,
+            line_of_fault("a = [1979-05-27, 3, 4]\nb = 1979-05-27 07:32:00\nc = 1979-05-27 # 3\n"));
+}
+
 TEST(TomlText, finds_lists_that_end_as_tables_do) {
   EXPECT_EQ(2, line_of_fault("a = [\n}"));
   EXPECT_EQ(1, line_of_fault("a = {b = [[}"));
