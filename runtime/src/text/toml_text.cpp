@@ -7,6 +7,7 @@ namespace flyball {
 namespace {
 
 constexpr std::string_view blanks = " \t";
+constexpr std::string_view marks_of_value = "\"'[{";  // Those that begin one which is not bare.
 
 bool is_key_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -17,9 +18,13 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+bool is_blank(char c) {
+  return std::string_view{" \t\r\n\v\f"}.find(c) != std::string_view::npos;
+}
+
 /// Ends a bare value, for toml++.
 bool is_terminator(char c) {
-  return std::string_view{" \t\r\n\v\f]},#"}.find(c) != std::string_view::npos;
+  return is_blank(c) || std::string_view{"]},#"}.find(c) != std::string_view::npos;
 }
 
 bool is_outside_of_ascii(char c) {
@@ -52,6 +57,9 @@ class TomlScan {
     const char next = text_[at_];
     if (next == '#') {
       at_ = std::min(text_.find('\n', at_), text_.size());
+    } else if (expects_value_ && !is_terminator(next) &&
+               marks_of_value.find(next) == std::string_view::npos) {
+      look_at_bare_value();
     } else if (next == '"' || next == '\'') {
       look_at_quoted();
     } else if (next == '[' && open_.empty() && is_first_of_line()) {
@@ -66,10 +74,6 @@ class TomlScan {
       what_ = "letters outside of ASCII must stand in quotes";
       return;
     }
-    if (next == ' ' && is_behind_date() && has_lone_digit(at_ + 1)) {
-      what_ = "a date is followed by a number that is no time";
-      return;
-    }
     if (next == '[' || next == '{') {
       open_ += next;
     } else if (next == '}' && !open_.empty() && open_.back() == '[') {
@@ -78,7 +82,38 @@ class TomlScan {
     } else if ((next == ']' || next == '}') && !open_.empty()) {
       open_.pop_back();
     }
+    const bool is_in_list = !open_.empty() && open_.back() == '[';
+    if (!is_blank(next) || (next == '\n' && open_.empty())) {
+      expects_value_ = next == '=' || next == '[' || (next == ',' && is_in_list);
+    }
     ++at_;
+  }
+
+  /// A number, a date, a time, `true`, `inf`. toml++ reads on to the next blank or bracket,
+  /// whatever stands before it.
+  void look_at_bare_value() {
+    expects_value_ = false;
+    skip_bare_word();
+    const bool may_have_time =
+        at_ + 1 < text_.size() && text_[at_] == ' ' && is_digit(text_[at_ + 1]);
+    if (what_.empty() && is_behind_date() && may_have_time) {
+      const std::size_t begin = ++at_;
+      skip_bare_word();
+      if (at_ - begin == 1 && what_.empty()) {
+        what_ = "a date is followed by a number that is no time";
+      }
+    }
+  }
+
+  void skip_bare_word() {
+    while (at_ < text_.size() && !is_terminator(text_[at_])) {
+      if (!is_key_character(text_[at_]) &&
+          std::string_view{"+.:"}.find(text_[at_]) == std::string_view::npos) {
+        what_ = "a value that is not quoted holds more than letters, digits and + - . _ :";
+        return;
+      }
+      ++at_;
+    }
   }
 
   /// Whether toml++ takes what ends here for a date: `dddd-dd-dd`, of which it looks at the first
@@ -95,10 +130,6 @@ class TomlScan {
     }
     return word.size() == length && is_digit(word.back()) && word[length - 1 - year_end] == '-' &&
            word[length - 1 - month_end] == '-';
-  }
-
-  [[nodiscard]] bool has_lone_digit(std::size_t place) const {
-    return place + 1 < text_.size() && is_digit(text_[place]) && is_terminator(text_[place + 1]);
   }
 
   /// `[name]` or `[[name]]`: up to the first character of the name.
@@ -124,6 +155,7 @@ class TomlScan {
       what_ = "a quotation mark stands within a word";
       return;
     }
+    expects_value_ = false;
     const std::size_t begin = at_;
     const bool is_long = starts_with("\"\"\"") || starts_with("'''");
     skip_quoted(text_.substr(at_, is_long ? 3 : 1), is_long);
@@ -178,7 +210,8 @@ class TomlScan {
 
   std::string_view text_;
   std::size_t at_{};
-  std::string open_{};  ///< The brackets of lists and of tables in a line that are not closed.
+  std::string open_{};    ///< The brackets of lists and of tables in a line that are not closed.
+  bool expects_value_{};  ///< Behind `=`, or in a list behind `[` or a comma.
   std::string what_{};
 };
 

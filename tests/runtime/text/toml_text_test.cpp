@@ -71,6 +71,20 @@ TEST(TomlText, finds_dates_behind_which_toml_plus_plus_expects_a_time) {
             line_of_fault("a = [1979-05-27, 3, 4]\nb = 1979-05-27 07:32:00\nc = 1979-05-27 # 3\n"));
 }
 
+TEST(TomlText, finds_bare_values_that_no_value_can_be) {
+  EXPECT_EQ(1, line_of_fault("g=0='\xef\xbb\x9f "));
+  EXPECT_EQ(2, line_of_fault("\non_m = 0.U^['ZZ^^\x10_ssc^^^\xef\xb9\xbf"
+                             "32\n"));
+  EXPECT_EQ(1, line_of_fault("a = 1979-05-27 0='é'"));
+  for (const std::string_view text :
+       {"a = [0='é']", "a = [1, 2='é']", "a = [\n1\n,2['é']", "a = {b=1{'é'"}) {
+    EXPECT_NE(0, line_of_fault(text)) << text;
+  }
+  EXPECT_EQ(0, line_of_fault(
+                   "a = -1.5e+3\nb = 0x_fF\nc = true\nd = [+inf, nan,\n 1_000 ]\ne = 07:32:00.5\n"
+                   "f = {g = [1,2], h = 3}\ni.j=4\n'k' = 'é'\n[l]\nm = [{n = 1}, {o = 'é'}]\n"));
+}
+
 TEST(TomlText, finds_lists_that_end_as_tables_do) {
   EXPECT_EQ(2, line_of_fault("a = [\n}"));
   EXPECT_EQ(1, line_of_fault("a = {b = [[}"));
