@@ -18,8 +18,6 @@
 #include <variant>
 #include <vector>
 
-#include <gtest/gtest.h>
-#if __has_include(<Eigen/Core>)  // Not where only the governor's own library is tested.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#endif
+#include <gtest/gtest.h>

@@ -9,13 +9,12 @@ namespace {
 constexpr std::string_view blanks = " \t";
 constexpr std::string_view marks_of_value = "\"'[{";  // Those that begin one which is not bare.
 
-bool is_key_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '-';
-}
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
+}
+
+bool is_key_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_' || c == '-';
 }
 
 bool is_blank(char c) {
