@@ -171,6 +171,21 @@ TEST(FlightController, takes_off_holds_and_lands_softly) {
   EXPECT_LT(flight.position().head<2>().norm(), 0.02);
 }
 
+TEST(FlightController, lands_in_as_much_wind_as_it_can_hover_in) {
+  for (const double wind_m_s : {5.0, 10.0, 13.0}) {
+    Flight flight;
+    flight.wind_W = {wind_m_s, 0.0, 0.0};
+    flight.controller.take_off(flight.state(), 2.0);
+    flight.run(5.0);
+    ASSERT_NEAR(flight.position().z(), 2.0, 0.1) << wind_m_s << " m/s";
+    flight.controller.land(flight.state());
+    flight.run(8.0);
+    EXPECT_EQ(flight.controller.mode(), FlightMode::idle) << wind_m_s << " m/s";
+    EXPECT_LT(flight.state().v_WB.norm(), 0.05) << wind_m_s << " m/s";
+    EXPECT_GT(flight.state().X_WB.linear()(2, 2), 0.999) << wind_m_s << " m/s";  // Upright.
+  }
+}
+
 TEST(FlightController, follows_a_velocity_then_stops_where_hold_says) {
   Flight flight;
   flight.controller.fly_velocity({4.0, 0.0, 0.0}, 0.5);

@@ -199,6 +199,14 @@ std::array<Vec3, 4> Airframe::rotor_points_B() const {
   return {Vec3{l, l, 0.0}, Vec3{l, -l, 0.0}, Vec3{-l, -l, 0.0}, Vec3{-l, l, 0.0}};
 }
 
+std::array<Vec3, 4> Airframe::foot_points_B() const {
+  std::array<Vec3, 4> feet_B = rotor_points_B();
+  for (Vec3& foot_B : feet_B) {
+    foot_B = {0.5 * foot_B.x(), 0.5 * foot_B.y(), -0.5 * body_height_m};
+  }
+  return feet_B;
+}
+
 double Airframe::thrust_per_n2() const {
   return thrust_coefficient * air_density_kg_m3 * std::pow(rotor_diameter_m, 4);
 }

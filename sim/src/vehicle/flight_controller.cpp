@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
@@ -95,7 +96,11 @@ bool FlightController::is_done(const VehicleState& state) const {
 }
 
 double FlightController::feet_height_m(const VehicleState& state) const {
-  return state.X_WB.translation().z() - 0.5 * airframe_.body_height_m - ground_z_m_;
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const Vec3& foot_B : airframe_.foot_points_B()) {
+    lowest_m = std::min(lowest_m, (state.X_WB * foot_B).z());
+  }
+  return lowest_m - ground_z_m_;
 }
 
 void FlightController::climb(double dt_s) {

@@ -25,11 +25,10 @@ SimTK::Vec3 simtk(const Vec3& v) {
 Shape shape_of(const Airframe& airframe, double ground_z_m) {
   Shape shape;
   const auto rotors_B = airframe.rotor_points_B();
+  const auto feet_B = airframe.foot_points_B();
   for (std::size_t i = 0; i < 4; ++i) {
     shape.rotors_B[i] = simtk(rotors_B[i]);
-    // A foot under the middle of each arm, on the lower face of the collision cylinder.
-    shape.feet_B[i] = 0.5 * shape.rotors_B[i];
-    shape.feet_B[i][2] = -0.5 * airframe.body_height_m;
+    shape.feet_B[i] = simtk(feet_B[i]);
   }
   shape.drag_factor = 0.5 * air_density_kg_m3 * airframe.drag_area_m2;
   shape.ground_z_m = ground_z_m;

@@ -44,6 +44,8 @@ struct Airframe {
   [[nodiscard]] Vec3 inertia_kg_m2() const;
   /// Where the rotors' axes stand, in the order of `RotorSpeeds` (X layout, in the body's plane).
   [[nodiscard]] std::array<Vec3, 4> rotor_points_B() const;
+  /// A foot under the middle of each arm, on the lower face of the collision cylinder [m].
+  [[nodiscard]] std::array<Vec3, 4> foot_points_B() const;
   /// Thrust of one rotor over n^2 [N s^2].
   [[nodiscard]] double thrust_per_n2() const;
   /// Reaction torque of one rotor over n^2, P / omega [N m s^2].

@@ -70,6 +70,7 @@ class FlightController {
   [[nodiscard]] Vec3 specific_force(const VehicleState& state, const Setpoint& wanted) const;
   [[nodiscard]] Vec3 torque(const VehicleState& state, const Vec3& force_W) const;
   [[nodiscard]] RotorSpeeds mix(double thrust_n, const Vec3& torque_B) const;
+  /// Of the lowest foot: in wind the vehicle tilts, and comes down on one of them.
   [[nodiscard]] double feet_height_m(const VehicleState& state) const;
 
   Airframe airframe_;
