@@ -9,6 +9,7 @@
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/people/person_finding.h"
 #include "flyball/flight/people/person_search.h"
+#include "flyball/flight/perception/counted_map.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -33,14 +34,16 @@ class SearchAndRescue final : public Workload {
     found_ = graph.topic<Finding>("finding");
     NodeSpec spec;
     spec.name = "mission";
+    spec.cost = map_queries_cost;
     spec.trigger = OnPeriod{100ms, 200ms};
     spec.priority = 35;
     spec.reads = {sightings_.index};
     spec.writes = {found_.index, mission_.progress.index, mission_.end.index};
     flight_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
-      step(job);
-      return Work{};
+      Work asked;
+      step(job, asked);
+      return asked;
     });
   }
 
@@ -54,14 +57,14 @@ class SearchAndRescue final : public Workload {
   }
 
  private:
-  void step(JobContext& job) {
+  void step(JobContext& job, Work& asked) {
     if (is_done_) {
       return;
     }
     while (const auto seen = job.take(sightings_)) {
       look_at(job, *seen);
     }
-    tell_area(job);
+    tell_area(job, asked);
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
       end(job, MissionStatus::failed, MissionFailure::not_found);
@@ -71,16 +74,18 @@ class SearchAndRescue final : public Workload {
   }
 
   /// Somebody who lies there shows in the colour image where the depth image has made space known.
-  void tell_area(JobContext& job) {
+  void tell_area(JobContext& job, Work& asked) {
     const auto revision = job.latest(flight_->perception().map);
     if (!revision || job.now() < next_estimate_) {
       return;
     }
     next_estimate_ = job.now() + searched_area_period;
     const Site& site = brief_->site;
-    tell_progress(job, mission_, ProgressUnit::square_metre,
-                  known_area_m2(*revision->map, site.volume_W,
-                                site.cruise_height_m + site.ground_z_m, square_m));
+    const CountedMap map{*revision->map};
+    tell_progress(
+        job, mission_, ProgressUnit::square_metre,
+        known_area_m2(map, site.volume_W, site.cruise_height_m + site.ground_z_m, square_m));
+    map.add_to(asked);
   }
 
   void end(JobContext& job, MissionStatus status, MissionFailure failure) {

@@ -5,6 +5,10 @@
 //
 //     ninja kernel_costs && bin/kernel_costs
 
+#include "flyball/flight/exploration/known_share.h"
+#include "flyball/flight/governing/surroundings.h"
+#include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/perception/counted_map.h"
 #include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/kernels/mapper.h"
@@ -169,7 +173,8 @@ struct StockTime {
 /// The brick map, frame by frame in turns with stock OctoMap, so that both see the same host. The
 /// prices are in seconds of that host on which stock takes as long as the platform file says: then
 /// the file's scale for stock serves both.
-void measure_flyball(const std::vector<Look>& views, double range_m, const PlatformModel& model) {
+/// @return Those prices over what was measured here.
+double measure_flyball(const std::vector<Look>& views, double range_m, const PlatformModel& model) {
   const std::vector<std::string> names{"frame", "rays", "traversals", "blocks", "updates"};
   StockTime stock;
   stock.prices = model.kernels.at("octomap").seconds_per;
@@ -206,6 +211,7 @@ void measure_flyball(const std::vector<Look>& views, double range_m, const Platf
   const double factor = stock.priced_s / stock.host_s;
   std::printf("flyball: stock by the file's prices took %.2f of its time here\n", factor);
   print_fit("flyball, in seconds of the file's stock", names, samples, factor);
+  return factor;
 }
 
 /// The body's box by stock iterators, as a check by poses does it.
@@ -228,6 +234,54 @@ void measure_body_query(const std::vector<Look>& views, double range_m) {
   });
   std::printf("swept_cylinder: %.0f ns a pose (%d occupied leaves at %d poses)\n",
               1e9 * host_s / poses, occupied, poses);
+}
+
+/// What nodes ask the map beside its kernels, in the brick map of these frames, in seconds of the
+/// host on which stock takes what the platform file says (`factor`, see `measure_flyball`).
+void measure_map_queries(const std::vector<Look>& views, double range_m, double factor) {
+  KernelSettings chosen;
+  chosen.mapper = "flyball";
+  const auto mapper = std::move(make_kernel<Mapper>(Plugins{}, chosen).value());
+  for (const Look& view : views) {
+    (void)mapper->prepare(view.cloud, view.X_WC, {0.15, range_m});
+    mapper->commit();
+  }
+  const CountedMap map{mapper->view()};
+  const auto print_price = [&](const char* name, auto&& ask) {
+    Work before;
+    map.add_to(before);
+    const double host_s = seconds([&] {
+      for (const Look& view : views) {
+        ask(view.X_WC.translation());
+      }
+    });
+    Work after;
+    map.add_to(after);
+    const double count = after.count(name) - before.count(name);
+    std::printf("map_queries: %s %.0f ns, %.0f in each of %zu places\n", name,
+                1e9 * factor * host_s / count, count / static_cast<double>(views.size()),
+                views.size());
+  };
+  const Vec3 ahead_W{50.0, 0.0, 0.0};
+  const Cylinder body{0.36, 0.15};
+  GapScan scan;
+  scan.half_band_m = density_half_band_m;
+  scan.bounds_W = {Vec3::Constant(-1e3), Vec3::Constant(1e3)};
+  print_price("distances",
+              [&](const Vec3& p_W) { (void)gaps_ahead(map, p_W, p_W + ahead_W, scan); });
+  print_price("densities", [&](const Vec3& p_W) {
+    (void)map.obstacle_density(p_W, density_radius_m, density_half_band_m);
+  });
+  print_price("collision_queries", [&](const Vec3& p_W) { (void)headroom_m(p_W, body, map); });
+  print_price("poses", [&](const Vec3& p_W) {
+    for (double x = 0.0; x < range_m; x += 0.075) {
+      (void)map.body_state(p_W + Vec3{x, 0.0, 0.0}, body);
+    }
+  });
+  print_price("cells", [&](const Vec3& p_W) {
+    KnownShare share{{p_W - Vec3{0.0, 5.0, 1.0}, p_W + Vec3{10.0, 5.0, 2.0}}, 0.15};
+    (void)share.percent(map);
+  });
 }
 
 /// What visual SLAM took for frames whose work is known.
@@ -283,7 +337,9 @@ int main() {
   const std::vector<Look> views = look_around(scenario, setup->things.world);
   measure_octomap(views, scenario.map.range_m);
   const auto file = find_shipped("platforms", scenario.platform.name);
-  measure_flyball(views, scenario.map.range_m, load_platform(file.value()).value());
+  const double factor =
+      measure_flyball(views, scenario.map.range_m, load_platform(file.value()).value());
+  measure_map_queries(views, scenario.map.range_m, factor);
   measure_body_query(views, scenario.map.range_m);
   measure_slam(scenario, setup->things.world);
   return 0;

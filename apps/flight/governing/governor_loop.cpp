@@ -3,6 +3,7 @@
 
 #include "flyball/flight/governing/surroundings.h"
 #include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/perception/counted_map.h"
 #include "flyball/runtime/observation_fields.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ constexpr std::array<std::pair<const char*, Stage>, 8> stage_names{
      {"see", Stage::localize},
      {"slam_load", Stage::localize},
      {"explore", Stage::explore}}};
-constexpr int govern_priority = 90;  // It takes no time on the modeled computer.
+constexpr int govern_priority = 90;  // The decision itself takes no time on the modeled computer.
 
 }  // namespace
 
@@ -69,7 +70,7 @@ void GovernorLoop::note_event(JobContext& job, const std::string& what) {
   note(job, "event", {{"what", what}});
 }
 
-void GovernorLoop::tick(JobContext& job) {
+Work GovernorLoop::tick(JobContext& job) {
   // When the decision is due, which is when it begins on a modeled computer, and a little earlier
   // on a real one: so the record says when each one was made.
   const MissionTime now = job.released();
@@ -82,14 +83,16 @@ void GovernorLoop::tick(JobContext& job) {
   due_ = now + inputs_.period;
   observe_computer(now);
   const bool looks = now >= next_look_;
+  Work asked;
   if (looks) {
     next_look_ = now + from_seconds(parts_.brief->settings.governor.period_s);
-    look_around(job);
+    look_around(job, asked);
   }
   record(job, looks);
   decide(job);
   record_bounds(job);
   publish_knobs(job);
+  return asked;
 }
 
 void GovernorLoop::decide(JobContext& job) {
@@ -152,7 +155,7 @@ GovernorLoop::Surroundings GovernorLoop::newest(JobContext& job) const {
           inputs_.map ? job.latest(*inputs_.map) : nullptr};
 }
 
-void GovernorLoop::look_around(JobContext& job) {
+void GovernorLoop::look_around(JobContext& job, Work& asked) {
   const auto state = job.latest(parts_.mission.state);
   seen_.phase = state ? state->phase : MissionPhase::wait;
   observe_progress(job);
@@ -164,7 +167,9 @@ void GovernorLoop::look_around(JobContext& job) {
     seen_.map_resolution_m = map->map->resolution_m();
   }
   if (navigator && map) {
-    observe_map(*navigator, *map->map);
+    const CountedMap counted{*map->map};
+    observe_map(*navigator, counted);
+    counted.add_to(asked);
     if (inputs_.future != nullptr) {
       governor_.foretell(inputs_.future->look(*navigator, {*parts_.brief, knobs_, *map->map}));
     }
@@ -339,6 +344,7 @@ void add_governor(Graph& graph,
                   std::shared_ptr<GovernorLoop> loop) {
   NodeSpec spec;
   spec.name = "govern";
+  spec.cost = map_queries_cost;
   spec.trigger = OnPeriod{inputs.period, Duration{}};
   spec.priority = govern_priority;
   spec.reads = {parts.mission.state.index, parts.mission.progress.index};
@@ -350,10 +356,8 @@ void add_governor(Graph& graph,
   }
   spec.writes = {parts.mission.knobs.index};
   declare_log(spec, parts.mission);
-  graph.node(std::move(spec), [loop = std::move(loop)](JobContext& job) {
-    loop->tick(job);
-    return Work{};
-  });
+  graph.node(std::move(spec),
+             [loop = std::move(loop)](JobContext& job) { return loop->tick(job); });
 }
 
 }  // namespace flyball

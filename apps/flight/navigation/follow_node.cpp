@@ -24,13 +24,13 @@ class Follow {
 
   Work operator()(JobContext& job) {
     Work work;
-    work.add("ticks", 1.0);
     const auto knobs = job.latest(mission().knobs);
     if (knobs) {
       navigator_.set_knobs(job.now(), knobs);
       hear(job);
-      speak(job);
+      work = speak(job);
     }
+    work.add("ticks", 1.0);
     return work;
   }
 
@@ -57,7 +57,8 @@ class Follow {
     return counts ? where->search : std::nullopt;
   }
 
-  void speak(JobContext& job) {
+  /// @return What was asked of the map.
+  Work speak(JobContext& job) {
     if (const auto pose = job.latest(node_.localization.pose)) {
       job.publish(node_.parts.vehicle.setpoint,
                   navigator_.tick(job.now(), tick_period, *pose, search(job)));
@@ -65,8 +66,10 @@ class Follow {
     if (auto query = navigator_.next_query(job.now())) {
       job.publish(node_.topics.plan.request, std::move(*query));
     }
-    tell(job, navigator_.news());
+    const NavigatorNews news = navigator_.news();
+    tell(job, news);
     job.publish(node_.topics.guidance.state, navigator_.state());
+    return news.asked;
   }
 
   void tell(JobContext& job, const NavigatorNews& news) {

@@ -5,6 +5,7 @@
 #include "flyball/flight/navigation/follow_node.h"
 #include "flyball/flight/navigation/plan_with_tubes.h"
 #include "flyball/flight/navigation/sub_goal.h"
+#include "flyball/flight/perception/counted_map.h"
 
 #include <functional>
 #include <utility>
@@ -48,31 +49,36 @@ void add_check(Graph& graph,
       checker->apply(knobs->knobs);
       clearance.blocked_at_m =
           checker->check(*revision->map, span, brief->narrow_body(), work).blocked_at_m;
-      clearance.free_until_m =
-          known_free_until_m(*revision->map, path, navigator->s_m, *brief, *knobs);
+      const CountedMap map{*revision->map};
+      clearance.free_until_m = known_free_until_m(map, path, navigator->s_m, *brief, *knobs);
+      map.add_to(work);
     }
     job.publish(*topics.clearance, std::move(clearance));
     return work;
   });
 }
 
-/// The answer to one query, and what it cost.
+/// The answer to one query, and what it cost: the search, and what else the map was asked.
 PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery query, Work& work) {
+  const CountedMap map{situation.map};
   PlanAnswer answer;
   answer.id = query.id;
   answer.start_direction_W = query.start_direction_W;
   answer.lead_in_W = query.lead_in_W;
   if (query.known) {
     answer.body = query.known->body;
-    answer.waypoints_W = joined_to(query.start_W, *query.known, situation.map);
+    answer.waypoints_W = joined_to(query.start_W, *query.known, map);
+    map.add_to(work);
     return answer;
   }
-  query.goal_W = sub_goal_W(situation, query.start_W, query.goal_W, query.failures);
+  query.goal_W = sub_goal_W({situation.brief, situation.knobs, map}, query.start_W, query.goal_W,
+                            query.failures);
   Plan plan = plan_with_tubes(situation, planner, query, answer.body);
   answer.failure = plan.failure;
   answer.iterations = plan.work.count("iterations");
   answer.waypoints_W = std::move(plan.waypoints_W);
   work = plan.work;
+  map.add_to(work);
   return answer;
 }
 

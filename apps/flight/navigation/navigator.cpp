@@ -2,6 +2,7 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "flyball/flight/navigation/step_aside.h"
+#include "flyball/flight/perception/counted_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,9 @@ void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
 
 void Navigator::refresh_known_free() {
   if (map_) {
-    follower_.refresh_known_free(*map_);
+    const CountedMap map{*map_};
+    follower_.refresh_known_free(map);
+    map.add_to(news_.asked);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "flyball/flight/navigation/gap_scan.h"
 #include "flyball/flight/navigation/plan_race.h"
+#include "flyball/flight/perception/counted_map.h"
 #include "flyball/runtime/random.h"
 
 #include <algorithm>
@@ -74,13 +75,16 @@ class Search {
            try_with(situation_.brief.narrow_body(), budget - tried);
   }
 
-  [[nodiscard]] double narrowest_opening_m() const {
+  [[nodiscard]] double narrowest_opening_m() {
     GapScan scan;
     scan.reach_m = (request_.goal_W - request_.start_W).norm();
     scan.aside_m = aside_m;
     scan.half_band_m = half_band_m;
     scan.bounds_W = situation_.brief.site.bounds_W;
-    return gaps_ahead(situation_.map, request_.start_W, request_.goal_W, scan).narrowest_m;
+    const CountedMap map{situation_.map};
+    const GapsAhead gaps = gaps_ahead(map, request_.start_W, request_.goal_W, scan);
+    map.add_to(work_);
+    return gaps.narrowest_m;
   }
 
   void look_for_shorter() {

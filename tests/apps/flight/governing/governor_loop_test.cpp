@@ -91,6 +91,18 @@ TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_ow
   EXPECT_GE(record.summary.knob_changes, 2U);
 }
 
+TEST(GovernorLoop, what_it_asks_the_map_takes_time_and_the_decision_none) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.policy = "ondemand_10ms";  // Decides a hundred times between two looks.
+  const MissionRecord record = kit::flown(scenario);
+  const KernelStatistics& asked = record.summary.kernels.at("map_queries");
+  const double looks = record.summary.mission_time_s / scenario.governor.period_s;
+  EXPECT_LE(static_cast<double>(asked.calls), looks + 1.0);
+  EXPECT_GT(static_cast<double>(asked.calls), 0.5 * looks);  // No map before take-off.
+  EXPECT_GT(asked.mission_ms_mean, 0.5);
+  EXPECT_LT(asked.mission_ms_mean, 50.0);
+}
+
 TEST(GovernorLoop, the_computer_runs_at_the_clock_that_was_wished) {
   Scenario scenario = kit::short_delivery();
   scenario.governor.policy = "performance";

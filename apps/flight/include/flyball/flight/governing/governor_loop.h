@@ -13,6 +13,7 @@
 #include "flyball/governors/foresight.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
+#include "flyball/runtime/work.h"
 
 #include <array>
 #include <memory>
@@ -64,7 +65,8 @@ class GovernorLoop {
 
   /// Makes one decision. The surroundings are observed once in each `governor.period_s`, the
   /// computer every time.
-  void tick(JobContext& job);
+  /// @return What was asked of the map.
+  Work tick(JobContext& job);
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
   /// Host time of each decision; nothing in the mission depends on it.
   [[nodiscard]] const std::vector<double>& decision_host_us() const { return decision_host_us_; }
@@ -85,7 +87,7 @@ class GovernorLoop {
     std::shared_ptr<const MapRevision> map{};
   };
   [[nodiscard]] Surroundings newest(JobContext& job) const;
-  void look_around(JobContext& job);
+  void look_around(JobContext& job, Work& asked);
   void observe_flight(const NavigatorState& navigator);
   void observe_map(const NavigatorState& navigator, const OccupancyView& map);
   void observe_gaps(const NavigatorState& navigator, const OccupancyView& map);

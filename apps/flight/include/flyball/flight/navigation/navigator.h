@@ -15,6 +15,7 @@
 #include "flyball/flight/navigation/step_back.h"
 #include "flyball/flight/perception/clear_space.h"
 #include "flyball/kernels/path_tracker.h"
+#include "flyball/runtime/work.h"
 
 #include <memory>
 #include <string>
@@ -27,6 +28,7 @@ struct NavigatorNews {
   std::vector<std::string> events{};
   std::vector<ClearSpace> clear{};
   std::optional<MapUse> map_use{};
+  Work asked{};     ///< Of the map: see `CountedMap`.
   bool gives_up{};  ///< It has stood without a path for too long.
 };
 
