@@ -236,6 +236,17 @@ void measure_body_query(const std::vector<Look>& views, double range_m) {
               1e9 * host_s / poses, occupied, poses);
 }
 
+/// What one question of a kind takes that `ask` puts to the map at each place.
+template <class Ask>
+void print_price(const char* name, const OccupancyView& view, double factor, Ask&& ask) {
+  const CountedMap map{view};
+  const double host_s = seconds([&] { ask(map); });
+  Work work;
+  map.add_to(work);
+  std::printf("map_queries: %s %.0f ns, %.0f of them\n", name,
+              1e9 * factor * host_s / work.count(name), work.count(name));
+}
+
 /// What nodes ask the map beside its kernels, in the brick map of these frames, in seconds of the
 /// host on which stock takes what the platform file says (`factor`, see `measure_flyball`).
 void measure_map_queries(const std::vector<Look>& views, double range_m, double factor) {
@@ -246,39 +257,26 @@ void measure_map_queries(const std::vector<Look>& views, double range_m, double 
     (void)mapper->prepare(view.cloud, view.X_WC, {0.15, range_m});
     mapper->commit();
   }
-  const CountedMap map{mapper->view()};
-  const auto print_price = [&](const char* name, auto&& ask) {
-    Work before;
-    map.add_to(before);
-    const double host_s = seconds([&] {
+  const auto print_at_places = [&](const char* name, auto&& ask) {
+    print_price(name, mapper->view(), factor, [&](const OccupancyView& map) {
       for (const Look& view : views) {
-        ask(view.X_WC.translation());
+        ask(map, view.X_WC.translation());
       }
     });
-    Work after;
-    map.add_to(after);
-    const double count = after.count(name) - before.count(name);
-    std::printf("map_queries: %s %.0f ns, %.0f in each of %zu places\n", name,
-                1e9 * factor * host_s / count, count / static_cast<double>(views.size()),
-                views.size());
   };
-  const Vec3 ahead_W{50.0, 0.0, 0.0};
-  const Cylinder body{0.36, 0.15};
   GapScan scan;
   scan.half_band_m = density_half_band_m;
   scan.bounds_W = {Vec3::Constant(-1e3), Vec3::Constant(1e3)};
-  print_price("distances",
-              [&](const Vec3& p_W) { (void)gaps_ahead(map, p_W, p_W + ahead_W, scan); });
-  print_price("densities", [&](const Vec3& p_W) {
+  print_at_places("distances", [&](const OccupancyView& map, const Vec3& p_W) {
+    (void)gaps_ahead(map, p_W, p_W + Vec3{50.0, 0.0, 0.0}, scan);
+  });
+  print_at_places("densities", [](const OccupancyView& map, const Vec3& p_W) {
     (void)map.obstacle_density(p_W, density_radius_m, density_half_band_m);
   });
-  print_price("collision_queries", [&](const Vec3& p_W) { (void)headroom_m(p_W, body, map); });
-  print_price("poses", [&](const Vec3& p_W) {
-    for (double x = 0.0; x < range_m; x += 0.075) {
-      (void)map.body_state(p_W + Vec3{x, 0.0, 0.0}, body);
-    }
+  print_at_places("collision_queries", [](const OccupancyView& map, const Vec3& p_W) {
+    (void)headroom_m(p_W, {0.36, 0.15}, map);
   });
-  print_price("cells", [&](const Vec3& p_W) {
+  print_at_places("cells", [](const OccupancyView& map, const Vec3& p_W) {
     KnownShare share{{p_W - Vec3{0.0, 5.0, 1.0}, p_W + Vec3{10.0, 5.0, 2.0}}, 0.15};
     (void)share.percent(map);
   });
