@@ -96,8 +96,8 @@ PathWidth narrowest_on(const OccupancyView& map, const PathSpan& span, double ha
       continue;  // Straight up or down.
     }
     const Vec3 aside_W = left_W.normalized();
-    const double width_m = 2.0 * std::min(free_aside_m(map, here.p_W, aside_W, half_band_m),
-                                          free_aside_m(map, here.p_W, -aside_W, half_band_m));
+    const double width_m = free_aside_m(map, here.p_W, aside_W, half_band_m) +
+                           free_aside_m(map, here.p_W, -aside_W, half_band_m);
     if (width_m < narrowest.width_m) {
       narrowest = {width_m, ahead_m};
     }

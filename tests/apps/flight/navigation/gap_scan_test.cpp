@@ -94,11 +94,11 @@ TEST(PathWidth, is_that_of_the_gap_on_the_path_whatever_is_open_beside_it) {
   EXPECT_EQ(gaps_ahead(map, here_W, goal_W, within_bounds()).narrowest_m > 6.0, true);
 }
 
-TEST(PathWidth, counts_the_nearer_side_only) {
+TEST(PathWidth, is_not_narrow_beside_a_single_obstacle) {
   kit::GridMap map = open_space();
   map.fill({{3.0, 0.8, 0.0}, {6.0, 3.0, 3.0}}, CellState::occupied);
   const Path path = Path::polyline({here_W, Vec3{10.0, 0.0, 1.5}});
-  EXPECT_NEAR(width_on(map, path).width_m, 1.6, 0.1);
+  EXPECT_NEAR(width_on(map, path).width_m, 0.8 + 3.0, 0.1);
 }
 
 TEST(PathWidth, looks_no_farther_than_the_path_or_its_span_reaches) {

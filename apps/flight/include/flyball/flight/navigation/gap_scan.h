@@ -36,12 +36,13 @@ struct GapScan {
 
 /// A place on a path, and how wide the passage is there.
 struct PathWidth {
-  double width_m{};  ///< Twice the distance to the nearer side.
+  double width_m{};  ///< From side to side.
   double at_m{};     ///< Arc length from the beginning of the span.
 };
 
 /// The narrowest place of a path. The width is measured horizontally and perpendicular to the path,
-/// up to 3 m to each side; a path without obstacles within 3 m has no narrow place. Unlike
+/// up to 3 m to each side; a path without obstacles within 3 m has no narrow place. A path beside a
+/// single obstacle is not narrow: in larger cells, which would block it, another one leads by. Unlike
 /// `gaps_ahead` this measures the gap that the path really passes, and ignores other openings that
 /// may only seem open because they have not been observed yet.
 /// @pre The path is not empty.
