@@ -15,11 +15,10 @@ struct Part {
   const char* name;
 };
 
-constexpr std::array<Part, 6> parts{{
+constexpr std::array<Part, 5> parts{{
     {"mission_energy_without_resolution", "resolution"},
     {"mission_energy_without_range", "range"},
     {"mission_energy_without_clock", "clock"},
-    {"mission_energy_without_latency_bound", "bound on latency"},
     {"mission_energy_without_gaps", "sight of narrow places"},
     {"mission_energy_without_declared_zones", "declared zones"},
 }};

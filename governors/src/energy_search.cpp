@@ -56,7 +56,7 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   });
   search.estimates_.resize(search.points_.size());
   for (std::size_t point = 0; point < search.points_.size(); ++point) {
-    search.expected_s_.push_back(search.estimate(search.setting(point), {}).response_s);
+    search.expected_s_.push_back(search.latest_s(search.setting(point)));
   }
   return search;
 }
@@ -194,18 +194,24 @@ std::vector<LevelBounds> EnergySearch::bound_levels() const {
   return levels;
 }
 
+// The next map takes about as long as this one did, and begins with the next frame at the earliest.
+double EnergySearch::response_s(double latency_s) const {
+  return latency_s + std::max(latency_s, settings_.frame_s) + settings_.reaction_s;
+}
+
+double EnergySearch::latest_s(const MapSetting& setting) const {
+  return response_s(predicted_s(setting) * bound_.tracker(level(setting.resolution_m)).factor());
+}
+
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
   const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
                                                         : settings_.deceleration_m_s2};
   const std::size_t at_level = level(setting.resolution_m);
   const double hover_w = rotors_.power(0.0).value();
   const double latency_s = predicted_s(setting);
-  const double bound_s = latency_s * bound_.tracker(at_level).factor();
   EnergyEstimate best;
   best.setting = setting;
-  // The next map takes about as long as this one did, and begins with the next frame at the
-  // earliest.
-  best.response_s = bound_s + std::max(bound_s, settings_.frame_s) + settings_.reaction_s;
+  best.response_s = response_s(latency_s);
   const double distance_m = free_ahead_m(settings_, setting, around.visibility_m);
   const double safe_m_s = limit.speed_m_s(best.response_s, distance_m);
   best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
@@ -251,7 +257,7 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
     }
     estimated = estimate(candidate, around);
     estimated.joules_per_m *= around.waits.delay(candidate.clock_hz, most_clock_hz_);
-    if (std::max(estimated.response_s, expected_s_[point]) > around.most_response_s) {
+    if (std::max(latest_s(candidate), expected_s_[point]) > around.most_response_s) {
       estimated.joules_per_m *= too_slow;
     }
     least_j = std::min(least_j, estimated.joules_per_m);

@@ -31,7 +31,6 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"resolution", Part::resolution},
       {"range", Part::range},
       {"clock", Part::clock},
-      {"latency_bound", Part::latency_bound, "margin", 1.0},          // The prediction itself.
       {"latency_learning", Part::latency_learning, "learn_s", 1e-9},  // Over before it begins.
       {"gaps", Part::gaps},
       {"visibility", Part::visibility},

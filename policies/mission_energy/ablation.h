@@ -46,7 +46,6 @@ class Ablation {
     resolution,
     range,
     clock,
-    latency_bound,
     latency_learning,
     gaps,
     visibility,

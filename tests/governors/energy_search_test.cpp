@@ -185,9 +185,38 @@ TEST(EnergySearch, learns_that_the_computer_is_slower_than_was_said) {
   }
   const EnergyEstimate after = one.estimate(one.in_force(), open_space());
   EXPECT_LT(after.speed_m_s, before_m_s);
-  // Twice a latency of .6 s within its margin, and .14 s.
+  // Twice a latency of .6 s, and .14 s.
   EXPECT_GT(after.response_s, 1.2);
   EXPECT_LT(after.response_s, 2.2);
+}
+
+EnergySearch search_with(const EnergySearchSettings& settings) {
+  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
+                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
+  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs(), power());
+}
+
+EnergySearch search_bounded_by(double factor) {
+  EnergySearchSettings settings;
+  settings.bound.first = std::log(factor);
+  return search_with(settings);
+}
+
+TEST(EnergySearch, compares_by_the_predicted_latency_and_not_by_its_bound) {
+  EnergySearch narrow = search_bounded_by(1.0);
+  EnergySearch wide = search_bounded_by(4.0);
+  const EnergyEstimate one = narrow.choose(open_space(), {});
+  const EnergyEstimate other = wide.choose(open_space(), {});
+  EXPECT_EQ(one.setting, other.setting);
+  EXPECT_EQ(one.response_s, other.response_s);
+  EXPECT_EQ(one.joules_per_m, other.joules_per_m);
+}
+
+TEST(EnergySearch, leaves_out_what_may_be_later_than_is_allowed) {
+  Surroundings around = open_space();
+  around.most_response_s = 4.0;  // The coarse cells take .10 s at 7 m and .17 s at 12 m, twice.
+  EXPECT_EQ(search_bounded_by(1.0).choose(around, {}).setting.range_m, 12.0);
+  EXPECT_EQ(search_bounded_by(15.0).choose(around, {}).setting.range_m, 7.0);
 }
 
 TEST(EnergySearch, does_not_learn_from_a_frame_of_the_setting_before) {
@@ -255,12 +284,6 @@ TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
   }
   EXPECT_EQ(one.bounds().issued, before.issued + 1);
   EXPECT_EQ(one.bounds().late, before.late + 1);
-}
-
-EnergySearch search_with(const EnergySearchSettings& settings) {
-  const std::vector<SearchLevel> levels{{0.15, 0.5, 2.2, 25.0, 7.0, top_hz},
-                                        {0.80, 0.1, 1.0, 25.0, 7.0, top_hz}};
-  return *EnergySearch::make(settings, levels, {7.0, 12.0}, knobs(), power());
 }
 
 TEST(EnergySearch, takes_the_finest_cells_where_they_cost_nothing_and_are_preferred) {

@@ -58,9 +58,9 @@ struct Surroundings {
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   /// How far the camera can see before the world, not the range, ends the view.
   double visibility_m{};
-  /// No setting whose response is longer may be chosen if there is one with a shorter response.
-  /// Both the learned response and the one that was expected before the flight count, because walls
-  /// end most rays in a room, but not in the open space behind the next door.
+  /// No setting whose response may be longer is chosen if there is one with a shorter response.
+  /// Here the bound on latency counts, both as learned and as it was before the flight, because
+  /// walls end most rays in a room, but not in the open space behind the next door.
   double most_response_s{1e9};
   double coarsest_m{};  ///< The largest cells with which the path ahead is passable.
   /// For each level, finest first: how many plans fail in its cells per metre of path, because they
@@ -75,7 +75,7 @@ struct Surroundings {
 /// A setting with what is expected of it.
 struct EnergyEstimate {
   MapSetting setting{};
-  double response_s{};  ///< delta of eq. 2: bounds on latency and interval, and t_b.
+  double response_s{};  ///< delta of eq. 2: predicted latency and interval, and t_b.
   double speed_m_s{};
   double joules_per_m{};      ///< With the share of switching.
   double watts_per_second{};  ///< What one second of latency costs; 0 where it limits nothing.
@@ -86,8 +86,10 @@ struct EnergyEstimate {
 ///     J = (P_rotor(v) + P_computer) / v * l + switching / max(horizon, d) + failed plans
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
-/// Here v is the speed of MAVBench's eq. 2 for the calibrated bound on latency, and d is the
-/// distance that the camera shows; nothing is assumed about the world beyond it. l is the length of
+/// Here v is the speed of MAVBench's eq. 2 for the predicted latency, and d is the distance that
+/// the camera shows; nothing is assumed about the world beyond it. The calibrated bound does not
+/// count here: it is for single maps, while energy adds up over all of them. With the bound in
+/// place of the prediction, the search took cells that were too large. l is the length of
 /// the path over that of the straight line: an obstacle of half width w that comes into view s
 /// ahead makes the path longer by sqrt(s^2 + w^2) - s, and by the cell that its border fills. So
 /// small cells and a long range are worth something even where the mission, not latency, limits the
@@ -152,6 +154,9 @@ class EnergySearch {
   [[nodiscard]] std::size_t level(double resolution_m) const;
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
+  [[nodiscard]] double response_s(double latency_s) const;
+  /// The response if the next map is as late as it is bounded to be.
+  [[nodiscard]] double latest_s(const MapSetting& setting) const;
   void note_clock(const Observation& seen);
   [[nodiscard]] Hertz mean_clock() const;
   void learn_latency(const Observation& seen);
