@@ -6,6 +6,7 @@
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
+#include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using flyball::Observation;
 class GapSwitch final : public flyball::Policy {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    return {{"fine_m", 0.15, 0.05, 2.0, "Smallest cells; the other levels are 2, 4, 8 times that."},
+    return {{"fine_m", 0.0, 0.0, 2.0, "Smallest cells; 0: the mapper's finest, or .15 m."},
             // 1.2 m, the fourth level, blocks starts that lie near the ground or below a ceiling.
             {"levels", 3.0, 2.0, 4.0, "Number of levels."},
             // The first two are those of the preset two_level_tuned, where the command stands. The
@@ -45,8 +46,11 @@ class GapSwitch final : public flyball::Policy {
         !status) {
       return status;
     }
-    for (std::size_t i = 0; i < cells_m_.size(); ++i) {
-      cells_m_[i] = given.number("fine_m") * std::pow(2.0, static_cast<double>(i));
+    // The other levels are 2, 4 and 8 times as large.
+    cells_m_.front() =
+        flyball::smallest_cells_m(*knobs.spec("map.resolution_m"), given.number("fine_m"));
+    for (std::size_t i = 1; i < cells_m_.size(); ++i) {
+      cells_m_[i] = 2.0 * cells_m_[i - 1];
     }
     ranges_m_ = {given.number("range_m"), given.number("range_2_m"), given.number("range_3_m"),
                  given.number("range_4_m")};

@@ -29,6 +29,14 @@ std::vector<SearchLevel> levels_between(const std::vector<double>& resolutions_m
   return levels;
 }
 
+double smallest_cells_m(const KnobSpec& resolution, double given_m) {
+  constexpr double usual_m = 0.15;  // MAVBench's fine cells.
+  if (given_m > 0.0) {
+    return resolution.nearest(given_m);
+  }
+  return resolution.legal.empty() ? usual_m : resolution.legal.front();
+}
+
 std::vector<double> ranges_between(double least_m, double most_m) {
   FLYBALL_ASSERT(least_m > 0.0 && least_m < most_m, "%g m to %g m", least_m, most_m);
   constexpr int steps = 4;

@@ -32,7 +32,7 @@ std::vector<double> levels_of(const Parameters& given,
   const bool is_lattice = !resolution.legal.empty();
   const double given_m = given.number("coarse_m");
   const double coarsest_m = is_lattice ? above_ground_m(resolution.legal, vehicle) : usual_coarse_m;
-  const double fine_m = resolution.nearest(given.number("fine_m"));
+  const double fine_m = smallest_cells_m(resolution, given.number("fine_m"));
   const double coarse_m = resolution.nearest(given_m > 0.0 ? given_m : coarsest_m);
   if (!is_lattice || fine_m >= coarse_m) {
     return {fine_m, coarse_m};
@@ -47,7 +47,7 @@ std::vector<double> levels_of(const Parameters& given,
 
 std::vector<ParameterSpec> MissionLimits::parameters() {
   return {
-      {"fine_m", 0.15, 0.05, 2.0, "Resolution that passes every gap of the mission."},
+      {"fine_m", 0.0, 0.0, 2.0, "Cells that pass every gap; 0: the mapper's finest, or .15 m."},
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: the mapper's coarsest clear of the ground, .8 without a lattice."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map."},

@@ -43,6 +43,15 @@ KnobSettings any_resolution() {
   return KnobSettings{specs};
 }
 
+TEST(MissionLimits, begins_with_the_finest_cells_that_the_mapper_has) {
+  EXPECT_EQ(made({})->levels(0.5, 0.1).front().resolution_m, 0.15);
+  std::vector<KnobSpec> specs = conformance_knobs().specs();
+  ASSERT_EQ(specs.front().name, "map.resolution_m");
+  specs.front().legal.insert(specs.front().legal.begin(), 0.075);
+  EXPECT_EQ(made({}, KnobSettings{specs})->levels(0.5, 0.1).front().resolution_m, 0.075);
+  EXPECT_EQ(made({}, any_resolution())->levels(0.5, 0.1).front().resolution_m, 0.15);
+}
+
 /// The longest range of each level that the search may choose.
 std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
                                      const KnobSettings& knobs = conformance_knobs()) {

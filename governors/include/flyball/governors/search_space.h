@@ -7,6 +7,7 @@
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy_abilities.h"
+#include "flyball/runtime/knob.h"
 
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace flyball {
 [[nodiscard]] std::vector<SearchLevel> levels_between(const std::vector<double>& resolutions_m,
                                                       double fine_s,
                                                       double coarse_s);
+
+/// The smallest cells that a policy uses: those nearest to `given_m` or, where that is 0, the
+/// finest of the mapper, which a mission chooses for its narrowest gap. A mapper without a lattice
+/// has none, and gets .15 m.
+[[nodiscard]] double smallest_cells_m(const KnobSpec& resolution, double given_m);
 
 /// Five ranges with equal ratios between them, because latency grows with a power of the range.
 /// @pre 0 < `least_m` < `most_m`.
