@@ -14,7 +14,9 @@ namespace {
 
 constexpr const char* look = R"(<style>
   h2 { margin-top: 34px; border-top: 2px solid #dfe5ea; padding-top: 18px; }
-  td.text, th.text { text-align: left; white-space: normal; min-width: 9em; }
+  body { max-width: 1400px; }
+  td { white-space: normal; }
+  td.text, th.text { text-align: left; min-width: 9em; }
   .verdict { display: inline-block; border-radius: 9px; padding: 0 9px; white-space: nowrap;
              background: #e8ecf0; }
   .reproduced { background: #cdeadb; } .same_trend { background: #fbeab8; }
