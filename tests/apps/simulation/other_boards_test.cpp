@@ -25,8 +25,6 @@ namespace {
 
 constexpr double limit_m_s = 3.0;
 constexpr double deceleration_m_s2 = 3.0;
-constexpr double margin =
-    1.2;  // Of the bound over what is predicted; the policy keeps it constant.
 constexpr double other_core_ghz = 0.8;  // Work beside the map.
 
 /// The TX2's file with other numbers, by the key in front of them.
@@ -76,7 +74,7 @@ class Truth {
     return 1.0 + other_core_ghz / (1e-9 * clock_hz);
   }
   [[nodiscard]] double response_s(double clock_hz) const {
-    return 2.0 * margin * map_s(clock_hz) + EnergySearchSettings{}.reaction_s;
+    return 2.0 * map_s(clock_hz) + EnergySearchSettings{}.reaction_s;
   }
   [[nodiscard]] double joules_per_m(const MapSetting& setting) const {
     EnergySearchSettings price;
@@ -127,8 +125,7 @@ KnobSettings knobs_of(const PlatformModel& model) {
 /// What it has chosen after two minutes of flight, long after everything has been learned.
 MapSetting settled(const PlatformModel& model, const BoardModel& board, const Vehicle& vehicle) {
   const StartedPolicy started = start_policy("mission_energy",
-                                             {{"margin", margin},
-                                              {"fine_latency_s", vehicle.map_s},
+                                             {{"fine_latency_s", vehicle.map_s},
                                               {"coarse_latency_s", vehicle.map_s},
                                               {"most_range_m", 8.0}},
                                              knobs_of(model), board);
