@@ -43,6 +43,19 @@ class Lattice {
             first_[2] + static_cast<int>(index / (wide * deep))};
   }
   [[nodiscard]] double cell_m() const { return cell_m_; }
+  /// Calls `visit` with each cell that a box of this half width around a point touches, row by row.
+  template <class Visit>
+  void around(const Vec3& p_W, double half_m, const Visit& visit) const {
+    const GridCell from = grid_cell_of(p_W - Vec3::Constant(half_m), cell_m_);
+    const GridCell to = grid_cell_of(p_W + Vec3::Constant(half_m), cell_m_);
+    for (int z = std::max(from[2], first_[2]); z <= std::min(to[2], last_[2]); ++z) {
+      for (int y = std::max(from[1], first_[1]); y <= std::min(to[1], last_[1]); ++y) {
+        for (int x = std::max(from[0], first_[0]); x <= std::min(to[0], last_[0]); ++x) {
+          visit(GridCell{x, y, z});
+        }
+      }
+    }
+  }
 
  private:
   [[nodiscard]] int extent(std::size_t axis) const { return last_[axis] - first_[axis] + 1; }
@@ -131,7 +144,8 @@ Pose level_camera(const Vec3& p_W, double yaw_rad) {
   return X_WC;
 }
 
-/// Looks from place to place. A cell that was seen is not asked for again, so most views are cheap.
+/// Looks from place to place. A cell that was seen is not asked for again, and one out of range
+/// only once for all headings, so most views are cheap.
 class Observer {
  public:
   Observer(const World& world, const ObservableRequest& request, const Lattice& lattice)
@@ -139,13 +153,20 @@ class Observer {
         range_m_{request.range_m},
         camera_{world, coarse_camera(request), 0},
         headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
-        seen_(lattice.size(), unseen) {
-    for (std::size_t i = 0; i < lattice.size(); ++i) {
-      missing_.push_back({i, centre_of(lattice.cell_at(i), lattice.cell_m())});
-    }
-  }
+        seen_(lattice.size(), unseen) {}
 
   void look_around(const Vec3& p_W) {
+    missing_.clear();
+    lattice_.around(p_W, range_m_, [&](const GridCell& cell) {
+      const std::size_t index = lattice_.index(cell);
+      if (seen_[index] != unseen) {
+        return;
+      }
+      const Vec3 centre_W = centre_of(cell, lattice_.cell_m());
+      if ((centre_W - p_W).squaredNorm() <= range_m_ * range_m_) {
+        missing_.push_back({index, centre_W});
+      }
+    });
     for (int i = 0; i < headings_; ++i) {
       look(level_camera(p_W, two_pi * i / headings_));
     }
@@ -180,18 +201,11 @@ class Observer {
       mark_surface(image, pixel, X_WC);
     }
     const Pose X_CW = X_WC.inverse();
-    const auto is_found = [&](const Missing& cell) {
-      if (seen_[cell.index] == unseen && is_near(cell.centre_W, X_WC) &&
-          is_in_sight(image, X_CW * cell.centre_W)) {
+    for (const Missing& cell : missing_) {
+      if (seen_[cell.index] == unseen && is_in_sight(image, X_CW * cell.centre_W)) {
         seen_[cell.index] = open;
       }
-      return seen_[cell.index] != unseen;
-    };
-    missing_.erase(std::remove_if(missing_.begin(), missing_.end(), is_found), missing_.end());
-  }
-
-  [[nodiscard]] bool is_near(const Vec3& p_W, const Pose& X_WC) const {
-    return (p_W - X_WC.translation()).squaredNorm() <= range_m_ * range_m_;
+    }
   }
 
   void mark_surface(const DepthImage& image, std::size_t pixel, const Pose& X_WC) {
@@ -228,7 +242,7 @@ class Observer {
   DepthCamera camera_;
   int headings_;
   std::vector<std::uint8_t> seen_;
-  std::vector<Missing> missing_{};
+  std::vector<Missing> missing_{};  ///< In range of the place that is looked around from.
 };
 
 }  // namespace
