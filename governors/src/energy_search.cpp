@@ -56,7 +56,7 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   });
   search.estimates_.resize(search.points_.size());
   for (std::size_t point = 0; point < search.points_.size(); ++point) {
-    search.expected_s_.push_back(search.latest_s(search.setting(point)));
+    search.expected_s_.push_back(search.response_s(search.predicted_s(search.setting(point))));
   }
   return search;
 }
@@ -199,10 +199,6 @@ double EnergySearch::response_s(double latency_s) const {
   return latency_s + std::max(latency_s, settings_.frame_s) + settings_.reaction_s;
 }
 
-double EnergySearch::latest_s(const MapSetting& setting) const {
-  return response_s(predicted_s(setting) * bound_.tracker(level(setting.resolution_m)).factor());
-}
-
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
   const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
                                                         : settings_.deceleration_m_s2};
@@ -257,7 +253,7 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
     }
     estimated = estimate(candidate, around);
     estimated.joules_per_m *= around.waits.delay(candidate.clock_hz, most_clock_hz_);
-    if (std::max(latest_s(candidate), expected_s_[point]) > around.most_response_s) {
+    if (std::max(estimated.response_s, expected_s_[point]) > around.most_response_s) {
       estimated.joules_per_m *= too_slow;
     }
     least_j = std::min(least_j, estimated.joules_per_m);

@@ -212,11 +212,11 @@ TEST(EnergySearch, compares_by_the_predicted_latency_and_not_by_its_bound) {
   EXPECT_EQ(one.joules_per_m, other.joules_per_m);
 }
 
-TEST(EnergySearch, leaves_out_what_may_be_later_than_is_allowed) {
+TEST(EnergySearch, leaves_out_what_responds_later_than_is_allowed) {
   Surroundings around = open_space();
-  around.most_response_s = 4.0;  // The coarse cells take .10 s at 7 m and .17 s at 12 m, twice.
-  EXPECT_EQ(search_bounded_by(1.0).choose(around, {}).setting.range_m, 12.0);
-  EXPECT_EQ(search_bounded_by(15.0).choose(around, {}).setting.range_m, 7.0);
+  EXPECT_EQ(search().choose(around, {}).setting.range_m, 12.0);
+  around.most_response_s = 0.4;  // The coarse cells take .10 s at 7 m and .17 s at 12 m, twice.
+  EXPECT_EQ(search().choose(around, {}).setting.range_m, 7.0);
 }
 
 TEST(EnergySearch, does_not_learn_from_a_frame_of_the_setting_before) {

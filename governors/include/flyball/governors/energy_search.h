@@ -58,9 +58,9 @@ struct Surroundings {
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   /// How far the camera can see before the world, not the range, ends the view.
   double visibility_m{};
-  /// No setting whose response may be longer is chosen if there is one with a shorter response.
-  /// Here the bound on latency counts, both as learned and as it was before the flight, because
-  /// walls end most rays in a room, but not in the open space behind the next door.
+  /// No setting whose response is longer may be chosen if there is one with a shorter response.
+  /// Both the learned response and the one that was expected before the flight count, because walls
+  /// end most rays in a room, but not in the open space behind the next door.
   double most_response_s{1e9};
   double coarsest_m{};  ///< The largest cells with which the path ahead is passable.
   /// For each level, finest first: how many plans fail in its cells per metre of path, because they
@@ -155,8 +155,6 @@ class EnergySearch {
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
   [[nodiscard]] double response_s(double latency_s) const;
-  /// The response if the next map is as late as it is bounded to be.
-  [[nodiscard]] double latest_s(const MapSetting& setting) const;
   void note_clock(const Observation& seen);
   [[nodiscard]] Hertz mean_clock() const;
   void learn_latency(const Observation& seen);
