@@ -51,9 +51,6 @@ Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
   EnergySearch search{settings, levels, std::move(*points), computer};
   search.in_force_ = {knobs.value("map.resolution_m"), knobs.value("map.range_m"),
                       knobs.value("cpu.frequency_hz")};
-  search.points_.keep_if([&](const double* at) {
-    return at[range] <= levels[search.level(at[resolution])].most_range_m;
-  });
   search.estimates_.resize(search.points_.size());
   for (std::size_t point = 0; point < search.points_.size(); ++point) {
     search.expected_s_.push_back(search.response_s(search.predicted_s(search.setting(point))));
@@ -81,6 +78,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
         settings.clock.factor(level.clock_hz > 0.0 ? Hertz{level.clock_hz} : Hertz{most_clock_hz_});
     prior.sigma = 0.5;  // Chosen: the given latency may be wrong by a factor of 1.6.
     models_.add(std::to_string(level.resolution_m), prior);
+    most_range_m_.push_back(level.most_range_m);
   }
 }
 
@@ -236,9 +234,11 @@ bool EnergySearch::is_allowed(const MapSetting& candidate,
   // If no level is fine enough, the finest one is allowed.
   const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
   const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
+  const double clear_range_m =
+      std::max(most_range_m_[level(candidate.resolution_m)], around.clear_range_m);
   return candidate.resolution_m <= coarsest_m && candidate.resolution_m >= around.finest_m &&
-         candidate.range_m <= most_range_m && !(candidate.range_m < least_range_m) &&
-         candidate.clock_hz <= most_clock_hz_ &&
+         candidate.range_m <= std::min(most_range_m, clear_range_m) &&
+         !(candidate.range_m < least_range_m) && candidate.clock_hz <= most_clock_hz_ &&
          (!around.needs_top_clock || candidate.clock_hz == most_clock_hz_);
 }
 

@@ -58,14 +58,4 @@ Result<OperatingPoints> OperatingPoints::lattice(std::vector<KnobAxis> axes,
   return points;
 }
 
-void OperatingPoints::keep_if(const std::function<bool(const double* values)>& keeps) {
-  std::vector<double> kept;
-  for (std::size_t point = 0; point < size(); ++point) {
-    if (keeps(values(point))) {
-      kept.insert(kept.end(), values(point), values(point) + axes_.size());
-    }
-  }
-  values_ = std::move(kept);
-}
-
 }  // namespace flyball

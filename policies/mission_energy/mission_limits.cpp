@@ -12,7 +12,8 @@
 namespace flyball {
 namespace {
 
-constexpr double waiting_m_s = 0.1;         // Chosen: slower than any cruise.
+constexpr double waiting_m_s = 0.1;  // Chosen: slower than any cruise.
+constexpr double open_m = 6.0;       // The width of a path that has nothing beside it, as observed.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
 /// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
@@ -82,9 +83,10 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
     return refused("least_range_m = " + std::to_string(limits.least_range_m_) +
                    " must be below most_range_m = " + std::to_string(given_m));
   }
-  const double most_m = given_m > 0.0 ? given_m : limits.longest_m(knobs);
-  limits.ranges_m_ = most_m > limits.least_range_m_ ? ranges_between(limits.least_range_m_, most_m)
-                                                    : std::vector<double>{limits.least_range_m_};
+  limits.ranges_m_ = limits.ranges_up_to(given_m > 0.0 ? given_m : limits.longest_m(knobs));
+  if (given_m == 0.0 && limits.is_lattice_ && vehicle.depth_camera) {
+    limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
+  }
   return limits;
 }
 
@@ -128,13 +130,42 @@ Passability MissionLimits::passability(const Parameters& given) const {
 // So with a lattice noise also stays below a quarter of the body's width on each side: a gap of one
 // and a half bodies stays passable.
 double MissionLimits::noise_free_m(double resolution_m) const {
+  return range_with_m(std::min(0.5 * resolution_m, is_lattice_ ? 0.25 * body_m_ : 1e9));
+}
+
+double MissionLimits::range_with_m(double noise_m) const {
   constexpr double step_m = 0.05;  // A fraction of the finest cells.
-  const double most_m = std::min(0.5 * resolution_m, is_lattice_ ? 0.25 * body_m_ : 1e9);
-  double free_m = camera_->max_range_m;
-  while (free_m > 0.0 && camera_->noise_m(free_m) > most_m) {
-    free_m -= step_m;
+  double range_m = camera_->max_range_m;
+  while (range_m > 0.0 && camera_->noise_m(range_m) > noise_m) {
+    range_m -= step_m;
   }
-  return free_m;
+  return range_m;
+}
+
+// Hits that noise has moved narrow a gap from both sides. Where gaps are seen and no narrow ones
+// are declared, noise may be a quarter of what the narrowest one leaves beside the body. Where none
+// is seen, nothing tells how narrow the next one is.
+double MissionLimits::clear_range_m(const Observation& seen, bool near) const {
+  const bool sees_gaps =
+      camera_ && !near && seen.phase == MissionPhase::cruise && seen.narrowest_gap_m < open_m;
+  return sees_gaps ? range_with_m(0.25 * (seen.narrowest_gap_m - body_m_)) : 0.0;
+}
+
+std::vector<double> MissionLimits::ranges_up_to(double most_m) const {
+  return most_m > least_range_m_ ? ranges_between(least_range_m_, most_m)
+                                 : std::vector<double>{least_range_m_};
+}
+
+void MissionLimits::add_ranges_beyond(double most_m) {
+  constexpr int steps = 3;
+  const double from_m = ranges_m_.back();
+  if (most_m < 1.1 * from_m) {
+    return;
+  }
+  for (int i = 1; i < steps; ++i) {
+    ranges_m_.push_back(from_m * std::pow(most_m / from_m, i / double{steps}));
+  }
+  ranges_m_.push_back(most_m);
 }
 
 // A camera that nobody knows is trusted as far as the mission trusts it.
@@ -204,6 +235,7 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // find. So even on a computer for which they cost no time, the finest cells are only used where a
   // gap needs them.
   around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
+  around.clear_range_m = clear_range_m(seen, near);
   around.failed_plans_per_m = &failed_.per_m();
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();

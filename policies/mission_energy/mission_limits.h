@@ -27,7 +27,7 @@ namespace flyball {
 ///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
 ///   the rate of failures at each level is a price of its cells (`FailedPlans`).
 /// - The camera's noise: a level ends where noise is half a cell or, with a lattice, a quarter of
-///   the body's width.
+///   the body's width. Where wide gaps are seen, a lattice may have more noise.
 /// - Visibility: where the world ends the view, a longer range gains nothing.
 /// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
 ///   makes the path shorter.
@@ -90,6 +90,13 @@ class MissionLimits {
   [[nodiscard]] Passability passability(const Parameters& given) const;
   [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
   [[nodiscard]] double noise_free_m(double resolution_m) const;
+  /// The range up to which the camera's noise is at most this. @pre The camera is known.
+  [[nodiscard]] double range_with_m(double noise_m) const;
+  /// The range up to which noise leaves the gaps open that are seen ahead; 0: none is seen.
+  [[nodiscard]] double clear_range_m(const Observation& seen, bool near) const;
+  [[nodiscard]] std::vector<double> ranges_up_to(double most_m) const;
+  /// For where noise may be larger than a level allows.
+  void add_ranges_beyond(double most_m);
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
   [[nodiscard]] double fine_budget(const Observation& seen) const;
 

@@ -30,6 +30,9 @@ HorizonSearch::HorizonSearch(const HorizonSettings& settings, const EnergySearch
   top_clock_hz_ = all.axes()[2].values.back();
   for (std::size_t point = 0; point < all.size(); ++point) {
     const double* at = all.values(point);
+    if (at[1] > search.most_range_m(at[0])) {
+      continue;
+    }
     points_.push_back({at[0], at[1], at[2]});
     const auto cell = std::find(cells_m.begin(), cells_m.end(), at[0]);
     level_of_.push_back(static_cast<std::size_t>(cell - cells_m.begin()));

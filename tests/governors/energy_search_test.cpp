@@ -159,12 +159,14 @@ TEST(EnergySearch, a_range_buys_nothing_beyond_what_the_world_lets_see) {
   EXPECT_EQ(one.choose(walled, {}).setting.range_m, 7.0);
 }
 
-TEST(EnergySearch, leaves_out_ranges_that_a_level_is_too_noisy_for) {
-  const EnergySearch one = search(7.5);
-  for (std::size_t i = 0; i < one.points().size(); ++i) {
-    const double* at = one.points().values(i);
-    EXPECT_TRUE(at[0] > 0.15 || at[1] <= 7.5) << at[0] << " m, " << at[1] << " m";
-  }
+TEST(EnergySearch, looks_farther_than_a_level_allows_where_the_gaps_ahead_are_wide) {
+  Surroundings around = open_space();
+  around.coarsest_m = 0.15;
+  around.speed_limit_m_s = 1.0;
+  around.least_range_m = 12.0;
+  EXPECT_EQ(search(7.0).choose(around, {}).setting.range_m, 7.0);
+  around.clear_range_m = 12.0;
+  EXPECT_EQ(search(7.0).choose(around, {}).setting.range_m, 12.0);
 }
 
 TEST(EnergySearch, keeps_to_the_range_that_it_may_use) {

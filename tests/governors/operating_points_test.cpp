@@ -35,15 +35,6 @@ TEST(OperatingPoints, are_all_combinations_the_last_axis_fastest) {
   EXPECT_EQ(points.values(5)[1], 2e9);
 }
 
-TEST(OperatingPoints, keep_what_a_rule_accepts) {
-  OperatingPoints points = six();
-  points.keep_if([](const double* values) { return values[0] > 0.2 && values[1] > 1.5e9; });
-  ASSERT_EQ(points.size(), 2U);
-  EXPECT_EQ(points.values(0)[0], 0.3);
-  EXPECT_EQ(points.values(1)[0], 0.6);
-  EXPECT_EQ(points.values(1)[1], 2e9);
-}
-
 TEST(OperatingPoints, refuse_what_no_knob_can_be) {
   EXPECT_FALSE(OperatingPoints::lattice({}, knobs()).ok());
   EXPECT_FALSE(OperatingPoints::lattice({{"map.resolution_m", {}}}, knobs()).ok());

@@ -82,6 +82,32 @@ TEST(MissionLimits, looks_as_far_as_noise_is_half_a_cell_without_a_lattice) {
   EXPECT_NEAR(ranges_m.back(), 12.47, 0.051);
 }
 
+Observation between_trees(double gap_m) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  seen.speed_limit_m_s = 10.0;
+  seen.narrowest_gap_m = gap_m;
+  return seen;
+}
+
+// By hand: ((3 - .71) / 4 + .4193) / .0657 is 15.1 m.
+TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
+  VehicleModel vehicle;
+  vehicle.depth_camera = DepthCameraSpec{};
+  auto limits = made({}, conformance_knobs(), vehicle);
+  const auto clear_m = [&](const Observation& seen) {
+    return limits->look(seen, {0.60, 7.0, 2e9}).clear_range_m;
+  };
+  EXPECT_NEAR(clear_m(between_trees(3.0)), 15.1, 0.051);
+  EXPECT_LT(clear_m(between_trees(0.8)), 7.0) << "a door";
+  EXPECT_EQ(clear_m(between_trees(6.0)), 0.0) << "nothing is seen";
+  Observation slow = between_trees(3.0);
+  slow.speed_limit_m_s = 1.0;
+  EXPECT_EQ(clear_m(slow), 0.0) << "narrow places are declared";
+  EXPECT_EQ(limits->ranges_m().back(), 20.0);
+  EXPECT_EQ(made({})->look(between_trees(3.0), {0.60, 7.0, 2e9}).clear_range_m, 0.0);
+}
+
 TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
   DepthCameraSpec camera;
   camera.rgbd_noise = false;

@@ -45,7 +45,7 @@ struct SearchLevel {
   double resolution_m{};
   double latency_s{};    ///< From capture to the published map at `range_m` and `clock_hz`.
   double range_slope{};  ///< In log latency over log range: 1 where rays dominate, 3 where volume.
-  double most_range_m{25.0};  ///< Up to here depth noise is below half a cell.
+  double most_range_m{25.0};  ///< Up to here depth noise leaves any gap open.
   double range_m{7.0};
   double clock_hz{};  ///< 0: the highest that there is.
 };
@@ -53,8 +53,10 @@ struct SearchLevel {
 /// What limits speed besides latency.
 struct Surroundings {
   double speed_limit_m_s{};
-  double least_range_m{};      ///< Of the map; the longest that a level allows counts as enough.
-  double most_range_m{1e9};    ///< Of the map; the shortest range is always allowed.
+  double least_range_m{};    ///< Of the map; the longest that a level allows counts as enough.
+  double most_range_m{1e9};  ///< Of the map; the shortest range is always allowed.
+  /// Up to here depth noise leaves the gaps ahead open, whatever their level allows; 0: unknown.
+  double clear_range_m{};
   double deceleration_m_s2{};  ///< Of eq. 2; 0: as in the settings.
   /// How far the camera can see before the world, not the range, ends the view.
   double visibility_m{};
@@ -144,6 +146,10 @@ class EnergySearch {
   /// `most_late` holds where no map takes more than four times as long as predicted.
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
+  /// `SearchLevel::most_range_m` of these cells.
+  [[nodiscard]] double most_range_m(double resolution_m) const {
+    return most_range_m_[level(resolution_m)];
+  }
 
  private:
   EnergySearch(const EnergySearchSettings& settings,
@@ -171,6 +177,7 @@ class EnergySearch {
   PowerCost computer_;
   ThermalLimit thermal_;
   double most_clock_hz_{};
+  std::vector<double> most_range_m_{};       ///< Of each level.
   std::vector<EnergyEstimate> estimates_{};  ///< Of each point, in the decision being made.
   std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.
   MapSetting in_force_{};

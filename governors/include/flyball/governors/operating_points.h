@@ -7,7 +7,6 @@
 #include "flyball/runtime/knob.h"
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,6 @@ class OperatingPoints {
   static Result<OperatingPoints> lattice(std::vector<KnobAxis> axes,
                                          const KnobSettings& knobs,
                                          std::size_t limit = 100000);
-
-  /// Leaves out the points whose values this refuses.
-  void keep_if(const std::function<bool(const double* values)>& keeps);
 
   [[nodiscard]] std::size_t size() const { return values_.size() / axes_.size(); }
   [[nodiscard]] const std::vector<KnobAxis>& axes() const { return axes_; }
