@@ -42,9 +42,9 @@ struct PathWidth {
 
 /// The narrowest place of a path. The width is measured horizontally and perpendicular to the path,
 /// up to 3 m to each side; a path without obstacles within 3 m has no narrow place. A path beside a
-/// single obstacle is not narrow: in larger cells, which would block it, another one leads by. Unlike
-/// `gaps_ahead` this measures the gap that the path really passes, and ignores other openings that
-/// may only seem open because they have not been observed yet.
+/// single obstacle is not narrow: in larger cells, which would block it, another one leads by.
+/// Unlike `gaps_ahead` this measures the gap that the path really passes, and ignores other
+/// openings that may only seem open because they have not been observed yet.
 /// @pre The path is not empty.
 [[nodiscard]] PathWidth narrowest_on(const OccupancyView& map,
                                      const PathSpan& span,
