@@ -111,8 +111,7 @@ Experiment depth_noise() {
       "A delivery through a forest with fixed cells of .15 m (fixed_fine), while Gaussian noise is "
       "added to every depth; the camera's own noise is off. The paper's world is another one, so "
       "times and replans are compared as ratios to those without noise. As in OctoMap, one ray "
-      "that "
-      "ends in a cell outweighs all of the same image that pass through it.",
+      "that ends in a cell outweighs all of the same image that pass through it.",
       {},
       {sweep_of({flown, "", "delivery_forest", "fixed_fine", {}})},
       evaluate};

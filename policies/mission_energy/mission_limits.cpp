@@ -83,7 +83,9 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
     return refused("least_range_m = " + std::to_string(limits.least_range_m_) +
                    " must be below most_range_m = " + std::to_string(given_m));
   }
-  limits.ranges_m_ = limits.ranges_up_to(given_m > 0.0 ? given_m : limits.longest_m(knobs));
+  const double most_m = given_m > 0.0 ? given_m : limits.longest_m(knobs);
+  limits.ranges_m_ = most_m > limits.least_range_m_ ? ranges_between(limits.least_range_m_, most_m)
+                                                    : std::vector<double>{limits.least_range_m_};
   if (given_m == 0.0 && limits.is_lattice_ && vehicle.depth_camera) {
     limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
   }
@@ -149,11 +151,6 @@ double MissionLimits::clear_range_m(const Observation& seen, bool near) const {
   const bool sees_gaps =
       camera_ && !near && seen.phase == MissionPhase::cruise && seen.narrowest_gap_m < open_m;
   return sees_gaps ? range_with_m(0.25 * (seen.narrowest_gap_m - body_m_)) : 0.0;
-}
-
-std::vector<double> MissionLimits::ranges_up_to(double most_m) const {
-  return most_m > least_range_m_ ? ranges_between(least_range_m_, most_m)
-                                 : std::vector<double>{least_range_m_};
 }
 
 void MissionLimits::add_ranges_beyond(double most_m) {

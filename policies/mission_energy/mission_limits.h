@@ -94,7 +94,6 @@ class MissionLimits {
   [[nodiscard]] double range_with_m(double noise_m) const;
   /// The range up to which noise leaves the gaps open that are seen ahead; 0: none is seen.
   [[nodiscard]] double clear_range_m(const Observation& seen, bool near) const;
-  [[nodiscard]] std::vector<double> ranges_up_to(double most_m) const;
   /// For where noise may be larger than a level allows.
   void add_ranges_beyond(double most_m);
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;

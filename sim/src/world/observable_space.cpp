@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/observable_space.h"
 
+#include "sensors/scan_grid.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -43,18 +44,16 @@ class Lattice {
             first_[2] + static_cast<int>(index / (wide * deep))};
   }
   [[nodiscard]] double cell_m() const { return cell_m_; }
-  /// Calls `visit` with each cell that a box of this half width around a point touches, row by row.
+  /// Calls `visit` with each cell that a box of this half width around a point touches.
   template <class Visit>
   void around(const Vec3& p_W, double half_m, const Visit& visit) const {
     const GridCell from = grid_cell_of(p_W - Vec3::Constant(half_m), cell_m_);
     const GridCell to = grid_cell_of(p_W + Vec3::Constant(half_m), cell_m_);
-    for (int z = std::max(from[2], first_[2]); z <= std::min(to[2], last_[2]); ++z) {
-      for (int y = std::max(from[1], first_[1]); y <= std::min(to[1], last_[1]); ++y) {
-        for (int x = std::max(from[0], first_[0]); x <= std::min(to[0], last_[0]); ++x) {
-          visit(GridCell{x, y, z});
-        }
-      }
-    }
+    using Index = ScanGrid::Index;
+    for_each_cell(Index{from.data()}.cwiseMax(Index{first_.data()}),
+                  Index{to.data()}.cwiseMin(Index{last_.data()}), [&](const Index& cell) {
+                    visit(GridCell{cell.x(), cell.y(), cell.z()});
+                  });
   }
 
  private:

@@ -62,7 +62,8 @@ struct Observation {
   double battery_percent{};
   double max_deceleration_m_s2{};  ///< What the mission's safe speed counts on; a in eq. 2.
   double narrowest_gap_m{};  ///< Least width ahead: of the widest openings on 24 m towards the goal
-                             ///< and of the passage that the path's next 8 m lead through.
+                             ///< and of the passage that the path's next 8 m lead through, 6
+                             ///< where nothing is within 3 m of the path.
   double gap_distance_m{};   ///< How far ahead that is.
   double mean_gap_m{};       ///< Mean of the widest openings over the same stretch.
   double temperature_c{};    ///< Of the computer, where its clocks' limit is measured.
