@@ -3,7 +3,7 @@
 // What each part of mission_energy earns: the policy without it beside the whole one.
 
 #include "experiments/framework/papers.h"
-#include <array>
+#include <vector>
 
 namespace flyball::experiments {
 namespace {
@@ -15,29 +15,47 @@ struct Part {
   const char* name;
 };
 
-constexpr std::array<Part, 5> parts{{
-    {"mission_energy_without_resolution", "resolution"},
-    {"mission_energy_without_range", "range"},
-    {"mission_energy_without_clock", "clock"},
-    {"mission_energy_without_gaps", "sight of narrow places"},
-    {"mission_energy_without_declared_zones", "declared zones"},
-}};
+/// What may matter anywhere.
+std::vector<Part> main_parts() {
+  return {
+      {"mission_energy_without_resolution", "resolution"},
+      {"mission_energy_without_range", "range"},
+      {"mission_energy_without_clock", "clock"},
+      {"mission_energy_without_gaps", "sight of narrow places"},
+      {"mission_energy_without_declared_zones", "declared zones"},
+  };
+}
 
 struct Place {
   const char* sweep;
   const char* scenario;
   const char* title;
   std::vector<std::string> settings;
+  std::vector<Part> parts;
 };
 
+// OctoMap begins a new map with each change of the cells, so only there a change has a price worth
+// a part of its own. Only where cells cost next to nothing would the finest ones be taken
+// everywhere.
 std::vector<Place> places() {
+  const std::vector<std::string> mixed{"world.length_m=260", "world.buildings=1", "world.crowds=1",
+                                       "world.slits=1"};
   return {
-      {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building", {}},
-      {"forest", "delivery_forest", "forest", {}},
-      {"mixed",
+      {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building", quick_map(),
+       main_parts()},
+      {"forest", "delivery_forest", "forest", quick_map(), main_parts()},
+      {"mixed", "delivery_mixed", "building, crowd and slit", joined(quick_map(), mixed),
+       main_parts()},
+      {"with_octomap",
+       "delivery_outdoor_to_indoor",
+       "into a building with OctoMap",
+       {"kernels.mapper=octomap"},
+       {{"mission_energy_without_switching_price", "price of a change of cells"}}},
+      {"with_a_quick_map",
        "delivery_mixed",
-       "building, crowd and slit",
-       {"world.length_m=260", "world.buildings=1", "world.crowds=1", "world.slits=1"}},
+       "building, crowd and slit with the price of our own map",
+       joined({"kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"}, mixed),
+       {{"mission_energy_without_finest_reserve", "reserve of the finest cells"}}},
   };
 }
 
@@ -48,7 +66,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
     Claim success{std::string{place.title} + ": flights with all parts that succeed", "%"};
     success.ours = success_percent(all);
     DotPlot plot{std::string{place.title} + ": energy without a part over energy with all", {}};
-    for (const Part& part : parts) {
+    for (const Part& part : place.parts) {
       const Point without = evidence.at(place.sweep, {}, part.preset);
       Claim claim{std::string{place.title} + ", without " + part.name +
                   ": energy over that with all parts"};
@@ -72,9 +90,8 @@ Result<Findings> evaluate(const Evidence& evidence) {
 }
 
 ExperimentSweep sweep_of(const Place& place) {
-  ExperimentSweep sweep{
-      place.sweep, place.scenario, joined(quick_map(), place.settings), {}, {whole}};
-  for (const Part& part : parts) {
+  ExperimentSweep sweep{place.sweep, place.scenario, place.settings, {}, {whole}};
+  for (const Part& part : place.parts) {
     sweep.policies.emplace_back(part.preset);
   }
   return sweep;

@@ -115,9 +115,8 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     // The finest cells pass every gap, so they are the ones to keep.
     around.coarsest_m = around.finest_m = 0.0;
   } else if (part_ == Part::range) {
-    // The middle one of those that noise always allows.
-    around.least_range_m = around.most_range_m =
-        ranges_m[std::min<std::size_t>(2, ranges_m.size() - 1)];
+    // Between those that are for slow places and those that noise does not always allow.
+    around.least_range_m = around.most_range_m = ranges_m[(ranges_m.size() - 1) / 2];
   } else if (part_ == Part::clock) {
     around.needs_top_clock = true;
   } else if (part_ == Part::visibility) {

@@ -52,6 +52,7 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: the mapper's coarsest clear of the ground, .8 without a lattice."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map."},
+      {"slow_range_m", 3.5, 0.5, 100.0, "Shortest where narrow gaps are declared, with a lattice."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
@@ -88,6 +89,9 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
                                                     : std::vector<double>{limits.least_range_m_};
   if (given_m == 0.0 && limits.is_lattice_ && vehicle.depth_camera) {
     limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
+  }
+  if (limits.is_lattice_) {
+    limits.add_ranges_from(knobs.spec("map.range_m")->nearest(given.number("slow_range_m")));
   }
   return limits;
 }
@@ -165,6 +169,12 @@ void MissionLimits::add_ranges_beyond(double most_m) {
   ranges_m_.push_back(most_m);
 }
 
+void MissionLimits::add_ranges_from(double slow_m) {
+  if (slow_m < least_range_m_) {
+    ranges_m_.insert(ranges_m_.begin(), {slow_m, std::sqrt(slow_m * least_range_m_)});
+  }
+}
+
 // A camera that nobody knows is trusted as far as the mission trusts it.
 double MissionLimits::longest_m(const KnobSettings& knobs) const {
   constexpr double usual_m = 12.0;  // Chosen: where an RGB-D camera's noise is half a cell of .7 m.
@@ -233,6 +243,9 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // gap needs them.
   around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
   around.clear_range_m = clear_range_m(seen, near);
+  if (!near) {
+    around.least_range_m = std::max(around.least_range_m, least_range_m_);
+  }
   around.failed_plans_per_m = &failed_.per_m();
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();

@@ -96,6 +96,8 @@ class MissionLimits {
   [[nodiscard]] double clear_range_m(const Observation& seen, bool near) const;
   /// For where noise may be larger than a level allows.
   void add_ranges_beyond(double most_m);
+  /// For where the mission is slow: small cells take long, and the vehicle stops within a metre.
+  void add_ranges_from(double slow_m);
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
   [[nodiscard]] double fine_budget(const Observation& seen) const;
 

@@ -108,6 +108,18 @@ TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
   EXPECT_EQ(made({})->look(between_trees(3.0), {0.60, 7.0, 2e9}).clear_range_m, 0.0);
 }
 
+TEST(MissionLimits, may_look_nearer_where_the_mission_is_slow) {
+  auto limits = made();
+  const MapSetting setting{0.60, 7.0, 2e9};
+  Observation seen = between_trees(0.8);
+  EXPECT_EQ(limits->ranges_m().front(), 3.5);
+  EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0);
+  seen.speed_limit_m_s = 1.0;
+  EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
+  EXPECT_EQ(made({{"slow_range_m", 7.0}})->ranges_m().front(), 7.0);
+  EXPECT_EQ(made({}, any_resolution())->ranges_m().front(), 7.0) << "each range is another map";
+}
+
 TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
   DepthCameraSpec camera;
   camera.rgbd_noise = false;
