@@ -53,7 +53,7 @@ std::vector<Place> places() {
        {{"mission_energy_without_switching_price", "price of a change of cells"}}},
       {"with_a_quick_map",
        "delivery_mixed",
-       "building, crowd and slit with the price of our own map",
+       "building, crowd and slit with our map's price",
        joined({"kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"}, mixed),
        {{"mission_energy_without_finest_reserve", "reserve of the finest cells"}}},
   };
@@ -65,7 +65,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
     const Point all = evidence.at(place.sweep, {}, whole);
     Claim success{std::string{place.title} + ": flights with all parts that succeed", "%"};
     success.ours = success_percent(all);
-    DotPlot plot{std::string{place.title} + ": energy without a part over energy with all", {}};
+    DotPlot plot{place.title, {}};
     for (const Part& part : place.parts) {
       const Point without = evidence.at(place.sweep, {}, part.preset);
       Claim claim{std::string{place.title} + ", without " + part.name +
@@ -82,8 +82,8 @@ Result<Findings> evaluate(const Evidence& evidence) {
     findings.claims.push_back(success);
     findings.figures.push_back(
         {place.sweep,
-         "Median ratio over pairs of flights with the same seed; above 1 the part "
-         "saves energy.",
+         "Energy without a part over that with all: median ratio of pairs of flights with the "
+         "same seed. Above 1 the part saves energy.",
          plot});
   }
   return findings;
