@@ -182,6 +182,19 @@ double speed_gain(double slow_s, double fast_s) {
 }
 
 /// What the paper's own kernel times and gains come to by its eq. 2.
+/// A flight in which nobody was lost ends after two minutes of tracking, and at the fast corner
+/// most flights do.
+void add_cause_of_the_end(Claim& claim, const Corners& corners) {
+  const Measured life = mean_life_ratio(
+      corners.fast, corners.slow, flight_figure("quality.tracked_s"), [](const Summary& flight) {
+        const auto censored = flight.quality.find("is_censored");
+        return censored == flight.quality.end() || censored->second == 0.0;
+      });
+  if (life.value) {
+    claim.causes.push_back({"seconds for each time that the person is lost", life});
+  }
+}
+
 void add_computed_cause(Claim& claim, const std::string& mission) {
   if (mission == "delivery") {
     claim.causes.push_back(
@@ -212,6 +225,9 @@ Claim claim_of(const Evidence& evidence, const Printed& print) {
     if (test.mission == print.mission) {
       claim.causes.push_back({test.changed, compared(corners_of(evidence, test))});
     }
+  }
+  if (print.figure == "quality.tracked_s") {
+    add_cause_of_the_end(claim, corners);
   }
   if (print.figure == "mission_time_s" && print.mission != "scanning") {
     claim.causes.push_back(

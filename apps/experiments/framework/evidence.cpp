@@ -27,6 +27,26 @@ std::map<std::uint64_t, double> by_seed(const Point& point, const FlightFigure& 
   return values;
 }
 
+constexpr double normal_95 = 1.959964;  // 95 % of the normal distribution are between both ends.
+
+struct Lives {
+  double time_s{};
+  double losses{};
+};
+
+Lives lives_of(const Point& point,
+               const FlightFigure& time_s,
+               const std::function<bool(const Summary&)>& ends_in_loss) {
+  Lives lives;
+  for (const Summary* flight : point.flights) {
+    if (const auto seen_s = time_s(*flight)) {
+      lives.time_s += *seen_s;
+      lives.losses += ends_in_loss(*flight) ? 1.0 : 0.0;
+    }
+  }
+  return lives;
+}
+
 }  // namespace
 
 FlightFigure flight_figure(const std::string& figure) {
@@ -83,8 +103,23 @@ Measured ratio(const Point& over, const Point& under, const FlightFigure& of) {
   return measured_of(ratios);
 }
 
+Measured mean_life_ratio(const Point& over,
+                         const Point& under,
+                         const FlightFigure& time_s,
+                         const std::function<bool(const Summary&)>& ends_in_loss) {
+  const Lives above = lives_of(over, time_s, ends_in_loss);
+  const Lives below = lives_of(under, time_s, ends_in_loss);
+  if (above.losses == 0.0 || below.losses == 0.0 || below.time_s <= 0.0) {
+    return {};
+  }
+  const double mean = above.time_s / above.losses * below.losses / below.time_s;
+  const double factor = std::exp(normal_95 * std::sqrt(1.0 / above.losses + 1.0 / below.losses));
+  return {MedianInterval{mean, mean / factor, mean * factor},
+          static_cast<int>(std::min(over.flights.size(), under.flights.size()))};
+}
+
 Measured success_percent(const Point& point) {
-  constexpr double z = 1.959964;  // Of the normal distribution, 95 % between both ends.
+  constexpr double z = normal_95;
   if (point.flights.empty()) {
     return {};
   }

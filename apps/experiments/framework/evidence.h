@@ -52,6 +52,14 @@ class Evidence {
 /// The median of one point's number over the other's, seed by seed. Seeds that one of them lacks
 /// are left out, and so are those where the number below is not positive.
 [[nodiscard]] Measured ratio(const Point& over, const Point& under, const FlightFigure& of);
+/// The mean time to a loss of one point over the other's, where a flight that ends without a loss
+/// has only seen a part of such a time: each mean is that of an exponential distribution, all time
+/// over all losses (Epstein and Sobel 1953, doi:10.1080/01621459.1953.10483488). The interval is
+/// that of the ratio's logarithm as a normal distribution. Empty where a point has no loss.
+[[nodiscard]] Measured mean_life_ratio(const Point& over,
+                                       const Point& under,
+                                       const FlightFigure& time_s,
+                                       const std::function<bool(const Summary&)>& ends_in_loss);
 /// How many of the flights succeed [%], with the Wilson interval of a share (1927,
 /// doi:10.1080/01621459.1927.10502953). All flights count.
 [[nodiscard]] Measured success_percent(const Point& point);

@@ -32,6 +32,27 @@ TEST(Evidence, pairs_flights_by_their_seeds) {
   EXPECT_LT(found.value->lo, found.value->hi);
 }
 
+// By hand: 340 s with one loss over 220 s with two; a factor of exp(1.96 sqrt(1 + 1/2)) each way.
+TEST(Evidence, counts_a_flight_that_ended_without_a_loss_as_a_part_of_a_longer_one) {
+  std::vector<Summary> flights(6);
+  const std::vector<double> seconds{120.0, 120.0, 100.0, 57.0, 43.0, 120.0};
+  Point above;
+  Point below;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    flights[i].mission_time_s = seconds[i];
+    (i < 3 ? above : below).flights.push_back(&flights[i]);
+  }
+  const auto is_lost = [](const Summary& flight) { return flight.mission_time_s < 119.0; };
+  const auto time_s = flight_figure("mission_time_s");
+  const Measured found = mean_life_ratio(above, below, time_s, is_lost);
+  ASSERT_TRUE(found.value);
+  EXPECT_EQ(found.n, 3);
+  EXPECT_NEAR(found.value->median, 340.0 / 110.0, 1e-12);
+  EXPECT_NEAR(found.value->hi / found.value->median, 11.03, 0.01);
+  above.flights.pop_back();
+  EXPECT_FALSE(mean_life_ratio(above, below, time_s, is_lost).value) << "nobody was lost";
+}
+
 TEST(Evidence, leaves_failed_flights_out_unless_they_count) {
   Sweep sweep = made_sweep();
   for (SweepFlight& flight : sweep.flights) {
