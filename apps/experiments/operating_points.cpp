@@ -181,20 +181,23 @@ double speed_gain(double slow_s, double fast_s) {
   return speed(fast_s) / speed(slow_s);
 }
 
-/// What the paper's own kernel times and gains come to by its eq. 2.
+bool has_lost_the_person(const Summary& flight) {
+  const auto censored = flight.quality.find("is_censored");
+  const bool was_followed_to_the_end = censored != flight.quality.end() && censored->second != 0.0;
+  return !was_followed_to_the_end && flight.failure != MissionFailure::time_limit;
+}
+
 /// A flight in which nobody was lost ends after two minutes of tracking, and at the fast corner
 /// most flights do.
 void add_cause_of_the_end(Claim& claim, const Corners& corners) {
-  const Measured life = mean_life_ratio(
-      corners.fast, corners.slow, flight_figure("quality.tracked_s"), [](const Summary& flight) {
-        const auto censored = flight.quality.find("is_censored");
-        return censored == flight.quality.end() || censored->second == 0.0;
-      });
+  const Measured life = mean_life_ratio(corners.fast, corners.slow,
+                                        flight_figure("quality.tracked_s"), has_lost_the_person);
   if (life.value) {
     claim.causes.push_back({"seconds for each time that the person is lost", life});
   }
 }
 
+/// What the paper's own kernel times and gains come to by its eq. 2.
 void add_computed_cause(Claim& claim, const std::string& mission) {
   if (mission == "delivery") {
     claim.causes.push_back(

@@ -51,7 +51,7 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"fine_m", 0.0, 0.0, 2.0, "Cells that pass every gap; 0: the mapper's finest, or .15 m."},
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: the mapper's coarsest clear of the ground, .8 without a lattice."},
-      {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map."},
+      {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map, but for slow_range_m."},
       {"slow_range_m", 3.5, 0.5, 100.0, "Shortest where narrow gaps are declared, with a lattice."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
@@ -243,7 +243,7 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // gap needs them.
   around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
   around.clear_range_m = clear_range_m(seen, near);
-  if (!near) {
+  if (!near) {  // A vehicle that may be fast needs to see farther.
     around.least_range_m = std::max(around.least_range_m, least_range_m_);
   }
   around.failed_plans_per_m = &failed_.per_m();
