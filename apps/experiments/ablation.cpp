@@ -54,7 +54,7 @@ std::vector<Place> places() {
       {"with_a_quick_map",
        "delivery_mixed",
        "building, crowd and slit with our map's price",
-       joined({"kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"}, mixed),
+       joined(quick_map_at_own_price(), mixed),
        {{"mission_energy_without_finest_reserve", "reserve of the finest cells"}}},
   };
 }

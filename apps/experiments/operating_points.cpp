@@ -182,8 +182,8 @@ double speed_gain(double slow_s, double fast_s) {
 }
 
 bool has_lost_the_person(const Summary& flight) {
-  const auto censored = flight.quality.find("is_censored");
-  const bool was_followed_to_the_end = censored != flight.quality.end() && censored->second != 0.0;
+  const auto is_censored = flight_figure("quality.is_censored")(flight);
+  const bool was_followed_to_the_end = is_censored.value_or(0.0) != 0.0;
   return !was_followed_to_the_end && flight.failure != MissionFailure::time_limit;
 }
 

@@ -55,7 +55,8 @@ class Evidence {
 /// The mean time to a loss of one point over the other's, where a flight that ends without a loss
 /// has only seen a part of such a time: each mean is that of an exponential distribution, all time
 /// over all losses (Epstein and Sobel 1953, doi:10.1080/01621459.1953.10483488). The interval is
-/// that of the ratio's logarithm as a normal distribution. Empty where a point has no loss.
+/// that of the ratio's logarithm as a normal distribution. All flights count. Empty where a point
+/// has no loss.
 [[nodiscard]] Measured mean_life_ratio(const Point& over,
                                        const Point& under,
                                        const FlightFigure& time_s,

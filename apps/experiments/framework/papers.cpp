@@ -11,6 +11,10 @@ std::vector<std::string> quick_map() {
   return {"kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=octomap"};
 }
 
+std::vector<std::string> quick_map_at_own_price() {
+  return {"kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"};
+}
+
 std::string paper_detector() {
   return "detector.cost_of=yolov2";
 }
