@@ -56,6 +56,14 @@ if(FLYBALL_BUILD_SIM)
   target_include_directories(slam_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/kit ${PROJECT_SOURCE_DIR}/apps)
   flyball_compile_options(slam_bench)
 endif()
+if(FLYBALL_BUILD_SIM)
+  add_executable(kernel_bits EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/kernel_bits.cpp
+                                              ${CMAKE_CURRENT_LIST_DIR}/map_scenes.cpp)
+  target_link_libraries(kernel_bits PRIVATE flyball::apps)
+  target_include_directories(kernel_bits PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/kit ${PROJECT_SOURCE_DIR}/apps
+                                                 ${PROJECT_SOURCE_DIR}/kernels/src)
+  flyball_compile_options(kernel_bits)
+endif()
 add_executable(hop_bench EXCLUDE_FROM_ALL ${CMAKE_CURRENT_LIST_DIR}/hop_bench.cpp
                                           ${CMAKE_CURRENT_LIST_DIR}/delivery_soak.cpp)
 target_link_libraries(hop_bench PRIVATE flyball::runtime)
