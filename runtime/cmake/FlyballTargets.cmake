@@ -13,9 +13,11 @@ function(flyball_compile_options target)
     -Wall -Wextra -Wpedantic -Wconversion ${of_neighbours} -Wnon-virtual-dtor -Woverloaded-virtual
     $<$<BOOL:${FLYBALL_WERROR}>:-Werror>)
   # There Eigen asks for fused multiply-adds by name, which the flag above does not reach, unless it is
-  # told that there are none. (Products of large matrices keep them.)
+  # told that there are none. (Products of large matrices keep them.) With section anchors, g++ 12 places
+  # some constants 8 bytes behind where its code looks for them: {1, 2, 3, 4} was read as {1.2, 1, 2, 3}
+  # (in test_policies, whose test of each part of mission_energy stops at once when that comes back).
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
-    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)
+    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA -fno-section-anchors)
   endif()
   # OpenCV's and MRPT's targets name a hundred libraries that nothing here calls: a second at every
   # start of a program.

@@ -2,7 +2,7 @@
 # clean_root.sh ARCHITECTURE DEBS ROOT [SCENARIO]: installs the packages of the folder DEBS, which cpack
 # made for amd64 or arm64, into a new Debian 12 in ROOT that has nothing else, flies a mission there, and
 # removes them again. The summary with the trace's hash is printed. Needs root, the network and mmdebstrap;
-# for arm64 also qemu-user-static, with binfmt_misc, so that its programs start by themselves.
+# for arm64 also arch-test and qemu-user-static, with binfmt_misc, so that its programs start by themselves.
 set -euo pipefail
 architecture=${1:?amd64 or arm64}
 debs=${2:?a folder with the packages}
