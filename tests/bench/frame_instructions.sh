@@ -4,6 +4,7 @@
 # frames of 320 x 240 pixels. After `cmake --build build/arm64 --target frame_work frame_work_scalar`.
 # Needs qemu-user: the static one takes no plug-ins.
 set -euo pipefail
+shopt -s inherit_errexit # a count that fails ends the program
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 built=${1:-$here/../../build/arm64}
 sysroot=${FLYBALL_ARM64_SYSROOT:-$here/../../build/arm64-sysroot}
@@ -19,26 +20,30 @@ cc -O2 -shared -fPIC "$here/count_instructions.c" -o "$counter"
 
 # count PROGRAM ARGUMENTS...: instructions, and what it printed.
 count() {
-  qemu-aarch64 -cpu cortex-a57 -L "$sysroot" -plugin "$counter" "$built/bin/$1" "${@:2}" 2>&1 |
-    awk '/^instructions/ { n = $2; next } { sum = $1 } END { print n, sum }'
+  local said
+  if ! said=$(qemu-aarch64 -cpu cortex-a57 -L "$sysroot" -plugin "$counter" "$built/bin/$1" "${@:2}" 2>&1); then
+    printf '%s\n' "$said" >&2
+    return 1
+  fi
+  awk '/^instructions/ { n = $2; next } { sum = $1 } END { print n, sum }' <<< "$said"
 }
 
 # per_frame PROGRAM WHAT [portable]: million instructions for a frame, and the sum over its results.
 per_frame() {
   local one eleven
-  read -r one _ <<< "$(count "$1" "$2" 1 "${@:3}")"
-  read -r eleven sum <<< "$(count "$1" "$2" 11 "${@:3}")"
-  printf '%s %s' "$(awk -v a="$one" -v b="$eleven" 'BEGIN { printf "%.3f", (b - a) / 1e7 }')" "$sum"
+  one=$(count "$1" "$2" 1 "${@:3}")
+  eleven=$(count "$1" "$2" 11 "${@:3}")
+  awk -v a="${one% *}" -v b="${eleven% *}" -v sum="${eleven#* }" 'BEGIN { printf "%.3f %s", (b - a) / 1e7, sum }'
 }
 
 printf '%-8s %12s %12s %12s   million instructions a frame\n' '' scalar portable NEON
 for what in points map walk; do
-  read -r scalar scalar_sum <<< "$(per_frame frame_work_scalar "$what")"
-  read -r portable portable_sum <<< "$(per_frame frame_work "$what" portable)"
-  read -r neon neon_sum <<< "$(per_frame frame_work "$what")"
-  printf '%-8s %12s %12s %12s\n' "$what" "$scalar" "$portable" "$neon"
-  if [[ $scalar_sum != "$portable_sum" || $portable_sum != "$neon_sum" ]]; then
-    printf 'the results differ: %s %s %s\n' "$scalar_sum" "$portable_sum" "$neon_sum" >&2
+  scalar=$(per_frame frame_work_scalar "$what")
+  portable=$(per_frame frame_work "$what" portable)
+  neon=$(per_frame frame_work "$what")
+  printf '%-8s %12s %12s %12s\n' "$what" "${scalar% *}" "${portable% *}" "${neon% *}"
+  if [[ ${scalar#* } != "${portable#* }" || ${portable#* } != "${neon#* }" ]]; then
+    printf 'the results differ: %s %s %s\n' "${scalar#* }" "${portable#* }" "${neon#* }" >&2
     exit 1
   fi
 done

@@ -25,6 +25,11 @@ inside dpkg --get-selections | sort > "$root/packages/before"
 inside apt-get -q update >&2
 inside sh -c 'apt-get -q install -y --no-install-recommends /packages/*.deb' >&2
 
+# A board is looked for below these two.
+trap 'umount "$root/sys" "$root/proc"' EXIT
+mount -t proc proc "$root/proc"
+mount -t sysfs -o ro sysfs "$root/sys"
+
 inside flyball version
 inside flyball board
 inside sh -c "cd /root && flyball run $scenario --json --out flight"

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/computer/real_computer.h"
 #include "cli/console.h"
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -23,9 +24,10 @@ struct BoardArguments {
 int report(const BoardArguments& given) {
   const auto system = linux_system(given.root);
   if (system->entries("/sys/devices/system/cpu").empty()) {
-    return refuse({{ErrorCode::not_found, "no folder \"" + given.root +
-                                              "/sys/devices/system/cpu\" to look for a board "
-                                              "in; --root names a folder that has sys and proc"}});
+    const auto folder = std::filesystem::path{given.root} / "sys/devices/system/cpu";
+    return refuse({{ErrorCode::not_found, "no folder \"" + folder.string() +
+                                              "\" to look for a board in; --root names a folder "
+                                              "that has sys and proc"}});
   }
   const BoardInventory found = discover_board(*system);
   const auto board = choose_board(given.board, found.model);
