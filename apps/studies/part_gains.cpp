@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 using Pairing = std::map<std::pair<std::string, std::uint64_t>, const Summary*>;
 
 /// The flights of one policy by world and seed.
-Pairing flights_of(const std::vector<Summary>& flights, const std::string& policy) {
+Pairing pairing_of(const std::vector<Summary>& flights, const std::string& policy) {
   Pairing found;
   for (const Summary& flight : flights) {
     if (flight.policy == policy) {
@@ -125,11 +125,11 @@ std::string PartGain::verdict() const {
 std::vector<PartGain> part_gains(const std::vector<Summary>& flights,
                                  const std::string& whole,
                                  const std::vector<AblatedPolicy>& without) {
-  const Pairing of_whole = flights_of(flights, whole);
+  const Pairing of_whole = pairing_of(flights, whole);
   std::vector<PartGain> gains;
   gains.reserve(without.size());
   for (const AblatedPolicy& one : without) {
-    gains.push_back(gain_of(one.part, of_whole, flights_of(flights, one.policy)));
+    gains.push_back(gain_of(one.part, of_whole, pairing_of(flights, one.policy)));
   }
   return gains;
 }

@@ -5,6 +5,7 @@
 #include "flyball/runtime/board/clock_meter.h"
 #include "flyball/runtime/realtime/cpus.h"
 #include "flyball/studies/calibration.h"
+#include "flyball/studies/heat_measurement.h"
 #include "flyball/studies/power_measurement.h"
 
 #include "cli/commands.h"
@@ -26,6 +27,7 @@ struct CalibrateArguments {
   std::string like{"jetson_tx2"};
   std::string board{};
   double flight_s{20.0};
+  double heat_s{180.0};
   bool sets_clocks{};
 };
 
@@ -109,10 +111,19 @@ ClockChoice clocks_of(Bench& bench, const CalibrateArguments& given) {
   return choice;
 }
 
+bool has_power_meter(const Bench& bench) {
+  return bench.board != nullptr && bench.board->power_source() != "none";
+}
+
+/// Looks at all meters at a time since `begun`.
+BoardReading look(LinuxBoard& board, std::chrono::steady_clock::time_point begun) {
+  board.refresh(std::chrono::steady_clock::now() - begun);
+  return board.read();
+}
+
 /// The model's power, where the board has a meter.
 Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& model) {
-  const bool has_meter = bench.board != nullptr && bench.board->power_source() != "none";
-  if (!has_meter) {
+  if (!has_power_meter(bench)) {
     bench.remarks.push_back("Power was not measured, because " +
                             (bench.board ? std::string{"the board has no meter"} : bench.no_board) +
                             "; it is " + model.name + "'s.");
@@ -123,8 +134,7 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
   how.set = clock.settable.empty() ? nullptr : clock.set;
   how.cpus = usable_cpus();
   how.meter = [&board = *bench.board, begun = std::chrono::steady_clock::now()] {
-    board.refresh(std::chrono::steady_clock::now() - begun);
-    return board.read().computer_power;
+    return look(board, begun).computer_power;
   };
   const auto samples = measure_power(how);
   if (!samples) {
@@ -140,6 +150,54 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
                           std::to_string(samples->size()) +
                           " points; the model is off by at most " + rounded(100.0 * worst, 1) +
                           " %.");
+  return Done{};
+}
+
+/// What is measured: all cores busy at the clock at which power was measured last, the highest.
+HeatMeasurement heat_measurement(Bench& bench, const CalibrateArguments& given) {
+  HeatMeasurement how;
+  how.cpus = usable_cpus();
+  how.phase = from_seconds(given.heat_s);
+  how.stop = was_interrupted;
+  how.meter = [&board = *bench.board, begun = std::chrono::steady_clock::now()] {
+    const BoardReading reading = look(board, begun);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
+    return HeatSample{passed.count(), reading.computer_power, reading.temperature_c};
+  };
+  return how;
+}
+
+/// The model's heat, where the board has a meter of its power and a sensor.
+Status calibrate_heat(Bench& bench, const CalibrateArguments& given, PlatformModel& model) {
+  const std::string old = model.thermal ? "; it is " + model.name + "'s." : ".";
+  if (given.heat_s == 0.0 || !has_power_meter(bench) || bench.board->read().temperature_c == 0.0) {
+    bench.remarks.push_back("Heat was not measured, " +
+                            std::string{given.heat_s == 0.0
+                                            ? "as asked"
+                                            : "which takes a power meter and a thermal zone"} +
+                            old);
+    return Done{};
+  }
+  if (has_watcher()) {
+    note("heat: all cores busy, then idle, " + rounded(given.heat_s, 0) + " s each");
+  }
+  const auto samples = measure_heat(heat_measurement(bench, given));
+  if (!samples) {
+    return samples.error();
+  }
+  const auto fit = fitted_heat(*samples);
+  if (!fit) {
+    bench.remarks.push_back("Heat is not known: " + fit.error().message + old);
+    return Done{};
+  }
+  const std::vector<ThermalTrip> trips =
+      model.thermal ? model.thermal->trips : std::vector<ThermalTrip>{};
+  model.thermal = fit->model;
+  model.thermal->trips = trips;
+  bench.remarks.push_back(
+      "Heat was measured: " + rounded(fit->model.resistance_k_w, 2) + " K/W to air of " +
+      rounded(fit->model.ambient_c, 0) + " degrees Celsius, within " + rounded(fit->worst_k, 1) +
+      " K; where clocks are lost is " + (trips.empty() ? "not known." : model.name + "'s."));
   return Done{};
 }
 
@@ -176,7 +234,7 @@ Status write_platform(const std::string& out, Bench& bench, Calibration& calibra
   return Done{};
 }
 
-/// Kernels first, then power; the board is as it was afterwards.
+/// Kernels first, then power and heat; the board is as it was afterwards.
 Result<Calibration> measure(const CalibrateArguments& given, Bench& bench) {
   const ClockChoice clock = clocks_of(bench, given);
   auto calibration = calibrate(options_of(given, clock));
@@ -185,6 +243,9 @@ Result<Calibration> measure(const CalibrateArguments& given, Bench& bench) {
   }
   if (const Status power = calibrate_power(bench, clock, calibration->model); !power) {
     return power.error();
+  }
+  if (const Status heat = calibrate_heat(bench, given, calibration->model); !heat) {
+    return heat.error();
   }
   for (const Error& not_restored : bench.board ? bench.board->close() : std::vector<Error>{}) {
     note(not_restored.message);
@@ -234,6 +295,11 @@ void add_calibrate(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command->add_option("--seconds", given->flight_s, "mission time of each of the flights")
       ->check(CLI::Range(2.0, 600.0))
+      ->capture_default_str();
+  command
+      ->add_option("--heat-seconds", given->heat_s,
+                   "how long all cores are kept busy, and then idle, to measure heat; 0: not")
+      ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--set-clocks", given->sets_clocks,
                     "measures at every clock that may be set, and restores it");
