@@ -10,6 +10,8 @@
 #include <ctime>
 #include <filesystem>
 #include <iterator>
+#include <set>
+#include <string>
 #include <variant>
 
 namespace flyball {
@@ -41,9 +43,16 @@ class Calibrator {
         options_.progress(round.name + ", flight " + std::to_string(i + 1) + " of " +
                           std::to_string(flights.size()) + ": " + flights[i].scenario);
       }
-      if (const Status flown = fly_one(flights[i], round, jobs); !flown) {
+      const Status flown = fly_one(flights[i], round, jobs);
+      if (!flown && flown.error().code != ErrorCode::not_found) {
         return flown.error();
       }
+      if (!flown) {
+        left_out_.insert(flights[i].scenario + " was left out: " + flown.error().message);
+      }
+    }
+    if (jobs.empty() && !left_out_.empty()) {
+      return Error{ErrorCode::not_found, *left_out_.begin()};
     }
     return jobs;
   }
@@ -76,6 +85,10 @@ class Calibrator {
   /// CPU time of other threads over that of the one that ran the kernels.
   [[nodiscard]] double other_threads() const {
     return own_s_ > 0.0 ? std::max(0.0, all_s_ / own_s_ - 1.0) : 0.0;
+  }
+
+  [[nodiscard]] std::vector<std::string> left_out() const {
+    return {left_out_.begin(), left_out_.end()};
   }
 
  private:
@@ -124,6 +137,7 @@ class Calibrator {
   Hertz clock_{options_.clock.current};
   double all_s_{};
   double own_s_{};
+  std::set<std::string> left_out_{};  ///< A sentence for each flight whose files are not here.
 };
 
 /// The platform whose prices are to be replaced, with the clocks and cores of this computer.
@@ -194,6 +208,7 @@ Result<Calibration> calibrate(const CalibrationOptions& options) {
   }
   calibration.kernels = check_prices(calibration.model, *second, *others);
   calibration.other_threads = calibrator.other_threads();
+  calibration.left_out = calibrator.left_out();
   return calibration;
 }
 

@@ -35,6 +35,8 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME flyball)
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "Closed-loop simulator and tools of Flyball
  Flies missions with any choice of knobs, compares governors, reads and sets the clocks of a board.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "flyball-data ${same_version}")
+# People to look for, and what Haar cascades know of them: photography and search need these.
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "morse-simulator-data, opencv-data")
 if(CMAKE_CROSSCOMPILING)
   set(CPACK_FLYBALL_SYSROOT ${CMAKE_SYSROOT})
   set(CPACK_FLYBALL_BUILT ${PROJECT_BINARY_DIR})

@@ -31,7 +31,7 @@ endfunction()
 run(${CMAKE_CPACK_COMMAND} --config ${built}/CPackConfig.cmake -B ${folder}
     -D CPACK_PACKAGING_INSTALL_PREFIX=/usr -D CPACK_DEBIAN_COMPRESSION_TYPE=zstd)
 
-# package(<name>): `depends` and `files` of its package, which is unpacked.
+# package(<name>): `depends`, `recommends` and `files` of its package, which is unpacked.
 function(package name)
   file(GLOB deb ${folder}/${name}_*.deb)
   list(LENGTH deb count)
@@ -40,6 +40,8 @@ function(package name)
   endif()
   run(dpkg-deb -f ${deb} Depends)
   set(depends "${said}" PARENT_SCOPE)
+  run(dpkg-deb -f ${deb} Recommends)
+  set(recommends "${said}" PARENT_SCOPE)
   run(dpkg-deb -c ${deb})
   set(files "${said}" PARENT_SCOPE)
   run(dpkg-deb -x ${deb} ${folder}/root)
@@ -66,6 +68,7 @@ endif()
 
 package(flyball)
 expect("${depends}" "flyball-data \\(= " "flyball's Depends")
+expect("${recommends}" "morse-simulator-data" "flyball's Recommends")
 expect("${files}" "/usr/lib/systemd/system/flyball@\\.service" "flyball")
 refuse("${files}" "\\.wants/" "flyball")  # It starts when somebody says so.
 foreach(library liboctomap libompl libopencv-core libmrpt libsimtk|libsimbody libembree libassimp)

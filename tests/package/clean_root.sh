@@ -23,7 +23,7 @@ cp "$debs"/flyball_*_"$architecture".deb "$debs"/flyball-data_*_all.deb "$debs"/
   "$root/packages"
 inside dpkg --get-selections | sort > "$root/packages/before"
 inside apt-get -q update >&2
-inside sh -c 'apt-get -q install -y --no-install-recommends /packages/*.deb' >&2
+inside sh -c 'apt-get -q install -y /packages/*.deb' >&2
 
 # A board is looked for below these two.
 trap 'umount "$root/sys" "$root/proc"' EXIT
@@ -33,6 +33,8 @@ mount -t sysfs -o ro sysfs "$root/sys"
 inside flyball version
 inside flyball board
 inside sh -c "cd /root && flyball run $scenario --json --out flight"
+# It has people to look for.
+inside sh -c 'cd /root && flyball run search_collapsed_building --set mission.time_limit_s=5 --out search' >&2
 
 inside sh -c 'apt-get -q purge -y flyball flyball-data libflyball-governor0 && apt-get -q autoremove -y --purge' >&2
 inside dpkg --get-selections | sort > "$root/packages/after"

@@ -220,6 +220,8 @@ Status write_platform(const std::string& out, Bench& bench, Calibration& calibra
   PlatformModel& model = calibration.model;
   bench.remarks.insert(bench.remarks.begin(),
                        "Made by flyball calibrate, like " + model.name + ".");
+  bench.remarks.insert(bench.remarks.end(), calibration.left_out.begin(),
+                       calibration.left_out.end());
   model.name = std::filesystem::path{out}.stem().string();
   if (Status written = write_file(out, to_toml(model, bench.remarks)); !written) {
     return written;

@@ -141,7 +141,7 @@ std::string board_setup_script() {
 # memory and use real-time priorities. Log in anew afterwards.
 set -eu
 groupadd --system --force flyball
-usermod --append --groups flyball "${SUDO_USER:-$USER}"
+usermod --append --groups flyball "${SUDO_USER:-$(id -un)}"
 
 # The kernel makes these files anew when a core comes on-line, so that a rule of udev is needed.
 cat > /etc/udev/rules.d/70-flyball.rules <<'END'

@@ -165,6 +165,25 @@ TEST(Calibration, measures_what_a_flight_calls) {
   EXPECT_NE(to_text(*made).find("octomap"), std::string::npos);
 }
 
+TEST(Calibration, leaves_out_a_flight_whose_files_are_not_here) {
+  const ScratchFolder place;
+  CalibrationOptions options = short_calibration(place);
+  options.flight_s = 2.0;
+  const CalibrationFlight without_people{"photography_park",
+                                         {"colour_camera.people_folder=" + place.path("")}};
+  options.flights.push_back(without_people);
+  const auto made = calibrate(options);
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->left_out.size(), 1U);
+  EXPECT_NE(made->left_out.front().find("photography_park was left out: no mesh of a person"),
+            std::string::npos)
+      << made->left_out.front();
+  options.flights = {without_people};
+  const auto refused = calibrate(options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, made->left_out.front());
+}
+
 TEST(Calibration, flies_at_each_clock_that_may_be_set) {
   const ScratchFolder place;
   CalibrationOptions options = short_calibration(place);

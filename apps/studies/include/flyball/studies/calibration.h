@@ -74,11 +74,14 @@ struct Calibration {
   /// CPU time of threads other than the one that ran the kernels, over its own: how far "a kernel
   /// runs on one core" is from the truth.
   double other_threads{};
+  /// A sentence for each scenario that needs a file that is not here, such as people to look for.
+  std::vector<std::string> left_out{};
 };
 
 /// Flies in simulated time, two rounds at each clock, so that the second has the work that this
 /// computer would see, and then another seed to check.
-/// @error `not_found`, `invalid_input` (the platform file, a scenario), `unavailable` (stopped),
+/// @error `not_found` (the platform file; all scenarios need files that are not here),
+///        `invalid_input` (the platform file, a scenario), `unavailable` (stopped),
 ///        those of `ClockChoice::set`.
 [[nodiscard]] Result<Calibration> calibrate(const CalibrationOptions& options);
 
