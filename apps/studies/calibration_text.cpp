@@ -53,10 +53,13 @@ toml::table thermal_table(const ThermalModel& thermal) {
     trips.push_back(toml::table{
         {"at_c", trip.at_c}, {"hysteresis_k", trip.hysteresis_k}, {"cap_hz", trip.cap.value()}});
   }
-  return toml::table{{"ambient_c", thermal.ambient_c},
-                     {"resistance_k_w", thermal.resistance_k_w},
-                     {"time_constant_s", thermal.time_constant_s},
-                     {"trips", trips}};
+  toml::table table{{"ambient_c", thermal.ambient_c},
+                    {"resistance_k_w", thermal.resistance_k_w},
+                    {"time_constant_s", thermal.time_constant_s}};
+  if (!trips.empty()) {  // A list without tables is none of tables.
+    table.insert("trips", trips);
+  }
+  return table;
 }
 
 toml::table kernel_table(const KernelCost& cost) {

@@ -140,6 +140,16 @@ TEST(Calibration, writes_a_file_that_is_read_as_the_same_platform) {
               1.0, 1e-3);
 }
 
+TEST(Calibration, writes_heat_without_trips_so_that_it_can_be_read) {
+  PlatformModel model = load_platform(*find_shipped("platforms", "jetson_tx2_passive")).value();
+  model.thermal = ThermalModel{20.0, 2.0, 30.0, {}};
+  const ScratchFolder place;
+  const auto read = load_platform(place.file("board.toml", to_toml(model, {})));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->thermal->resistance_k_w, 2.0);
+  EXPECT_TRUE(read->thermal->trips.empty());
+}
+
 CalibrationOptions short_calibration(const ScratchFolder& place) {
   CalibrationOptions options;
   options.like = "jetson_tx2";
