@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -39,6 +40,7 @@ struct Bench {
   std::unique_ptr<LinuxBoard> board{};
   std::string no_board{};  ///< Why there is none.
   std::vector<std::string> remarks{};
+  std::chrono::steady_clock::time_point begun{std::chrono::steady_clock::now()};
 };
 
 Result<Bench> open_bench(const CalibrateArguments& given) {
@@ -115,10 +117,10 @@ bool has_power_meter(const Bench& bench) {
   return bench.board != nullptr && bench.board->power_source() != "none";
 }
 
-/// Looks at all meters at a time since `begun`.
-BoardReading look(LinuxBoard& board, std::chrono::steady_clock::time_point begun) {
-  board.refresh(std::chrono::steady_clock::now() - begun);
-  return board.read();
+/// All meters, now. One beginning for all looks: the board's meters average over time.
+BoardReading look(const Bench& bench) {
+  bench.board->refresh(std::chrono::steady_clock::now() - bench.begun);
+  return bench.board->read();
 }
 
 /// The model's power, where the board has a meter.
@@ -133,9 +135,7 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
   how.clocks = clock.settable.empty() ? std::vector<Hertz>{clock.current} : clock.settable;
   how.set = clock.settable.empty() ? nullptr : clock.set;
   how.cpus = usable_cpus();
-  how.meter = [&board = *bench.board, begun = std::chrono::steady_clock::now()] {
-    return look(board, begun).computer_power;
-  };
+  how.meter = [&bench] { return look(bench).computer_power; };
   const auto samples = measure_power(how);
   if (!samples) {
     return samples.error();
@@ -154,14 +154,14 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
 }
 
 /// What is measured: all cores busy at the clock at which power was measured last, the highest.
-HeatMeasurement heat_measurement(Bench& bench, const CalibrateArguments& given) {
+HeatMeasurement heat_measurement(const Bench& bench, const CalibrateArguments& given) {
   HeatMeasurement how;
   how.cpus = usable_cpus();
   how.phase = from_seconds(given.heat_s);
   how.stop = was_interrupted;
-  how.meter = [&board = *bench.board, begun = std::chrono::steady_clock::now()] {
-    const BoardReading reading = look(board, begun);
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
+  how.meter = [&bench] {
+    const BoardReading reading = look(bench);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - bench.begun;
     return HeatSample{passed.count(), reading.computer_power, reading.temperature_c};
   };
   return how;
@@ -190,14 +190,15 @@ Status calibrate_heat(Bench& bench, const CalibrateArguments& given, PlatformMod
     bench.remarks.push_back("Heat is not known: " + fit.error().message + old);
     return Done{};
   }
-  const std::vector<ThermalTrip> trips =
-      model.thermal ? model.thermal->trips : std::vector<ThermalTrip>{};
-  model.thermal = fit->model;
-  model.thermal->trips = trips;
+  ThermalModel heat = fit->model;
+  if (model.thermal) {
+    heat.trips = model.thermal->trips;
+  }
   bench.remarks.push_back(
-      "Heat was measured: " + rounded(fit->model.resistance_k_w, 2) + " K/W to air of " +
-      rounded(fit->model.ambient_c, 0) + " degrees Celsius, within " + rounded(fit->worst_k, 1) +
-      " K; where clocks are lost is " + (trips.empty() ? "not known." : model.name + "'s."));
+      "Heat was measured: " + rounded(heat.resistance_k_w, 2) + " K/W to air of " +
+      rounded(heat.ambient_c, 0) + " degrees Celsius, within " + rounded(fit->worst_k, 1) +
+      " K; where clocks are lost is " + (heat.trips.empty() ? "not known." : model.name + "'s."));
+  model.thermal = std::move(heat);
   return Done{};
 }
 
