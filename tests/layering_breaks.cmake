@@ -25,7 +25,7 @@ endfunction()
 
 expect(passes "a tree in order")
 foreach(case "flight;flyball/sim/world.h" "flight;flyball/scenario/scenario.h" "flight;scenario/scenario_reader.h"
-             "workloads;flyball/sim/world.h" "workloads;simulation/referee.h" "scenario;flyball/studies/tuning.h")
+             "workloads;flyball/sim/world.h" "workloads;simulation/judging/referee.h" "scenario;flyball/studies/tuning.h")
   list(GET case 0 room)
   list(GET case 1 header)
   file(WRITE ${copy}/apps/${room}/bad.cpp "#include \"${header}\"\n")

@@ -18,8 +18,10 @@
 #include "flyball/sim/rotor_power.h"
 #include "flyball/sim/vehicle.h"
 #include "flyball/sim/wind.h"
+#include "flyball/simulation/rendering.h"
 
 #include "simulation/mission_link.h"
+#include "simulation/picture_thread.h"
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
@@ -66,8 +68,8 @@ class ClosedLoop {
   /// platform's model is asked as ever.
   void measure_computer(std::function<Watts()> meter) { computer_meter_ = std::move(meter); }
 
-  /// See `MissionHooks::renders_at_once`.
-  void render_at_once(bool at_once) { renders_at_once_ = at_once; }
+  /// @pre Before `start`.
+  void render(Rendering when) { rendering_ = when; }
 
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
@@ -88,8 +90,10 @@ class ClosedLoop {
   void energy_step();
   void publish_navigation();
   void publish_depth();
+  void start_gimbal();
   void start_localizer();
-  void publish_colour();
+  void take_colour();
+  void publish_colour(const ColourFrame& frame);
   void obey(const FlightCommand& command);
 
   MissionLink& link_;
@@ -113,7 +117,8 @@ class ClosedLoop {
   std::function<void()> on_energy_{};
   std::function<void(std::uint64_t, const Pose&)> on_picture_{};
   std::function<Watts()> computer_meter_{};
-  bool renders_at_once_{};
+  Rendering rendering_{};
+  std::unique_ptr<PictureThread> pictures_{};  ///< Null but for `Rendering::as_cameras_do`.
   FlightLog log_{};
   double last_busy_core_s_{};
   DeviceUse last_use_{};

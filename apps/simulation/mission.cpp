@@ -12,10 +12,10 @@
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
 #include "simulation/future_frames.h"
+#include "simulation/judging/referee.h"
 #include "simulation/mission_checks.h"
 #include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
-#include "simulation/referee.h"
 #include "simulation/simulated_board.h"
 #include "simulation/soft_errors.h"
 #include <cstdio>
@@ -157,7 +157,7 @@ void connect(Flight& flight, const MissionHooks& hooks) {
       hooks.job(flight.graph.nodes()[static_cast<std::size_t>(job.node)].spec, job);
     });
   }
-  flight.loop->render_at_once(hooks.renders_at_once);
+  flight.loop->render(hooks.rendering);
   if (hooks.onboard_record != nullptr) {
     hooks.onboard_record->connect({flight.graph, *flight.executor,
                                    [&flight] { return flight.queue.now(); },

@@ -101,7 +101,7 @@ class Calibrator {
       return errors->front();
     }
     MissionHooks hooks;
-    hooks.renders_at_once = true;  // The camera's work is none of a kernel's.
+    hooks.rendering = Rendering::at_once;  // The camera's work is none of a kernel's.
     hooks.stop = options_.stop;
     hooks.job = [&](const NodeSpec& node, const JobRecord& job) {
       const std::string& kernel = job.work.charged_as();

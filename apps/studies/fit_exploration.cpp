@@ -5,7 +5,7 @@
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/navigation/plan_with_tubes.h"
 
-#include "simulation/exploration_judge.h"
+#include "simulation/judging/exploration_judge.h"
 #include "simulation/mission_setup.h"
 #include "studies/fit_localizer.h"
 #include "studies/fit_perception.h"

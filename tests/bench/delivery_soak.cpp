@@ -104,10 +104,11 @@ class DeliveryShape {
 
 }  // namespace
 
-void soak(double seconds) {
+void soak(double seconds, std::optional<int> fifo_priority) {
   const DeliveryShape shape;
   RealtimeSettings settings;
   settings.lock_memory = true;
+  settings.fifo_priority = fifo_priority;
   settings.tell = [](const std::string& sentence) { std::printf("%s\n", sentence.c_str()); };
   RealtimeExecutor executor{shape.graph, {64, Hertz{1e9}}, settings};
   std::uint64_t jobs = 0;
@@ -120,7 +121,9 @@ void soak(double seconds) {
       jitter_us.push_back(to_seconds(record.started - record.released) * 1e6);
     }
   });
-  jitter_us.reserve(static_cast<std::size_t>(seconds * 51.0) + 100);
+  // Touched before memory is looked at, so that the growth that is found is not its own.
+  jitter_us.assign(static_cast<std::size_t>(seconds * 51.0) + 100, 0.0);
+  jitter_us.clear();
   executor.serve_until(MissionTime{from_seconds(0.1 * seconds)});
   const double early_mb = resident_mb();
   executor.serve_until(MissionTime{from_seconds(seconds)});

@@ -5,7 +5,7 @@
 // of a delivery's shape for as long as one likes:
 //
 //     ninja hop_bench && bin/hop_bench
-//     bin/hop_bench --soak 3600
+//     bin/hop_bench --soak 3600 --fifo 50
 //
 // What it prints depends on kernel, scheduling and host: these stand above the table.
 
@@ -15,6 +15,7 @@
 #include "bench/delivery_soak.h"
 #include "bench/hop_times.h"
 #include "counting_new.h"
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdio>
@@ -178,11 +179,19 @@ Row with_flow_graph(const std::string& name) {
 }
 #endif
 
-void print_conditions() {
+/// Where it runs, and what else does: processes that want a core, a mean of five minutes.
+void print_machine() {
   utsname system{};
   uname(&system);
-  std::printf("Linux %s, %s, %zu cores, ordinary scheduling; %zu hops each, microseconds\n\n",
-              system.release, system.machine, usable_cpus().size(), hops);
+  std::array<double, 2> load{};
+  (void)getloadavg(load.data(), 2);
+  std::printf("Linux %s, %s, %zu cores, load %.1f", system.release, system.machine,
+              usable_cpus().size(), load[1]);
+}
+
+void print_conditions() {
+  print_machine();
+  std::printf(", ordinary scheduling; %zu hops each, microseconds\n\n", hops);
 }
 
 void print(const Row& row) {
@@ -209,13 +218,19 @@ void measure_all() {
 }  // namespace flyball::bench
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--soak") == 0 && std::atof(argv[2]) > 0.0) {
-    flyball::bench::soak(std::atof(argv[2]));
-    return 0;
-  }
-  if (argc != 1) {
-    std::fprintf(stderr, "usage: hop_bench [--soak SECONDS], and seconds are more than 0\n");
+  const bool is_soak = (argc == 3 || argc == 5) && std::strcmp(argv[1], "--soak") == 0;
+  const bool is_fifo = argc == 5 && std::strcmp(argv[3], "--fifo") == 0;
+  if (argc != 1 && (!is_soak || std::atof(argv[2]) <= 0.0 || is_fifo != (argc == 5) ||
+                    (is_fifo && std::atoi(argv[4]) <= 0))) {
+    std::fprintf(stderr, "usage: hop_bench [--soak SECONDS [--fifo PRIORITY]], both more than 0\n");
     return 2;
+  }
+  if (is_soak) {
+    const auto priority = is_fifo ? std::optional{std::atoi(argv[4])} : std::nullopt;
+    flyball::bench::soak(std::atof(argv[2]), priority);
+    flyball::bench::print_machine();
+    std::printf(", %s\n", is_fifo ? "real-time priorities" : "ordinary scheduling");
+    return 0;
   }
   flyball::bench::measure_all();
   return 0;

@@ -111,7 +111,7 @@ void RealComputer::equip(MissionHooks& hooks) {
     hooks.computer = shared_board_.get();
   }
   hooks.executor = in_real_time(settings);
-  hooks.renders_at_once = true;  // As a camera does it, and not a job on the computer.
+  hooks.rendering = Rendering::as_cameras_do;
 }
 
 void RealComputer::close() {

@@ -52,7 +52,7 @@ TEST(ClosedLoop, flies_the_same_whenever_its_pictures_are_rendered) {
   };
   const auto later = fly(kit::short_delivery(), hooks);
   EXPECT_GT(jobs, 100U);
-  hooks.renders_at_once = true;
+  hooks.rendering = Rendering::at_once;
   const auto at_once = fly(kit::short_delivery(), hooks);
   ASSERT_TRUE(later && at_once);
   EXPECT_EQ(later->summary.trace_hash, at_once->summary.trace_hash);

@@ -12,6 +12,7 @@
 #include "flyball/runtime/realtime/realtime_board.h"
 #include "flyball/runtime/result.h"
 #include "flyball/scenario/scenario.h"
+#include "flyball/simulation/rendering.h"
 
 #include <functional>
 #include <memory>
@@ -34,9 +35,7 @@ struct MissionHooks {
   Timeline* timeline{};     ///< Is told of all jobs; null: nothing is.
   /// Called with each job that has ended, after it, on the caller's thread.
   std::function<void(const NodeSpec&, const JobRecord&)> job{};
-  /// Cameras compute a picture when it is taken, so that no job pays for it; else it is computed
-  /// when somebody first looks at it, if ever. The pictures are the same.
-  bool renders_at_once{};
+  Rendering rendering{};
   OnboardRecord* onboard_record{};  ///< Is connected before the start; null: there is none.
   /// The real computer that the executor runs the nodes on: it is refreshed while the mission
   /// flies, and its watts and heat count. Null: the scenario's platform is modeled.

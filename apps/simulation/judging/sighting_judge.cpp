@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: referee
-#include "simulation/sighting_judge.h"
+#include "simulation/judging/sighting_judge.h"
 
 #include "flyball/records/text_table.h"
 

@@ -8,7 +8,7 @@
 #include "flyball/flight/people/tracked_time.h"
 #include "flyball/sim/person.h"
 
-#include "simulation/judge.h"
+#include "simulation/judging/judge.h"
 #include "simulation/mission_link.h"
 #include <deque>
 #include <map>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // test-label: closed_loop
-#include "simulation/referee.h"
+#include "simulation/judging/referee.h"
 
 #include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"
 #include "mission_rig.h"
 #include "short_delivery.h"
-#include "simulation/picture_judge.h"
-#include "simulation/sighting_judge.h"
+#include "simulation/judging/picture_judge.h"
+#include "simulation/judging/sighting_judge.h"
 
 #include <gtest/gtest.h>
 

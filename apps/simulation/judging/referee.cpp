@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/referee.h"
+#include "simulation/judging/referee.h"
 
 #include "flyball/flight/exploration/exploration_flight.h"
 
-#include "simulation/map_judge.h"
-#include "simulation/picture_judge.h"
-#include "simulation/sighting_judge.h"
+#include "simulation/judging/map_judge.h"
+#include "simulation/judging/picture_judge.h"
+#include "simulation/judging/sighting_judge.h"
 #include <algorithm>
 
 namespace flyball {

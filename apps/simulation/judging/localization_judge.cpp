@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: referee
-#include "simulation/localization_judge.h"
+#include "simulation/judging/localization_judge.h"
 
 #include <algorithm>
 

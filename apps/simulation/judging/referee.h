@@ -5,9 +5,9 @@
 /// Says how a mission ended. The vehicle claims, the referee looks at the true world.
 
 #include "simulation/closed_loop.h"
-#include "simulation/judge.h"
-#include "simulation/localization_judge.h"
-#include "simulation/tracking_score.h"
+#include "simulation/judging/judge.h"
+#include "simulation/judging/localization_judge.h"
+#include "simulation/judging/tracking_score.h"
 #include <memory>
 #include <vector>
 

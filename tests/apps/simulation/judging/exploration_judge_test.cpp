@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/exploration_judge.h"
+#include "simulation/judging/exploration_judge.h"
 
 #include "grid_map.h"
 

@@ -8,7 +8,7 @@
 #include "flyball/flight/exploration/ground_pictures.h"
 #include "flyball/runtime/executor.h"
 
-#include "simulation/judge.h"
+#include "simulation/judging/judge.h"
 #include "simulation/mission_link.h"
 #include <functional>
 

@@ -7,7 +7,7 @@
 #include "flyball/runtime/executor.h"
 #include "flyball/runtime/messages.h"
 
-#include "simulation/judge.h"
+#include "simulation/judging/judge.h"
 #include <deque>
 
 namespace flyball {

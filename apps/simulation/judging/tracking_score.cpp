@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/tracking_score.h"
+#include "simulation/judging/tracking_score.h"
 
 #include "flyball/records/pictures.h"
 #include "flyball/records/text_table.h"

@@ -7,8 +7,8 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/sim/world.h"
 
-#include "simulation/exploration_judge.h"
-#include "simulation/judge.h"
+#include "simulation/judging/exploration_judge.h"
+#include "simulation/judging/judge.h"
 #include "simulation/mission_link.h"
 #include <optional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: referee
-#include "simulation/map_judge.h"
+#include "simulation/judging/map_judge.h"
 
 namespace flyball {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: referee
-#include "simulation/picture_judge.h"
+#include "simulation/judging/picture_judge.h"
 
 #include <utility>
 

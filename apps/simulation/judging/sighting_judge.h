@@ -9,7 +9,7 @@
 #include "flyball/runtime/executor.h"
 #include "flyball/sim/person.h"
 
-#include "simulation/judge.h"
+#include "simulation/judging/judge.h"
 #include "simulation/mission_link.h"
 #include <optional>
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/picture_thread.h"
+
+#include <utility>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace flyball {
+namespace {
+
+/// The calling thread runs when no other one on its core wants to.
+void step_back() {
+  constexpr int nicest = 19;
+  // Where it fails, the picture is drawn in turns with the simulator.
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nicest);
+}
+
+}  // namespace
+
+PictureThread::PictureThread() {
+  thread_ = std::thread{[this] { run(); }};
+}
+
+PictureThread::~PictureThread() {
+  {
+    const std::lock_guard lock{mutex_};
+    is_ending_ = true;
+  }
+  news_.notify_one();
+  thread_.join();
+}
+
+void PictureThread::draw(ColourFrame frame) {
+  {
+    const std::lock_guard lock{mutex_};
+    next_ = std::move(frame);
+  }
+  news_.notify_one();
+}
+
+std::vector<ColourFrame> PictureThread::take_ready() {
+  const std::lock_guard lock{mutex_};
+  return std::exchange(ready_, {});
+}
+
+void PictureThread::run() {
+  step_back();
+  std::unique_lock lock{mutex_};
+  for (;;) {
+    news_.wait(lock, [this] { return is_ending_ || next_; });
+    if (is_ending_) {
+      return;
+    }
+    const ColourFrame frame = *std::exchange(next_, std::nullopt);
+    lock.unlock();
+    (void)frame.image.value();
+    lock.lock();
+    ready_.push_back(frame);
+  }
+}
+
+}  // namespace flyball
