@@ -25,6 +25,7 @@ VehicleTopics add_vehicle_topics(Graph& graph, const VehicleExtras& extras) {
     constexpr std::size_t longest_detection = 128;  // Frames: 6 s of a 20 Hz camera.
     topics.colour = graph.topic<ColourFrame>("colour");
     topics.colour_buffer = graph.topic<ColourFrame>("colour_buffer", longest_detection);
+    topics.colour_depth = graph.topic<DepthFrame>("colour_depth");
     topics.gimbal = graph.topic<GimbalAngles>("gimbal_command");
   }
   return topics;

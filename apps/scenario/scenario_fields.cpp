@@ -83,6 +83,8 @@ Fields camera_fields() {
       {"camera.up_m", &at<in, &C::up_m>, -2, 2, "as forward_m"},
       {"camera.pitch_down_rad", &at<in, &C::pitch_down_rad>, -1.5, 1.5,
        "of each camera, from level"},
+      {"camera.delay_s", &at<in, &C::delay_s>, 0, 1,
+       "from the moment that an image shows to its message"},
   };
 }
 
@@ -95,6 +97,8 @@ Fields colour_camera_fields() {
       {"colour_camera.horizontal_field_rad", &at<in, &C::horizontal_field_rad>, 0.1, 3,
        "field of view"},
       {"colour_camera.rate_hz", &at<in, &C::rate_hz>, 0.1, 240, "frames a second"},
+      {"colour_camera.delay_s", &at<in, &C::delay_s>, 0, 1,
+       "from the moment that a picture shows to its message"},
       {"colour_camera.sun_azimuth_rad", &at<in, &C::sun_azimuth_rad>, -7, 7,
        "where the sun stands, from east towards north"},
       {"colour_camera.sun_elevation_rad", &at<in, &C::sun_elevation_rad>, 0.05, 1.57,

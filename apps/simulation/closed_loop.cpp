@@ -46,7 +46,6 @@ ClosedLoop::ClosedLoop(MissionLink& link,
     : link_{link},
       scenario_{scenario},
       airframe_{things.airframe},
-      cameras_{things.cameras},
       executor_{executor},
       queue_{queue},
       topics_{topics},
@@ -60,7 +59,7 @@ ClosedLoop::ClosedLoop(MissionLink& link,
       regression_{things.airframe},
       battery_{things.airframe.battery_cells, things.airframe.battery_ah,
                scenario.vehicle.battery_charge},
-      camera_{things.world, scenario.camera, scenario.seed},
+      cameras_{scenario, things, executor, queue, topics},
       gps_{scenario.gps, EarthOrigin{}, scenario.seed},
       barometer_{scenario.barometer, EarthOrigin{}.height_m, scenario.seed},
       imu_{ImuSpec{}, scenario.seed},
@@ -80,28 +79,12 @@ void ClosedLoop::start() {
                [this] { energy_step(); });
   queue_.every(MissionTime{navigation_period}, navigation_period, EventOrder::sensor,
                [this] { publish_navigation(); });
-  const Duration frame = from_seconds(1.0 / scenario_.camera.rate_hz);
-  queue_.every(MissionTime{frame}, frame, EventOrder::sensor, [this] { publish_depth(); });
-  if (cameras_.gimbal) {
-    start_gimbal();
+  cameras_.start(vehicle_);
+  if (cameras_.has_gimbal()) {
+    executor_.subscribe<GimbalAngles>(topics_.gimbal,
+                                      [this](const GimbalAngles& angles) { vehicle_.aim(angles); });
   }
   start_localizer();
-}
-
-void ClosedLoop::start_gimbal() {
-  executor_.subscribe<GimbalAngles>(topics_.gimbal,
-                                    [this](const GimbalAngles& angles) { vehicle_.aim(angles); });
-  const Duration picture = from_seconds(1.0 / scenario_.colour_camera.rate_hz);
-  queue_.every(MissionTime{picture}, picture, EventOrder::sensor, [this] { take_colour(); });
-  if (rendering_ == Rendering::as_cameras_do) {
-    pictures_ = std::make_unique<PictureThread>();
-    const Duration step = from_seconds(scenario_.vehicle.physics_step_s);
-    queue_.every(MissionTime{step}, step, EventOrder::sensor, [this] {
-      for (const ColourFrame& frame : pictures_->take_ready()) {
-        publish_colour(frame);
-      }
-    });
-  }
 }
 
 /// It is told where the vehicle stands.
@@ -188,53 +171,6 @@ void ClosedLoop::publish_navigation() {
   executor_.publish(topics_.navigation, sample);
   executor_.publish(topics_.status,
                     FlightStatus{is_airborne(), controller_.is_done(vehicle_.state())});
-}
-
-void ClosedLoop::publish_depth() {
-  const Pose& X_WB = vehicle_.state().X_WB;
-  const Pose X_WC = camera_pose(X_WB, scenario_.camera);
-  const std::uint64_t number = frame_count_++;
-  const DepthFrame depth = camera_.frame(X_WC, queue_.now(), number);
-  if (rendering_ != Rendering::when_looked_at) {
-    (void)depth.image.value();
-    for (const SideView& side : depth.sides) {
-      (void)side.image.value();
-    }
-  }
-  if (topics_.view) {
-    const Pose X_LC = level_frame(X_WB).inverse() * X_WC;
-    const ColourFrame colour = cameras_.forward->frame({X_WC, X_LC}, queue_.now(), number);
-    if (rendering_ != Rendering::when_looked_at) {
-      (void)colour.image.value();
-    }
-    executor_.publish(*topics_.view, View{depth, colour, X_WB.inverse() * X_WC});
-  }
-  executor_.publish(topics_.depth, depth);
-}
-
-void ClosedLoop::take_colour() {
-  const Pose X_WC = vehicle_.camera_pose();
-  const Pose X_LC = level_frame(vehicle_.state().X_WB).inverse() * X_WC;
-  const ColourFrame frame = cameras_.gimbal->frame({X_WC, X_LC}, queue_.now(), colour_count_++);
-  if (on_picture_) {
-    on_picture_(frame.sequence, X_WC);
-  }
-  switch (rendering_) {
-    case Rendering::as_cameras_do:
-      pictures_->draw(frame);
-      return;
-    case Rendering::at_once:
-      (void)frame.image.value();
-      break;
-    case Rendering::when_looked_at:
-      break;
-  }
-  publish_colour(frame);
-}
-
-void ClosedLoop::publish_colour(const ColourFrame& frame) {
-  executor_.publish(topics_.colour, frame);
-  executor_.publish(topics_.colour_buffer, frame);
 }
 
 void ClosedLoop::obey(const FlightCommand& command) {

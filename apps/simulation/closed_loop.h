@@ -11,17 +11,15 @@
 #include "flyball/scenario/scenario.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/battery.h"
-#include "flyball/sim/depth_camera.h"
 #include "flyball/sim/flight_controller.h"
 #include "flyball/sim/gps.h"
 #include "flyball/sim/imu.h"
 #include "flyball/sim/rotor_power.h"
 #include "flyball/sim/vehicle.h"
 #include "flyball/sim/wind.h"
-#include "flyball/simulation/rendering.h"
 
+#include "simulation/camera_drivers.h"
 #include "simulation/mission_link.h"
-#include "simulation/picture_thread.h"
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
@@ -58,18 +56,11 @@ class ClosedLoop {
   }
   /// Calls `listener` when power and the battery's charge have moved on.
   void on_energy(std::function<void()> listener) { on_energy_ = std::move(listener); }
-  /// Calls `listener` with a colour picture's number and the camera's true pose, before the picture
-  /// is published.
-  void on_picture(std::function<void(std::uint64_t, const Pose&)> listener) {
-    on_picture_ = std::move(listener);
-  }
-
   /// Asks `meter` for the computer's power, where it is not modeled; 0 W: it has no meter, and the
   /// platform's model is asked as ever.
   void measure_computer(std::function<Watts()> meter) { computer_meter_ = std::move(meter); }
 
-  /// @pre Before `start`.
-  void render(Rendering when) { rendering_ = when; }
+  [[nodiscard]] CameraDrivers& cameras() { return cameras_; }
 
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
@@ -89,17 +80,12 @@ class ClosedLoop {
   void physics_step();
   void energy_step();
   void publish_navigation();
-  void publish_depth();
-  void start_gimbal();
   void start_localizer();
-  void take_colour();
-  void publish_colour(const ColourFrame& frame);
   void obey(const FlightCommand& command);
 
   MissionLink& link_;
   const Scenario& scenario_;
   const Airframe& airframe_;
-  const ColourCameras& cameras_;
   Executor& executor_;
   EventQueue& queue_;
   VehicleTopics topics_;
@@ -108,23 +94,18 @@ class ClosedLoop {
   FlightController controller_;
   RegressionPower regression_;
   Battery battery_;
-  DepthCamera camera_;
+  CameraDrivers cameras_;
   Gps gps_;
   Barometer barometer_;
   Imu imu_;
   Wind wind_;
   std::function<void(const TruePose&)> on_navigation_{};
   std::function<void()> on_energy_{};
-  std::function<void(std::uint64_t, const Pose&)> on_picture_{};
   std::function<Watts()> computer_meter_{};
-  Rendering rendering_{};
-  std::unique_ptr<PictureThread> pictures_{};  ///< Null but for `Rendering::as_cameras_do`.
   FlightLog log_{};
   double last_busy_core_s_{};
   DeviceUse last_use_{};
   std::uint64_t navigation_count_{};
-  std::uint64_t frame_count_{};
-  std::uint64_t colour_count_{};
 };
 
 }  // namespace flyball

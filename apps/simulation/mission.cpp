@@ -157,7 +157,7 @@ void connect(Flight& flight, const MissionHooks& hooks) {
       hooks.job(flight.graph.nodes()[static_cast<std::size_t>(job.node)].spec, job);
     });
   }
-  flight.loop->render(hooks.rendering);
+  flight.loop->cameras().render(hooks.rendering);
   if (hooks.onboard_record != nullptr) {
     hooks.onboard_record->connect({flight.graph, *flight.executor,
                                    [&flight] { return flight.queue.now(); },

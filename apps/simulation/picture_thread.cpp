@@ -31,15 +31,15 @@ PictureThread::~PictureThread() {
   thread_.join();
 }
 
-void PictureThread::draw(ColourFrame frame) {
+void PictureThread::draw(TakenPicture picture) {
   {
     const std::lock_guard lock{mutex_};
-    next_ = std::move(frame);
+    next_ = std::move(picture);
   }
   news_.notify_one();
 }
 
-std::vector<ColourFrame> PictureThread::take_ready() {
+std::vector<TakenPicture> PictureThread::take_ready() {
   const std::lock_guard lock{mutex_};
   return std::exchange(ready_, {});
 }
@@ -52,11 +52,11 @@ void PictureThread::run() {
     if (is_ending_) {
       return;
     }
-    const ColourFrame frame = *std::exchange(next_, std::nullopt);
+    const TakenPicture picture = *std::exchange(next_, std::nullopt);
     lock.unlock();
-    (void)frame.image.value();
+    (void)picture.colour.image.value();
     lock.lock();
-    ready_.push_back(frame);
+    ready_.push_back(picture);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto same_time = 60ms;      // A little more than a frame of either camera, at 20 Hz.
+constexpr auto same_time = 60ms;      // A little more than a frame of the depth camera, at 20 Hz.
 constexpr double inner_share = 0.25;  // Of the box, to each side of its middle. Chosen.
 
 /// The pixel that looks along a direction of the level frame L (x forward, y left, z up).
@@ -66,7 +66,7 @@ class Detect {
     Work work;
     poses_.take_from(job, poses_topic_);
     const auto frame = job.latest(parts_.vehicle.colour);
-    const auto depth = job.latest(parts_.vehicle.depth);
+    const auto depth = job.latest(parts_.vehicle.colour_depth);
     const auto knobs = job.latest(parts_.mission.knobs);
     if (!frame || !depth || !knobs || !is_in(job, parts_.mission, MissionPhase::cruise)) {
       return work;
@@ -143,8 +143,8 @@ Topic<Sightings> add_person_search(Graph& graph,
   spec.name = "detect";
   spec.cost = detector_cost(parts.brief->settings);
   spec.trigger = OnMessage{parts.vehicle.colour.index};
-  spec.priority = 10;
-  spec.reads = {parts.vehicle.depth.index, localization.poses.index, parts.mission.knobs.index,
+  spec.priority = 8;  // A person waits longer than an obstacle: below the map.
+  spec.reads = {parts.vehicle.colour_depth.index, localization.poses.index, parts.mission.knobs.index,
                 parts.mission.state.index};
   spec.writes = {sightings.index};
   declare_log(spec, parts.mission);

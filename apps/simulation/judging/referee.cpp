@@ -49,7 +49,7 @@ void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapp
   }
   if (const auto target = graph.find<Target>("target")) {
     auto score = std::make_unique<TrackingScore>(link_, things_.world.people);
-    loop_.on_picture([score = score.get()](std::uint64_t sequence, const Pose& X_WC) {
+    loop_.cameras().on_picture([score = score.get()](std::uint64_t sequence, const Pose& X_WC) {
       score->note(sequence, X_WC);
     });
     executor.subscribe<Target>(*target, [this, score = score.get()](const Target& seen) {

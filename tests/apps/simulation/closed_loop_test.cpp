@@ -58,5 +58,23 @@ TEST(ClosedLoop, flies_the_same_whenever_its_pictures_are_rendered) {
   EXPECT_EQ(later->summary.trace_hash, at_once->summary.trace_hash);
 }
 
+TEST(ClosedLoop, publishes_a_depth_image_when_the_cameras_delay_has_passed) {
+  Scenario scenario = kit::short_delivery();
+  const auto first_release = [&scenario] {
+    std::optional<MissionTime> released;
+    MissionHooks hooks;
+    hooks.job = [&released](const NodeSpec& node, const JobRecord& job) {
+      released = released || node.name != "points" ? released : std::optional{job.released};
+    };
+    const auto record = fly(scenario, hooks);
+    EXPECT_TRUE(record && record->summary.status == MissionStatus::succeeded);
+    return released;
+  };
+  const Duration frame = from_seconds(1.0 / scenario.camera.rate_hz);
+  EXPECT_EQ(first_release(), MissionTime{frame});
+  scenario.camera.delay_s = 0.03;
+  EXPECT_EQ(first_release(), MissionTime{frame + from_seconds(0.03)});
+}
+
 }  // namespace
 }  // namespace flyball

@@ -33,7 +33,7 @@ struct Drawing {
   }
 };
 
-std::vector<ColourFrame> await_ready(PictureThread& thread) {
+std::vector<TakenPicture> await_ready(PictureThread& thread) {
   for (;;) {
     auto ready = thread.take_ready();
     if (!ready.empty()) {
@@ -46,14 +46,14 @@ std::vector<ColourFrame> await_ready(PictureThread& thread) {
 TEST(PictureThread, draws_beside_its_caller) {
   Drawing drawing;
   PictureThread thread;
-  thread.draw(drawing.frame(7));
+  thread.draw({drawing.frame(7), {}});
   EXPECT_NE(drawing.drawn_by.get_future().get(), std::this_thread::get_id());
   EXPECT_TRUE(thread.take_ready().empty());  // It is being drawn, and nobody waited for it.
   drawing.may_draw.set_value();
   const auto ready = await_ready(thread);
   ASSERT_EQ(ready.size(), 1U);
-  EXPECT_EQ(ready.front().sequence, 7U);
-  EXPECT_EQ(ready.front().image.value().rgb, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(ready.front().colour.sequence, 7U);
+  EXPECT_EQ(ready.front().colour.image.value().rgb, (std::vector<std::uint8_t>{1, 2, 3}));
   EXPECT_TRUE(thread.take_ready().empty());
 }
 
@@ -62,16 +62,16 @@ TEST(PictureThread, leaves_out_a_picture_that_it_could_not_begin_before_the_next
   Drawing second;
   Drawing third;
   PictureThread thread;
-  thread.draw(first.frame(1));
+  thread.draw({first.frame(1), {}});
   (void)first.drawn_by.get_future().get();  // Begun.
-  thread.draw(second.frame(2));
-  thread.draw(third.frame(3));
+  thread.draw({second.frame(2), {}});
+  thread.draw({third.frame(3), {}});
   third.may_draw.set_value();
   first.may_draw.set_value();
   std::vector<std::uint64_t> sequences;
   while (sequences.size() < 2) {
-    for (const ColourFrame& frame : await_ready(thread)) {
-      sequences.push_back(frame.sequence);
+    for (const TakenPicture& picture : await_ready(thread)) {
+      sequences.push_back(picture.colour.sequence);
     }
   }
   EXPECT_EQ(sequences, (std::vector<std::uint64_t>{1, 3}));

@@ -32,6 +32,7 @@ struct DepthCameraSpec {
   double forward_m{};      ///< Of that place, from the body's centre; a mount keeps it level.
   double up_m{};
   double pitch_down_rad{};  ///< Of each optical axis.
+  double delay_s{};         ///< From the moment that an image shows to its message.
 
   [[nodiscard]] Intrinsics intrinsics() const;
   /// Standard deviation of a depth [m]; it does not fall with the depth.

@@ -33,8 +33,10 @@ struct VehicleTopics {
   Topic<FlightStatus> status;
   Topic<Setpoint> setpoint;
   Topic<FlightCommand> command;
-  Topic<ColourFrame> colour{};         ///< These three only where the workload looks for people.
+  Topic<ColourFrame> colour{};         ///< These four only where the workload looks for people.
   Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until they are taken.
+  /// Published before each picture: the depth image that was captured last when the picture was.
+  Topic<DepthFrame> colour_depth{};
   Topic<GimbalAngles> gimbal{};        ///< Commanded angles.
   /// Of the RGB-D camera, for a localizer that takes images.
   std::optional<Topic<View>> view{};
