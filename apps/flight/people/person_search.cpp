@@ -144,8 +144,8 @@ Topic<Sightings> add_person_search(Graph& graph,
   spec.cost = detector_cost(parts.brief->settings);
   spec.trigger = OnMessage{parts.vehicle.colour.index};
   spec.priority = 8;  // A person waits longer than an obstacle: below the map.
-  spec.reads = {parts.vehicle.colour_depth.index, localization.poses.index, parts.mission.knobs.index,
-                parts.mission.state.index};
+  spec.reads = {parts.vehicle.colour_depth.index, localization.poses.index,
+                parts.mission.knobs.index, parts.mission.state.index};
   spec.writes = {sightings.index};
   declare_log(spec, parts.mission);
   // Owner: this node alone.

@@ -18,8 +18,8 @@ struct ColourCameraSpec {
   int height_px{288};
   double horizontal_field_rad{1.1344640137963142};  ///< 65 degrees: a usual wide lens.
   double rate_hz{20.0};                             ///< MAVBench: 20-25.
-  double delay_s{};  ///< From the moment that a picture shows to its message.
-  double sun_azimuth_rad{0.9};                      ///< Where it stands, from x towards y.
+  double delay_s{};             ///< From the moment that a picture shows to its message.
+  double sun_azimuth_rad{0.9};  ///< Where it stands, from x towards y.
   double sun_elevation_rad{0.8};
   /// Of the people's meshes: package morse-simulator-data.
   std::string people_folder{"/usr/share/morse/data/robots"};

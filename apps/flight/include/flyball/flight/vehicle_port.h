@@ -37,7 +37,7 @@ struct VehicleTopics {
   Topic<ColourFrame> colour_buffer{};  ///< The same frames, kept until they are taken.
   /// Published before each picture: the depth image that was captured last when the picture was.
   Topic<DepthFrame> colour_depth{};
-  Topic<GimbalAngles> gimbal{};        ///< Commanded angles.
+  Topic<GimbalAngles> gimbal{};  ///< Commanded angles.
   /// Of the RGB-D camera, for a localizer that takes images.
   std::optional<Topic<View>> view{};
   /// A queue of inertial samples, for a localizer that takes them.
