@@ -56,6 +56,7 @@ class ClosedLoop {
   }
   /// Calls `listener` when power and the battery's charge have moved on.
   void on_energy(std::function<void()> listener) { on_energy_ = std::move(listener); }
+
   /// Asks `meter` for the computer's power, where it is not modeled; 0 W: it has no meter, and the
   /// platform's model is asked as ever.
   void measure_computer(std::function<Watts()> meter) { computer_meter_ = std::move(meter); }
