@@ -2,6 +2,7 @@
 #include "flyball/mcap/record_thread.h"
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/realtime/cpus.h"
 #include "flyball/runtime/realtime/parking.h"
 
 #include "mcap/byte_queue.h"
@@ -14,9 +15,6 @@
 #include <vector>
 
 #include <pthread.h>
-#include <sched.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -41,14 +39,6 @@ class WithoutSignals {
  private:
   sigset_t before_{};
 };
-
-/// The calling thread runs when no other one wants to. Whoever made it may have been in real time.
-void step_back() {
-  constexpr int nicest = 19;
-  const sched_param ordinary{};
-  (void)sched_setscheduler(0, SCHED_OTHER, &ordinary);
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nicest);
-}
 
 MissionTime time_of(const RowHead& head) {
   return MissionTime{Duration{head.at_ns}};

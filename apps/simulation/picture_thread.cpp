@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/picture_thread.h"
 
+#include "flyball/runtime/realtime/cpus.h"
+
 #include <utility>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 namespace flyball {
-namespace {
-
-/// The calling thread runs when no other one on its core wants to.
-void step_back() {
-  constexpr int nicest = 19;
-  // Where it fails, the picture is drawn in turns with the simulator.
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nicest);
-}
-
-}  // namespace
 
 PictureThread::PictureThread() {
   thread_ = std::thread{[this] { run(); }};

@@ -12,13 +12,15 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace flyball::kit {
 
-/// Shows a dense map as a mapper's view; inserts nothing.
+/// Shows a dense map as a mapper's view, and these cells as what is occupied; inserts nothing.
 class GridMapper final : public Mapper {
  public:
-  explicit GridMapper(const GridMap& map) : map_{map} {}
+  explicit GridMapper(const GridMap& map, std::vector<OccupiedCell> cells = {})
+      : map_{map}, cells_{std::move(cells)} {}
   Result<Work> prepare(const PointCloud&, const Pose&, const MapperSettings&) override {
     return Work{};
   }
@@ -28,10 +30,11 @@ class GridMapper final : public Mapper {
   [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
     return std::make_shared<const GridMap>(map_);
   }
-  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return {}; }
+  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return cells_; }
 
  private:
   const GridMap& map_;
+  std::vector<OccupiedCell> cells_;
 };
 
 /// One core at 1 GHz that knows no kernel: every job is free.

@@ -110,6 +110,13 @@ std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpu
          (is_set ? "the system granted fewer" : reason(failed)) + "); is one of them off-line?";
 }
 
+void step_back() {
+  constexpr int nicest = 19;
+  const sched_param ordinary{};
+  (void)sched_setscheduler(0, SCHED_OTHER, &ordinary);
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id()), nicest);
+}
+
 std::optional<std::string> lock_process_memory() {
 #ifdef MCL_ONFAULT
   constexpr int what = MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT;

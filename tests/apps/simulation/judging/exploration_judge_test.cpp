@@ -2,6 +2,7 @@
 #include "simulation/judging/exploration_judge.h"
 
 #include "grid_map.h"
+#include "mission_rig.h"
 
 #include <gtest/gtest.h>
 
@@ -26,27 +27,6 @@ ObservableSpace floor_space() {
   return space;
 }
 
-/// A mapper that holds just these cells.
-class CellsMapper final : public Mapper {
- public:
-  CellsMapper(const kit::GridMap& map, std::vector<OccupiedCell> cells)
-      : map_{map}, cells_{std::move(cells)} {}
-  Result<Work> prepare(const PointCloud&, const Pose&, const MapperSettings&) override {
-    return Work{};
-  }
-  void commit() override {}
-  void declare_clear(const Vec3&, const Cylinder&) override {}
-  [[nodiscard]] const OccupancyView& view() const override { return map_; }
-  [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {
-    return std::make_shared<const kit::GridMap>(map_);
-  }
-  [[nodiscard]] std::vector<OccupiedCell> occupied() const override { return cells_; }
-
- private:
-  const kit::GridMap& map_;
-  std::vector<OccupiedCell> cells_;
-};
-
 TEST(ExplorationJudge, counts_what_the_map_knows_of_what_can_be_seen) {
   kit::GridMap map{{{0, 0, 0}, {3, 3, 0.75}}, cell_m, CellState::unknown};
   ExplorationJudge judge{floor_space()};
@@ -64,7 +44,7 @@ TEST(ExplorationJudge, holds_occupied_cells_against_the_surfaces_with_one_cell_o
   for (int i = 0; i < 200; ++i) {  // Half of the floor, one cell too high.
     cells.push_back({centre_of({i % 20, i / 20, 1}, cell_m), cell_m});
   }
-  const MapAgreement half = judge.agreement(CellsMapper{map, cells});
+  const MapAgreement half = judge.agreement(kit::GridMapper{map, cells});
   EXPECT_EQ(half.precision, 1.0);
   EXPECT_NEAR(half.recall, 220.0 / 400.0, 1e-9);
 }
@@ -76,13 +56,13 @@ TEST(ExplorationJudge, finds_what_floats_in_the_air_wrong) {
   const ExplorationJudge judge{space};
   const std::vector<OccupiedCell> cells{{centre_of({5, 5, 0}, cell_m), cell_m},
                                         {centre_of({9, 9, 3}, cell_m), cell_m}};
-  EXPECT_NEAR(judge.agreement(CellsMapper{map, cells}).precision, 0.5, 1e-9);
+  EXPECT_NEAR(judge.agreement(kit::GridMapper{map, cells}).precision, 0.5, 1e-9);
 }
 
 TEST(ExplorationJudge, takes_a_coarse_cell_as_the_fine_ones_in_it) {
   const kit::GridMap map{{{0, 0, 0}, {3, 3, 0.75}}, cell_m};
   const ExplorationJudge judge{floor_space()};
-  const MapAgreement coarse = judge.agreement(CellsMapper{map, {{{0.3, 0.3, 0.3}, 0.6}}});
+  const MapAgreement coarse = judge.agreement(kit::GridMapper{map, {{{0.3, 0.3, 0.3}, 0.6}}});
   EXPECT_GT(coarse.recall, 16.0 / 400.0 - 1e-9);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Which cores a process and its threads may use.
+/// Which cores a process and its threads may use, and which threads stand back.
 
 #include <optional>
 #include <string>
@@ -18,5 +18,9 @@ namespace flyball {
 /// Binds a thread (0: the calling one) to these cores, and reads that back; a sentence if it
 /// failed.
 [[nodiscard]] std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpus);
+
+/// The calling thread runs when no other one on its core wants to, whatever priority it had from
+/// the one that made it. Where that fails it runs on as it did.
+void step_back();
 
 }  // namespace flyball
