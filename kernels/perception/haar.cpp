@@ -10,6 +10,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "visual/cv_image.h"
+#include "visual/cv_threads.h"
 #include "visual/detection_boxes.h"
 #include <array>
 #include <cmath>
@@ -58,6 +59,7 @@ class Haar final : public flyball::Detector {
                                           const flyball::FindModel& /*find_model*/) override {
     min_neighbours_ = static_cast<int>(std::lround(chosen.number("min_neighbours")));
     level_step_ = chosen.number("level_step");
+    flyball::keep_opencv_on_this_thread();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::string file = chosen.text("folder") + "/" + parts[i].file;
       if (!load(cascades_[i], file)) {

@@ -9,6 +9,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "visual/cv_image.h"
+#include "visual/cv_threads.h"
 #include "visual/detection_boxes.h"
 #include <cmath>
 #include <exception>
@@ -42,6 +43,7 @@ class Hog final : public flyball::Detector {
                                           const flyball::FindModel& /*find_model*/) override {
     threshold_ = chosen.number("threshold");
     level_step_ = chosen.number("level_step");
+    flyball::keep_opencv_on_this_thread();
     try {
       hog_.setSVMDetector(cv::HOGDescriptor::getDefaultPeopleDetector());
     } catch (const std::exception& error) {

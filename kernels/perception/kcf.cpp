@@ -9,6 +9,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "visual/cv_image.h"
+#include "visual/cv_threads.h"
 #include "visual/detection_boxes.h"
 #include <exception>
 
@@ -65,6 +66,7 @@ class Kcf final : public flyball::Tracker {
   flyball::Status configure(const flyball::Parameters& chosen,
                             const flyball::FindModel& /*find_model*/) override {
     settings_.detect_thresh = static_cast<float>(chosen.number("threshold"));
+    flyball::keep_opencv_on_this_thread();
     return flyball::Done{};
   }
 
@@ -94,7 +96,6 @@ class Kcf final : public flyball::Tracker {
     }
     work.add("starts", 1.0);
     try {
-      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       bgr_ = cv::Mat::zeros(size, CV_8UC3);
       filter_ = cv::TrackerKCF::create(settings_);
       filter_->init(as_trained(patch), inside);
@@ -124,7 +125,6 @@ class Kcf final : public flyball::Tracker {
     }
     work.add("updates", 1.0);
     try {
-      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       cv::Rect box;
       if (!filter_->update(as_trained(patch), box)) {
         return std::optional<ImageBox>{};

@@ -9,6 +9,7 @@
 #include "flyball/runtime/registry.h"
 
 #include "visual/cv_image.h"
+#include "visual/cv_threads.h"
 #include "visual/detection_boxes.h"
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,7 @@ class Yolo final : public flyball::Detector {
   [[nodiscard]] flyball::Status configure(const flyball::Parameters& chosen,
                                           const flyball::FindModel& find_model) override {
     threshold_ = chosen.number("threshold");
+    flyball::keep_opencv_on_this_thread();
     const auto layers = find_model(chosen.text("model") + ".cfg");
     if (!layers) {
       return layers.error();
@@ -54,7 +56,6 @@ class Yolo final : public flyball::Detector {
       return weights.error();
     }
     try {
-      cv::setNumThreads(1);  // For the whole process, as in cv_image.h.
       net_ = cv::dnn::readNetFromDarknet(*layers, *weights);
       net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
       net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);

@@ -24,7 +24,8 @@ constexpr const char* look = R"(<style>
   figure { margin: 10px 0 18px; } figcaption { color: #6b7a88; font-size: 12.5px; }
   figure svg { max-width: 100%; height: auto; }
   code { font-size: 12px; overflow-wrap: anywhere; white-space: normal; }
-  @media print { h2 { break-before: page; border: 0; } }
+  @media print { h2 { break-before: page; border: 0; } td.text, th.text { min-width: 0; }
+                 body { max-width: none; } .verdict { white-space: normal; padding: 0 4px; } }
 </style>
 )";
 

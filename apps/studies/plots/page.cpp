@@ -31,6 +31,12 @@ constexpr const char* page_head = R"(<!doctype html>
   th { color: #6b7a88; font-weight: 500; white-space: normal; vertical-align: bottom; }
   th:first-child, td:first-child { text-align: left; padding-left: 0; }
   .note, footer { color: #6b7a88; font-size: 12.5px; margin: 10px 0 0; }
+  @page { size: landscape; margin: 12mm; }
+  @media print {  /* A wide table is wrapped, because nobody can scroll on paper. */
+    body { font-size: 10px; max-width: none; padding: 0; background: #fff; }
+    .panel { border: 0; padding: 0; } .table { overflow: visible; }
+    td, th { padding: 3px 5px; } table { white-space: normal; } td small { font-size: 9px; }
+  }
 </style>
 )";
 

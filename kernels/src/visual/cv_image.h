@@ -23,10 +23,8 @@ namespace flyball {
           const_cast<std::uint8_t*>(patch.rgb.data())};  // NOLINT(*-const-cast)
 }
 
-/// A copy of another size. One thread, for the whole process, so that results do not depend on the
-/// host's cores.
+/// A copy of another size.
 [[nodiscard]] inline cv::Mat resized(const cv::Mat& image, cv::Size size) {
-  cv::setNumThreads(1);
   if (image.size() == size) {
     return image;
   }

@@ -2,6 +2,7 @@
 // tested-in: visual_slam
 #include "visual/feature.h"
 
+#include "visual/cv_threads.h"
 #include "visual/undistortion.h"
 #include <algorithm>
 #include <array>
@@ -195,7 +196,7 @@ struct FeatureExtractor::Detector {
 };
 
 FeatureExtractor::FeatureExtractor(const FeatureSettings& settings) {
-  cv::setNumThreads(1);  // For the whole process: results must not depend on the host's cores.
+  keep_opencv_on_this_thread();
   constexpr int border_px = 19;  // ORB's patch and its rotation need so much.
   detector_ = std::make_unique<Detector>(
       Detector{settings, cv::ORB::create(0, static_cast<float>(octave_scale), octaves, border_px, 0,

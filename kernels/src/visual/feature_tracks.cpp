@@ -2,6 +2,7 @@
 // tested-in: visual_inertial
 #include "visual/feature_tracks.h"
 
+#include "visual/cv_threads.h"
 #include "visual/feature.h"
 #include "visual/undistortion.h"
 #include <algorithm>
@@ -172,7 +173,7 @@ void FeatureTracks::Images::refill(const cv::Mat& image, const TrackSettings& se
 
 FeatureTracks::FeatureTracks(const TrackSettings& settings)
     : settings_{settings}, images_{std::make_unique<Images>()} {
-  cv::setNumThreads(1);  // For the whole process: results must not depend on the host's cores.
+  keep_opencv_on_this_thread();
 }
 
 FeatureTracks::~FeatureTracks() = default;
