@@ -100,6 +100,17 @@ foreach(folder IN ITEMS runtime governors policies kernels apps/flight apps/work
   endforeach()
 endforeach()
 
+# OpenCV's thread count is set under a lock that spins, which one job must not hold while another one
+# waits: not in a job, so not beside what kernels do in one.
+file(GLOB_RECURSE files ${root}/kernels/*.h ${root}/kernels/*.cpp)
+list(FILTER files EXCLUDE REGEX "/cv_threads[.]h$")
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "setNumThreads")
+  if(lines)
+    string(APPEND bad "\n  ${file}: sets OpenCV's threads itself, not by cv_threads.h: ${lines}")
+  endif()
+endforeach()
+
 # Two types of one name in two headers: the linker keeps one of their destructors for both.
 set(types "")
 foreach(folder IN ITEMS runtime governors policies kernels sim apps)

@@ -12,6 +12,8 @@ namespace flyball {
 /// OpenCV calls it when it is made or configured, and never in a job: OpenCV sets up an arena of
 /// oneTBB here, under a lock that spins and yields. With real-time priorities a more urgent job on
 /// the same core would wait for the lock for ever, because it never lets the holder run.
-inline void keep_opencv_on_this_thread() { cv::setNumThreads(1); }
+inline void keep_opencv_on_this_thread() {
+  cv::setNumThreads(1);
+}
 
 }  // namespace flyball
