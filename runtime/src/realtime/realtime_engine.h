@@ -84,10 +84,12 @@ struct RealtimeEngine {
   /// What the calling thread asks of the system; `level` counts from 0, the most urgent.
   void set_up(const std::string& name, std::size_t level);
   void wait_for_threads(std::size_t count);
-  /// Of a thread that ends.
-  void leave();
+  /// Of a thread that ends; with the lock held.
+  void leave(Lock& lock);
   [[nodiscard]] std::vector<int> active_cpus(int cores) const;
   void stop();
+  void wait_for_jobs();
+  void tell_jobs_that_run_on() const;
 
   // The operating point, for any thread.
   void set_point(const std::optional<OperatingPoint>& point);
@@ -121,6 +123,7 @@ struct RealtimeEngine {
   std::vector<clockid_t> cpu_clocks{};
   std::vector<std::string> notes{};
   std::size_t threads_ready{};
+  std::size_t threads_left{};  ///< Have ended, or are about to.
   bool is_stopping{};
 
   PriorityMutex setting_mutex{};  ///< Of `wanted`: one thread at a time asks the board.

@@ -32,11 +32,13 @@ std::vector<int> RealtimeEngine::active_cpus(int cores) const {
 
 void RealtimeEngine::start() {
   is_started = true;
-  if (settings.lock_memory) {
-    if (const auto note = lock_process_memory()) {
-      notes.push_back(*note);
+  const auto note_if = [this](std::optional<std::string> note) {
+    if (note) {
+      notes.push_back(std::move(*note));
     }
-  }
+  };
+  note_if(settings.lock_memory ? lock_process_memory() : std::nullopt);
+  note_if(settings.fifo_priority ? real_time_throttle() : std::nullopt);
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
     const auto count = std::min(index(lanes[lane].nodes), cpus.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -110,8 +112,11 @@ void RealtimeEngine::set_up(const std::string& name, std::size_t level) {
   owner.wake();
 }
 
-void RealtimeEngine::leave() {
+void RealtimeEngine::leave(Lock& lock) {
+  ++threads_left;
+  unlock_and_wake(lock);
   cpu_ns_of_ended += thread_cpu_time().count();
+  owner.wake();
 }
 
 void RealtimeEngine::unlock_and_wake(Lock& lock) {
@@ -154,8 +159,7 @@ void RealtimeEngine::work(std::size_t level) {
     lock.lock();
     end(node, lock);
   }
-  unlock_and_wake(lock);
-  leave();
+  leave(lock);
 }
 
 void RealtimeEngine::run_body(int node, CpuMeter& meter) {
@@ -221,8 +225,7 @@ void RealtimeEngine::keep_time() {
     lock.lock();
     timer_wakes_at = {};  // It is awake: nobody needs to wake it.
   }
-  unlock_and_wake(lock);
-  leave();
+  leave(lock);
 }
 
 void RealtimeEngine::stop() {
@@ -237,11 +240,48 @@ void RealtimeEngine::stop() {
     lane.parking.wake_all();
   }
   timer.wake_all();
+  wait_for_jobs();
   for (std::thread& thread : threads) {
     thread.join();
   }
   threads.clear();
   is_stopped = true;
+}
+
+/// A thread cannot be ended from outside, so a job that does not return keeps everything waiting:
+/// a person is told which one it is, once.
+void RealtimeEngine::wait_for_jobs() {
+  std::optional<Clock::time_point> tell_at = Clock::now() + settings.tell_at_stop_after;
+  while (true) {
+    const std::uint32_t ticket = owner.ticket();
+    {
+      const std::lock_guard lock{mutex};
+      if (threads_left == threads.size()) {
+        return;
+      }
+    }
+    if (tell_at && Clock::now() >= *tell_at) {
+      tell_jobs_that_run_on();
+      tell_at.reset();
+    }
+    owner.wait(ticket, {}, tell_at);
+  }
+}
+
+void RealtimeEngine::tell_jobs_that_run_on() const {
+  std::string names;
+  {
+    const std::lock_guard lock{mutex};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i].state == RealtimeNode::State::running) {
+        names += (names.empty() ? "" : ", ") + graph.nodes()[i].spec.name;
+      }
+    }
+  }
+  if (settings.tell && !names.empty()) {
+    settings.tell("jobs were told to stop and run on, of: " + names +
+                  "; the process ends when they do, or with SIGKILL");
+  }
 }
 
 }  // namespace flyball

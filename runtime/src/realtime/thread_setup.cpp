@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: realtime_executor
 #include "realtime/thread_setup.h"
 
 #include "flyball/runtime/realtime/cpus.h"
@@ -8,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include <pthread.h>
 #include <sched.h>
@@ -108,6 +108,19 @@ std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpu
   }
   return "a thread could not be bound to the cores " + listed(cpus) + " (" +
          (is_set ? "the system granted fewer" : reason(failed)) + "); is one of them off-line?";
+}
+
+std::optional<std::string> real_time_throttle(const std::string& folder) {
+  long runtime_us{};
+  long period_us{};
+  if (!(std::ifstream{folder + "/sched_rt_runtime_us"} >> runtime_us) ||
+      !(std::ifstream{folder + "/sched_rt_period_us"} >> period_us) || runtime_us < 0 ||
+      runtime_us >= period_us) {
+    return std::nullopt;
+  }
+  return "a core on which jobs with real-time priorities never rest stands still for " +
+         std::to_string((period_us - runtime_us) / 1000) + " ms of every " +
+         std::to_string(period_us / 1000) + " ms; sysctl kernel.sched_rt_runtime_us=-1 ends that";
 }
 
 void step_back() {

@@ -23,6 +23,11 @@ struct ThreadWish {
 /// what would help.
 [[nodiscard]] std::vector<std::string> set_up_thread(const ThreadWish& wish);
 
+/// What the kernel withholds from real-time threads that never sleep, as a sentence; empty where it
+/// withholds nothing. `folder` is where its settings stand.
+[[nodiscard]] std::optional<std::string> real_time_throttle(
+    const std::string& folder = "/proc/sys/kernel");
+
 /// Keeps what the process touches from now on in memory; a sentence if that failed.
 [[nodiscard]] std::optional<std::string> lock_process_memory();
 

@@ -27,6 +27,35 @@ TEST(RealtimeStop, waits_for_jobs_that_run_and_tells_them) {
   EXPECT_GE(rig.executor->busy_core_s(), 0.0);
 }
 
+TEST(RealtimeStop, a_job_that_runs_on_is_told_of_once_and_waited_for) {
+  RealtimeRig rig;
+  std::vector<std::string> told;
+  std::atomic<bool> runs{};
+  std::atomic<bool> may_end{};
+  bool has_ended{};
+  bool is_stopping{};  // Before, what the system does not permit may be told.
+  rig.settings.tell_at_stop_after = 1ms;
+  rig.settings.tell = [&](const std::string& sentence) {
+    if (is_stopping) {
+      told.push_back(sentence);
+      may_end = true;
+    }
+  };
+  const auto in = rig.add("stubborn", 0, [&](JobContext&) {
+    runs = true;
+    has_ended = comes_true([&] { return may_end.load(); });
+  });
+  rig.start();
+  rig.executor->publish(in, 1);
+  ASSERT_TRUE(rig.serve([&] { return runs.load(); }));
+  is_stopping = true;
+  rig.executor->stop();
+  EXPECT_TRUE(has_ended);
+  EXPECT_EQ(told, (std::vector<std::string>{
+                      "jobs were told to stop and run on, of: stubborn; the process "
+                      "ends when they do, or with SIGKILL"}));
+}
+
 TEST(RealtimeStop, what_waits_at_the_stop_is_read_by_a_last_job_if_asked_for) {
   RealtimeRig rig;
   std::vector<int> read;

@@ -33,6 +33,8 @@ struct RealtimeSettings {
   /// A job that has run for so long is told of by `tell` and `on_stuck`, once. Chosen: ten times
   /// the longest planning budget of the shipped workloads.
   Duration stuck_after{std::chrono::seconds{10}};
+  /// Jobs that still run so long after `stop` are told of by `tell`, once; `stop` waits on. Chosen.
+  Duration tell_at_stop_after{std::chrono::seconds{5}};
   /// Asks the board for a clock, and says what it granted. Empty: the clock is what it was at the
   /// start, whatever is asked. Called by whoever sets the operating point.
   std::function<OperatingPoint(const OperatingPoint& wanted)> grant{};
