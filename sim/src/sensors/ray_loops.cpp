@@ -6,6 +6,7 @@
 #include "flyball/runtime/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>

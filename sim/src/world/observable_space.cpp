@@ -151,6 +151,7 @@ class Observer {
       : lattice_{lattice},
         range_m_{request.range_m},
         camera_{world, coarse_camera(request), 0},
+        rays_{rays_of(coarse_camera(request).intrinsics())},
         headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
         seen_(lattice.size(), unseen) {}
 
@@ -193,11 +194,27 @@ class Observer {
     std::size_t index;
     Vec3 centre_W;
   };
+  struct PixelRay {
+    Vec3 at_1m_C;       ///< Where a depth of 1 m lies.
+    double range_1m_m;  ///< How far from the camera that is.
+  };
+
+  static std::vector<PixelRay> rays_of(const Intrinsics& camera) {
+    std::vector<PixelRay> rays;
+    for (int v = 0; v < camera.height_px; ++v) {
+      for (int u = 0; u < camera.width_px; ++u) {
+        const Vec3 at_1m_C{(u - camera.centre_x_px) / camera.focal_px,
+                           (v - camera.centre_y_px) / camera.focal_px, 1.0};
+        rays.push_back({at_1m_C, at_1m_C.norm()});
+      }
+    }
+    return rays;
+  }
 
   void look(const Pose& X_WC) {
     const DepthImage image = camera_.capture(X_WC, MissionTime{}, 0);
-    for (std::size_t pixel = 0; pixel < image.depth_m.size(); ++pixel) {
-      mark_surface(image, pixel, X_WC);
+    for (std::size_t pixel = 0; pixel < rays_.size(); ++pixel) {
+      mark_surface(rays_[pixel], static_cast<double>(image.depth_m[pixel]), X_WC);
     }
     const Pose X_CW = X_WC.inverse();
     for (const Missing& cell : missing_) {
@@ -207,17 +224,11 @@ class Observer {
     }
   }
 
-  void mark_surface(const DepthImage& image, std::size_t pixel, const Pose& X_WC) {
-    const Intrinsics& camera = image.camera;
-    const int u = static_cast<int>(pixel) % camera.width_px;
-    const int v = static_cast<int>(pixel) / camera.width_px;
-    const Vec3 ray_C{(u - camera.centre_x_px) / camera.focal_px,
-                     (v - camera.centre_y_px) / camera.focal_px, 1.0};
-    const double depth_m = static_cast<double>(image.depth_m[pixel]);
-    if (depth_m * ray_C.norm() > range_m_) {
+  void mark_surface(const PixelRay& ray, double depth_m, const Pose& X_WC) {
+    if (depth_m * ray.range_1m_m > range_m_) {
       return;
     }
-    const GridCell end = grid_cell_of(X_WC * Vec3{ray_C * depth_m}, lattice_.cell_m());
+    const GridCell end = grid_cell_of(X_WC * Vec3{ray.at_1m_C * depth_m}, lattice_.cell_m());
     if (lattice_.contains(end)) {
       seen_[lattice_.index(end)] = surface;
     }
@@ -239,6 +250,7 @@ class Observer {
   const Lattice& lattice_;
   double range_m_;
   DepthCamera camera_;
+  std::vector<PixelRay> rays_;  ///< Of each pixel, row by row.
   int headings_;
   std::vector<std::uint8_t> seen_;
   std::vector<Missing> missing_{};  ///< In range of the place that is looked around from.
