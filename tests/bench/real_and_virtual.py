@@ -6,10 +6,15 @@ Nothing else should run: the five take as long as their missions do, some ten mi
 
 One core is left to the simulator, so both have one core less than there are. Frames come at 19.9 Hz:
 at 20 Hz they keep step with guidance, which ticks every 20 ms, half of the maps then wait for one tick
-and half for two, and the median falls on either of them by chance. Real-time priorities are asked for,
-because a job of the modeled computer never waits for one that is less urgent. In real time the
-simulator computes what cameras see, a depth image in 2 ms and a colour picture in 20 to 50, which is
-no latency of the computer's: both kinds of flights have cameras that deliver after 5 and 60 ms.
+and half for two, and the median falls on either of them by chance.
+
+Real-time priorities are asked for, because a job of the modeled computer never waits for one that is
+less urgent. As Linux comes it stops threads with them for 50 ms of each second in which their core does
+not rest, and the core of a photography never does: set kernel.sched_rt_runtime_us to -1 first.
+
+In real time the simulator computes what cameras see, a depth image in 2 ms and a colour picture in 20
+to 50, which is no latency of the computer's: both kinds of flights have cameras that deliver after 5
+and 60 ms.
 
 A flight that is in the folder already is not flown again. Exits with 1 where a flight fails or a bar is
 missed, with 2 where one could not be flown.
@@ -51,6 +56,13 @@ def settings(platform):
     return [part for key, value in values.items() for part in ("--set", f"{key}={value}")]
 
 
+def tell_of_throttle():
+    runtime_us = pathlib.Path("/proc/sys/kernel/sched_rt_runtime_us")
+    if runtime_us.exists() and int(runtime_us.read_text()) >= 0:
+        print(f"kernel.sched_rt_runtime_us is {runtime_us.read_text().strip()}, so a busy core stands "
+              "still for a part of each second in real time only; set it to -1", file=sys.stderr)
+
+
 def fly(command, folder):
     """The flight's summary; None where it cannot be flown."""
     summary = folder / "summary.json"
@@ -86,6 +98,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=1, help="1 to this one")
     given = parser.parse_args()
     both = settings(given.platform)
+    tell_of_throttle()
     print(f"{'':26} {'':16} {'real time':>9} {'simulated':>9}")
     are_near = True
     for scenario in given.only or WORKLOADS:
