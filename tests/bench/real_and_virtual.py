@@ -17,7 +17,8 @@ to 50, which is no latency of the computer's: both kinds of flights have cameras
 and 60 ms.
 
 A flight that is in the folder already is not flown again. Exits with 1 where a flight fails or a bar is
-missed, with 2 where one could not be flown.
+missed, with 2 where one could not be flown. A photography ends when the person is lost, by chance
+behind one tree or another, so its losses are told and are no fault; it needs some ten seeds.
 """
 
 import argparse
@@ -30,6 +31,7 @@ import tomllib
 
 WORKLOADS = ["scanning_farm", "photography_park", "delivery_forest", "mapping_office",
              "search_collapsed_building"]
+MAY_LOSE = "photography_park"
 # What is compared, its unit, and how far the simulated one may be off.
 FIGURES = {
     "mission time": ("s", 0.10, lambda flight: flight["mission_time_s"]),
@@ -115,7 +117,7 @@ def main():
             for flight in flown:
                 if flight["status"] != "succeeded":
                     print(f"{scenario}, {kind}, seed {flight['seed']}: {flight['failure']}")
-                    are_near = False
+                    are_near &= scenario == MAY_LOSE and flight["failure"] == "target_lost"
         are_near &= compare(scenario, flights["in real time"], flights["simulated"])
     return 0 if are_near else 1
 
