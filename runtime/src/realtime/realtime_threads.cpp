@@ -248,8 +248,8 @@ void RealtimeEngine::stop() {
   is_stopped = true;
 }
 
-/// A thread cannot be ended from outside, so a job that does not return keeps everything waiting:
-/// a person is told which one it is, once.
+// A thread cannot be ended from outside, so a job that does not return keeps everything waiting: a
+// person is told which one it is, once.
 void RealtimeEngine::wait_for_jobs() {
   std::optional<Clock::time_point> tell_at = Clock::now() + settings.tell_at_stop_after;
   while (true) {
@@ -279,8 +279,8 @@ void RealtimeEngine::tell_jobs_that_run_on() const {
     }
   }
   if (settings.tell && !names.empty()) {
-    settings.tell("jobs were told to stop and run on, of: " + names +
-                  "; the process ends when they do, or with SIGKILL");
+    settings.tell("told to stop, jobs of these nodes still run: " + names +
+                  "; the program ends when they return, or by SIGKILL");
   }
 }
 

@@ -51,9 +51,9 @@ TEST(RealtimeStop, a_job_that_runs_on_is_told_of_once_and_waited_for) {
   is_stopping = true;
   rig.executor->stop();
   EXPECT_TRUE(has_ended);
-  EXPECT_EQ(told, (std::vector<std::string>{
-                      "jobs were told to stop and run on, of: stubborn; the process "
-                      "ends when they do, or with SIGKILL"}));
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"told to stop, jobs of these nodes still run: stubborn; "
+                                      "the program ends when they return, or by SIGKILL"}));
 }
 
 TEST(RealtimeStop, what_waits_at_the_stop_is_read_by_a_last_job_if_asked_for) {
