@@ -36,6 +36,7 @@ constexpr const char* page_head = R"(<!doctype html>
     body { font-size: 10px; max-width: none; padding: 0; background: #fff; }
     .panel { border: 0; padding: 0; } .table { overflow: visible; }
     td, th { padding: 3px 5px; } table { white-space: normal; } td small { font-size: 9px; }
+    .note, footer { font-size: 9.5px; }
   }
 </style>
 )";
