@@ -32,6 +32,7 @@ import tomllib
 WORKLOADS = ["scanning_farm", "photography_park", "delivery_forest", "mapping_office",
              "search_collapsed_building"]
 MAY_LOSE = "photography_park"
+FOLDERS = {"in real time": "real", "simulated": "simulated"}
 # What is compared, its unit, and how far the simulated one may be off.
 FIGURES = {
     "mission time": ("s", 0.10, lambda flight: flight["mission_time_s"]),
@@ -104,13 +105,13 @@ def main():
     print(f"{'':26} {'':16} {'real time':>9} {'simulated':>9}")
     are_near = True
     for scenario in given.only or WORKLOADS:
-        flights = {"simulated": [], "in real time": []}
-        for seed in range(1, given.seeds + 1):
-            command = [given.flyball, "run", scenario, "--seed", str(seed), *both]
-            name = f"{scenario}-{seed}"
-            flights["simulated"].append(fly(command, given.out / "simulated" / name))
-            flights["in real time"].append(
-                fly([*command, "--executor", "realtime", "--fifo", "50"], given.out / "real" / name))
+        kinds = {"in real time": ["--executor", "realtime", "--fifo", "50"], "simulated": []}
+        flights = {kind: [] for kind in kinds}
+        for kind, options in kinds.items():
+            for seed in range(1, given.seeds + 1):
+                command = [given.flyball, "run", scenario, "--seed", str(seed), *both, *options]
+                folder = given.out / FOLDERS[kind] / f"{scenario}-{seed}"
+                flights[kind].append(fly(command, folder))
         if None in flights["simulated"] + flights["in real time"]:
             return 2
         for kind, flown in flights.items():
