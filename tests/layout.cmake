@@ -5,6 +5,17 @@ set(places runtime governors kernels apps sim policies tests examples)
 set(built build flights)  # what the commands leave, not under version control
 set(bad "")
 
+# forbid(PATTERN SENTENCE FILE...): no line of these files matches.
+function(forbid pattern sentence)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} lines REGEX "${pattern}")
+    if(lines)
+      string(APPEND bad "\n  ${file}: ${sentence}: ${lines}")
+    endif()
+  endforeach()
+  set(bad "${bad}" PARENT_SCOPE)
+endfunction()
+
 file(GLOB top LIST_DIRECTORIES true RELATIVE ${root} ${root}/*)
 list(FILTER top EXCLUDE REGEX "^\\.")
 foreach(entry IN LISTS top)
@@ -92,24 +103,15 @@ endforeach()
 foreach(folder IN ITEMS runtime governors policies kernels apps/flight apps/workloads
         apps/mcap)
   file(GLOB_RECURSE files ${root}/${folder}/*.h ${root}/${folder}/*.cpp)
-  foreach(file IN LISTS files)
-    file(STRINGS ${file} lines REGEX "condition_variable|pthread_cond_timedwait|future.*wait_(for|until)")
-    if(lines)
-      string(APPEND bad "\n  ${file}: waits by a condition variable: ${lines}")
-    endif()
-  endforeach()
+  forbid("condition_variable|pthread_cond_timedwait|future.*wait_(for|until)"
+         "waits by a condition variable" ${files})
 endforeach()
 
 # OpenCV's thread count is set under a lock that spins, which one job must not hold while another one
 # waits: not in a job, so not beside what kernels do in one.
 file(GLOB_RECURSE files ${root}/kernels/*.h ${root}/kernels/*.cpp)
 list(FILTER files EXCLUDE REGEX "/cv_threads[.]h$")
-foreach(file IN LISTS files)
-  file(STRINGS ${file} lines REGEX "setNumThreads")
-  if(lines)
-    string(APPEND bad "\n  ${file}: sets OpenCV's threads itself, not by cv_threads.h: ${lines}")
-  endif()
-endforeach()
+forbid("setNumThreads" "sets OpenCV's threads itself, not by cv_threads.h" ${files})
 
 # Two types of one name in two headers: the linker keeps one of their destructors for both.
 set(types "")

@@ -32,7 +32,9 @@ import tomllib
 WORKLOADS = ["scanning_farm", "photography_park", "delivery_forest", "mapping_office",
              "search_collapsed_building"]
 MAY_LOSE = "photography_park"
-FOLDERS = {"in real time": "real", "simulated": "simulated"}
+# A folder, and options beside those that both kinds have. Only the first kind needs the quiet.
+KINDS = {"in real time": ("real", ["--executor", "realtime", "--fifo", "50"]),
+         "simulated": ("simulated", [])}
 # What is compared, its unit, and how far the simulated one may be off.
 FIGURES = {
     "mission time": ("s", 0.10, lambda flight: flight["mission_time_s"]),
@@ -60,10 +62,11 @@ def settings(platform):
 
 
 def tell_of_throttle():
-    runtime_us = pathlib.Path("/proc/sys/kernel/sched_rt_runtime_us")
-    if runtime_us.exists() and int(runtime_us.read_text()) >= 0:
-        print(f"kernel.sched_rt_runtime_us is {runtime_us.read_text().strip()}, so a busy core stands "
-              "still for a part of each second in real time only; set it to -1", file=sys.stderr)
+    setting = pathlib.Path("/proc/sys/kernel/sched_rt_runtime_us")
+    runtime_us = int(setting.read_text()) if setting.exists() else -1
+    if runtime_us >= 0:
+        print(f"kernel.sched_rt_runtime_us is {runtime_us}, so a busy core stands still for a part of "
+              "each second in real time only; set it to -1", file=sys.stderr)
 
 
 def fly(command, folder):
@@ -105,13 +108,11 @@ def main():
     print(f"{'':26} {'':16} {'real time':>9} {'simulated':>9}")
     are_near = True
     for scenario in given.only or WORKLOADS:
-        kinds = {"in real time": ["--executor", "realtime", "--fifo", "50"], "simulated": []}
-        flights = {kind: [] for kind in kinds}
-        for kind, options in kinds.items():
+        flights = {kind: [] for kind in KINDS}
+        for kind, (folder, options) in KINDS.items():
             for seed in range(1, given.seeds + 1):
                 command = [given.flyball, "run", scenario, "--seed", str(seed), *both, *options]
-                folder = given.out / FOLDERS[kind] / f"{scenario}-{seed}"
-                flights[kind].append(fly(command, folder))
+                flights[kind].append(fly(command, given.out / folder / f"{scenario}-{seed}"))
         if None in flights["simulated"] + flights["in real time"]:
             return 2
         for kind, flown in flights.items():

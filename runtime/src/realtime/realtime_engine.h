@@ -83,7 +83,10 @@ struct RealtimeEngine {
   void unlock_and_wake(Lock& lock);
   /// What the calling thread asks of the system; `level` counts from 0, the most urgent.
   void set_up(const std::string& name, std::size_t level);
-  void wait_for_threads(std::size_t count);
+  /// On the owner's thread, until the condition holds, which is asked with the lock held; false
+  /// when it is `until` first.
+  template <class Condition>
+  bool wait_for(const Condition& condition, std::optional<Clock::time_point> until);
   /// Of a thread that ends; with the lock held.
   void leave(Lock& lock);
   [[nodiscard]] std::vector<int> active_cpus(int cores) const;

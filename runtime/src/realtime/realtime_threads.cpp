@@ -30,6 +30,23 @@ std::vector<int> RealtimeEngine::active_cpus(int cores) const {
   return {cpus.begin(), cpus.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
+template <class Condition>
+bool RealtimeEngine::wait_for(const Condition& condition, std::optional<Clock::time_point> until) {
+  while (true) {
+    const std::uint32_t ticket = owner.ticket();
+    {
+      const std::lock_guard lock{mutex};
+      if (condition()) {
+        return true;
+      }
+    }
+    if (until && Clock::now() >= *until) {
+      return false;
+    }
+    owner.wait(ticket, {}, until);
+  }
+}
+
 void RealtimeEngine::start() {
   is_started = true;
   const auto note_if = [this](std::optional<std::string> note) {
@@ -46,7 +63,7 @@ void RealtimeEngine::start() {
     }
   }
   threads.emplace_back([this] { keep_time(); });
-  wait_for_threads(threads.size());
+  wait_for([this] { return threads_ready == threads.size(); }, {});
   for (const std::string& note : notes) {  // No thread adds to them any more.
     if (settings.tell) {
       settings.tell(note);
@@ -66,19 +83,6 @@ void RealtimeEngine::start() {
     lane.parking.wake_all();
   }
   timer.wake_all();
-}
-
-void RealtimeEngine::wait_for_threads(std::size_t count) {
-  while (true) {
-    const std::uint32_t ticket = owner.ticket();
-    {
-      const std::lock_guard lock{mutex};
-      if (threads_ready == count) {
-        return;
-      }
-    }
-    owner.wait(ticket);
-  }
 }
 
 void RealtimeEngine::set_up(const std::string& name, std::size_t level) {
@@ -251,20 +255,10 @@ void RealtimeEngine::stop() {
 // A thread cannot be ended from outside, so a job that does not return keeps everything waiting: a
 // person is told which one it is, once.
 void RealtimeEngine::wait_for_jobs() {
-  std::optional<Clock::time_point> tell_at = Clock::now() + settings.tell_at_stop_after;
-  while (true) {
-    const std::uint32_t ticket = owner.ticket();
-    {
-      const std::lock_guard lock{mutex};
-      if (threads_left == threads.size()) {
-        return;
-      }
-    }
-    if (tell_at && Clock::now() >= *tell_at) {
-      tell_jobs_that_run_on();
-      tell_at.reset();
-    }
-    owner.wait(ticket, {}, tell_at);
+  const auto have_left = [this] { return threads_left == threads.size(); };
+  if (!wait_for(have_left, Clock::now() + settings.tell_at_stop_after)) {
+    tell_jobs_that_run_on();
+    wait_for(have_left, {});
   }
 }
 

@@ -151,7 +151,7 @@ class Observer {
       : lattice_{lattice},
         range_m_{request.range_m},
         camera_{world, coarse_camera(request), 0},
-        rays_{rays_of(coarse_camera(request).intrinsics())},
+        rays_{rays_of(camera_.spec().intrinsics())},
         headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
         seen_(lattice.size(), unseen) {}
 

@@ -2,6 +2,7 @@
 #include "flyball/runtime/realtime/realtime_executor.h"
 
 #include "counting_new.h"
+#include "realtime/thread_setup.h"
 #include "realtime_rig.h"
 #include <algorithm>
 #include <array>
@@ -307,10 +308,11 @@ TEST(RealtimeExecutor, says_what_the_system_did_not_permit) {
   rig.start();
   rig.executor->publish(in, 1);
   ASSERT_TRUE(rig.serve([&] { return rig.records.size() == 1; }));
-  const auto is_of_kernel = [](const std::string& note) {
-    return note.find("sched_rt_runtime_us") != std::string::npos;  // As this machine is set.
-  };
-  notes.erase(std::remove_if(notes.begin(), notes.end(), is_of_kernel), notes.end());
+  if (const auto throttle = real_time_throttle()) {  // As this machine is set.
+    ASSERT_FALSE(notes.empty());
+    EXPECT_EQ(notes.front(), *throttle);
+    notes.erase(notes.begin());
+  }
   if (policy == SCHED_FIFO) {
     EXPECT_TRUE(notes.empty()) << notes.front();
   } else {
