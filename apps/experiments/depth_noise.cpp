@@ -116,7 +116,7 @@ Experiment depth_noise() {
       {sweep_of({flown, "", "delivery_forest", "fixed_fine", {}})},
       evaluate};
   for (const Change& change : changes()) {
-    experiment.sweeps.push_back(sweep_of(change));
+    experiment.sweeps.push_back(with_few_seeds(sweep_of(change)));
   }
   return experiment;
 }

@@ -133,11 +133,11 @@ Experiment kernel_breakdown() {
                                  {},
                                  {"fixed_fine"}});
   }
-  experiment.sweeps.push_back({fitted_world,
-                               "delivery_outdoor_to_indoor",
-                               joined(quick_map(), fast_corner()),
-                               {},
-                               {"fixed_fine"}});
+  experiment.sweeps.push_back(with_few_seeds({fitted_world,
+                                              "delivery_outdoor_to_indoor",
+                                              joined(quick_map(), fast_corner()),
+                                              {},
+                                              {"fixed_fine"}}));
   return experiment;
 }
 

@@ -39,6 +39,11 @@ std::vector<std::string> joined(std::vector<std::string> settings,
   return settings;
 }
 
+ExperimentSweep with_few_seeds(ExperimentSweep sweep) {
+  sweep.most_seeds = 3;
+  return sweep;
+}
+
 std::vector<std::string> fast_corner() {
   return {"platform.cores=4", "platform.frequency_hz=2.0352e9"};
 }

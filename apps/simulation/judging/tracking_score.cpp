@@ -16,11 +16,11 @@ constexpr std::size_t most_cameras = 512;  // 25 s at 20 Hz; no tracker is that 
 constexpr double keep_every_s = 15.0;
 
 /// From the middle of the frame, 1 in its corners.
-double centre_error(const Target& target) {
-  const double half_x = 0.5 * target.frame.camera.width_px;
-  const double half_y = 0.5 * target.frame.camera.height_px;
-  const double x = target.box->centre_x_px() - half_x;
-  const double y = target.box->centre_y_px() - half_y;
+double centre_error(const ImageBox& box, const Intrinsics& camera) {
+  const double half_x = 0.5 * camera.width_px;
+  const double half_y = 0.5 * camera.height_px;
+  const double x = box.centre_x_px() - half_x;
+  const double y = box.centre_y_px() - half_y;
   return std::sqrt((x * x + y * y) / (half_x * half_x + half_y * half_y));
 }
 
@@ -35,20 +35,26 @@ void TrackingScore::note(std::uint64_t sequence, const Pose& X_WC) {
 
 void TrackingScore::count(const Target& target) {
   double best_overlap = 0.0;
+  double person_error = 1.0;
   const auto camera = std::find_if(cameras_.begin(), cameras_.end(), [&](const auto& noted) {
     return noted.first == target.frame.sequence;
   });
-  if (target.box && camera != cameras_.end()) {
-    ++frames_with_box_;
+  if (camera != cameras_.end()) {
+    frames_with_box_ += target.box ? 1 : 0;
     for (const Person& person : people_) {
       const auto truth = box_of(person, target.frame.captured, camera->second, target.frame.camera);
-      best_overlap = std::max(best_overlap, truth ? overlap(*truth, *target.box) : 0.0);
+      if (truth) {
+        person_error = std::min(person_error, centre_error(*truth, target.frame.camera));
+        best_overlap = std::max(best_overlap, target.box ? overlap(*truth, *target.box) : 0.0);
+      }
     }
   }
+  ++frames_;
+  person_error_sum_ += person_error;
   const bool on_target = best_overlap >= least_overlap;
   if (on_target) {
     ++frames_on_target_;
-    centre_error_sum_ += centre_error(target);
+    centre_error_sum_ += centre_error(*target.box, target.frame.camera);
     tracked_.on_target(target.frame.captured);
   }
   if (target.box) {
@@ -96,6 +102,7 @@ std::map<std::string, double> TrackingScore::figures() const {
   const std::uint64_t wrong = frames_with_box_ - frames_on_target_;
   return {{"tracked_s", tracked_s()},
           {"mean_centre_error_percent", share(centre_error_sum_, frames_on_target_)},
+          {"mean_person_error_percent", share(person_error_sum_, frames_)},
           {"wrong_box_percent", share(static_cast<double>(wrong), frames_with_box_)}};
 }
 

@@ -35,7 +35,9 @@ class TrackingScore final : public Judge {
   /// `target_lost` when the person was tracked for less than the mission asks for.
   [[nodiscard]] MissionFailure objection() const override;
   /// `tracked_s`, `mean_centre_error_percent` (distance of the tracked box's centre from the
-  /// frame's, over half the frame's diagonal), `wrong_box_percent` (of frames with a box).
+  /// frame's, over half the frame's diagonal, where the box is on the person),
+  /// `mean_person_error_percent` (the same of the nearest person's true box, in all frames; 100
+  /// where nobody is in the picture), `wrong_box_percent` (of frames with a box).
   [[nodiscard]] std::map<std::string, double> figures() const override;
   /// The first tracked frame, one of each 15 s, and the last, with their boxes.
   [[nodiscard]] std::vector<MissionFrame> frames() const override;
@@ -46,6 +48,8 @@ class TrackingScore final : public Judge {
   std::deque<std::pair<std::uint64_t, Pose>> cameras_{};  ///< Newest last.
   TrackedTime tracked_{};
   double centre_error_sum_{};
+  double person_error_sum_{};
+  std::uint64_t frames_{};
   std::uint64_t frames_with_box_{};
   std::uint64_t frames_on_target_{};
   struct Kept {

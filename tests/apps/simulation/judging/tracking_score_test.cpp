@@ -63,6 +63,22 @@ TEST_F(Score, does_not_count_a_box_on_something_else) {
   EXPECT_EQ(score.figures().at("wrong_box_percent"), 100.0);
 }
 
+TEST_F(Score, asks_of_all_frames_where_the_person_is) {
+  count(1.0, true);
+  EXPECT_NEAR(score.figures().at("mean_person_error_percent"), 0.0, 1e-6);
+  count(1.05, false);
+  EXPECT_NEAR(score.figures().at("mean_person_error_percent"), 0.0, 1e-6);
+  Target unseen = target_at(1.1, true);
+  unseen.box.reset();
+  score.count(unseen);
+  EXPECT_NEAR(score.figures().at("mean_person_error_percent"), 0.0, 1e-6);
+  Target elsewhere = target_at(1.15, true);
+  elsewhere.box.reset();
+  score.note(++elsewhere.frame.sequence, Pose::Identity());  // This camera looks up.
+  score.count(elsewhere);
+  EXPECT_NEAR(score.figures().at("mean_person_error_percent"), 25.0, 1e-6);
+}
+
 TEST_F(Score, bridges_a_short_gap_and_no_long_one) {
   count(1.0, true);
   count(1.8, true);
