@@ -6,11 +6,13 @@
 
 #include "cli/claimed_folder.h"
 #include "cli/sweep/slurm.h"
+#include "studies/sweep/task_sizes.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 namespace flyball {
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 struct Meeting {
   explicit Meeting(const std::string& shared) : folder{shared + "/slurm"} {}
   std::string folder;
+  /// A line for each task: the numbers of its flights.
   [[nodiscard]] std::string missing() const { return folder + "/missing.txt"; }
   /// Holds the number of the array that was started last, until it has been awaited.
   [[nodiscard]] std::string array() const { return folder + "/array.txt"; }
@@ -42,15 +45,31 @@ std::vector<std::size_t> read_numbers(const std::string& path) {
   return numbers;
 }
 
-/// Of the missing flights those that this task is to fly.
-std::vector<std::size_t> share_of(const std::vector<std::size_t>& missing,
-                                  std::size_t task,
-                                  std::size_t tasks) {
-  std::vector<std::size_t> share;
-  for (std::size_t i = task - 1; i < missing.size(); i += tasks) {
-    share.push_back(missing[i]);
+/// The numbers in one line of that file, counted from 1; empty where there is none.
+std::vector<std::size_t> read_share(const std::string& path, std::size_t task) {
+  std::ifstream file{path};
+  std::string line;
+  for (std::size_t i = 0; i < task && std::getline(file, line); ++i) {
   }
-  return share;
+  std::istringstream words{file ? line : ""};
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 0; words >> number;) {
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::string lines_of(const std::vector<std::size_t>& missing,
+                     const std::vector<std::size_t>& sizes) {
+  std::string lines;
+  std::size_t next = 0;
+  for (const std::size_t size : sizes) {
+    for (std::size_t i = 0; i < size; ++i) {
+      lines += (i == 0 ? "" : " ") + std::to_string(missing[next++]);
+    }
+    lines += "\n";
+  }
+  return lines;
 }
 
 /// False when a signal came meanwhile.
@@ -131,16 +150,10 @@ std::optional<int> await_and_collect(const Meeting& meeting, FlightStore& store)
 Result<std::string> start_array(const FlightArray& flights,
                                 const Meeting& meeting,
                                 const std::vector<std::size_t>& missing) {
-  // A few for each processor: a task that is killed loses little, and starting one costs seconds.
-  constexpr std::size_t tasks_for_each = 4;
   constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize unless set otherwise.
-  const std::size_t tasks =
-      std::min({missing.size(), tasks_for_each * flights.processors, most_tasks});
-  std::string lines;
-  for (const std::size_t number : missing) {
-    lines += std::to_string(number) + "\n";
-  }
-  if (const Status written = write_file(meeting.missing(), lines); !written) {
+  const std::vector<std::size_t> sizes = task_sizes(missing.size(), flights.processors, most_tasks);
+  const std::size_t tasks = sizes.size();
+  if (const Status written = write_file(meeting.missing(), lines_of(missing, sizes)); !written) {
     return written.error();
   }
   Result<std::string> array = submit({"flyball", flights.command, tasks, meeting.folder});
@@ -221,7 +234,7 @@ int fly_part(const StoredBatch& batch, const std::string& part, const PlanFlight
   // Tasks that removed each other's empty folders would get in each other's way.
   own.folder = batch.keeps_records ? batch.folder : meeting.part(task);
   std::vector<StoredFlight> flights;
-  for (const std::size_t number : share_of(read_numbers(meeting.missing()), task, tasks)) {
+  for (const std::size_t number : read_share(meeting.missing(), task)) {
     auto planned = plan(number, own.folder);
     if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
       return refuse(*errors);

@@ -37,7 +37,7 @@ using PlanFlight = std::function<std::variant<StoredFlight, std::vector<Error>>(
     std::size_t number, const std::string& folder)>;
 
 /// What one task does.
-/// @param part  `2/8`: every eighth of the missing flights, from the second one on.
+/// @param part  `2/8`: those of the missing flights that the second of eight tasks was given.
 /// @return The code to end with.
 [[nodiscard]] int fly_part(const StoredBatch& batch,
                            const std::string& part,
