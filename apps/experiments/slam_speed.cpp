@@ -240,8 +240,7 @@ Result<Findings> evaluate(const Evidence& /*evidence*/) {
   }
   const char* caption =
       "Computed on rendered frames, five worlds, a quarter lap each; speeds of 1, 2, 4 ... 12, 16, "
-      "20 m/s. "
-      "Where a line has no point, not even 1 m/s was flown.";
+      "20 m/s. Where a line has no point, not even 1 m/s was flown.";
   return Findings{{claim}, {{"speed", caption, speeds}, {"energy", caption, energies}}, {}};
 }
 

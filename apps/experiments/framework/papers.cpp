@@ -40,7 +40,7 @@ std::vector<std::string> joined(std::vector<std::string> settings,
 }
 
 ExperimentSweep with_few_seeds(ExperimentSweep sweep) {
-  sweep.most_seeds = 3;
+  sweep.most_seeds = few_seeds;
   return sweep;
 }
 

@@ -38,8 +38,9 @@ struct PaperMission {
 [[nodiscard]] std::vector<std::string> joined(std::vector<std::string> settings,
                                               const std::vector<std::string>& more);
 
-/// The same with at most three seeds: for causes, and for cells that are drawn but no claim is made
-/// of.
+/// For causes, and for cells that are drawn but no claim is made of.
+inline constexpr std::size_t few_seeds = 3;
+/// The same with at most that many.
 [[nodiscard]] ExperimentSweep with_few_seeds(ExperimentSweep sweep);
 
 /// The highest operating point, 4 cores at 2.0352 GHz, and the paper's lowest, 2 at .8064 GHz.
