@@ -34,12 +34,10 @@ const Chunk& BrickCells::far_chunk(std::uint64_t key) const {
 BlockSummary BrickCells::summary(const CellKey& cell, int level) const {
   const Chunk& chunk = chunk_at(cell.above(chunk_level - level));
   if (level >= brick_level) {
-    const int down = level - brick_level;
-    return chunk.block(level, brick_number({cell.x << down, cell.y << down, cell.z << down}));
+    return chunk.block(level, brick_number(cell.below(level - brick_level)));
   }
   const CellMasks& masks = chunk.masks[brick_number(cell.above(brick_level - level))];
-  const CellKey low{cell.x << level, cell.y << level, cell.z << level};
-  const std::uint64_t cells = cells_around(bit_in_brick(low), level);
+  const std::uint64_t cells = cells_around(bit_in_brick(cell.below(level)), level);
   return {(masks.occupied & cells) != 0, (masks.unknown & cells) != 0,
           (~masks.unknown & cells) != 0};
 }

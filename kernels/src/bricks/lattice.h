@@ -20,6 +20,12 @@ struct CellKey {
   int z{};
 
   [[nodiscard]] CellKey above(int levels) const { return {x >> levels, y >> levels, z >> levels}; }
+  /// The lowest of the cells inside that are so many levels finer. Not a shift: places outside the
+  /// lattice have keys below zero.
+  [[nodiscard]] CellKey below(int levels) const {
+    const int cells = 1 << levels;
+    return {x * cells, y * cells, z * cells};
+  }
   [[nodiscard]] bool operator==(const CellKey& other) const {
     return x == other.x && y == other.y && z == other.z;
   }
@@ -79,7 +85,7 @@ class Lattice {
     return {(key - half_keys) * finest_m_, (key + 1 - half_keys) * finest_m_};
   }
   [[nodiscard]] Aabb cube(const CellKey& cell, int level) const {
-    const auto low_m = [&](int key) { return ((key << level) - half_keys) * finest_m_; };
+    const auto low_m = [&](int key) { return (key * (1 << level) - half_keys) * finest_m_; };
     const auto high_m = [&](int key) { return ((key + 1) * (1 << level) - half_keys) * finest_m_; };
     return {{low_m(cell.x), low_m(cell.y), low_m(cell.z)},
             {high_m(cell.x), high_m(cell.y), high_m(cell.z)}};

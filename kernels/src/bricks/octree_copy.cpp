@@ -58,10 +58,7 @@ void prune_below(octomap::OcTreeNode* node, octomap::OcTree& tree) {
 
 /// The part of the tree that a chunk fills: without this a map would need ten times its memory.
 void prune_chunk(const CellKey& chunk, int level, octomap::OcTree& tree) {
-  const octomap::OcTreeKey key =
-      coarse_key({chunk.x << (chunk_level - level), chunk.y << (chunk_level - level),
-                  chunk.z << (chunk_level - level)},
-                 level);
+  const octomap::OcTreeKey key = coarse_key(chunk.below(chunk_level - level), level);
   octomap::OcTreeNode* node = tree.getRoot();
   for (int depth = tree_depth - 1; node != nullptr && depth >= chunk_level - level; --depth) {
     const unsigned child = octomap::computeChildIdx(key, depth);
