@@ -132,6 +132,7 @@ std::vector<ExperimentSweep> sweeps() {
     cells.axes = {{"platform.cores", {"2", "3", "4"}},
                   {"platform.frequency_hz", {"0.8064e9", "1.5744e9", "2.0352e9"}}};
     cells.policies = {"fixed_fine"};
+    cells.one_seed_in = mission.takes_the_host_long ? 3 : 1;
     all.push_back(with_few_seeds(cells));
     for (const ExperimentSweep& corner : corner_sweeps(mission.name, mission, {})) {
       all.push_back(corner);

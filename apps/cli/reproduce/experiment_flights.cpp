@@ -24,7 +24,8 @@ std::string sorted_settings(const ExperimentSweep& sweep, const SweepPoint& poin
 }
 
 std::vector<std::uint64_t> seeds_of(const ExperimentSweep& sweep, std::size_t asked) {
-  const std::size_t count = sweep.most_seeds == 0 ? asked : std::min(asked, sweep.most_seeds);
+  const std::size_t share = std::max<std::size_t>(asked / sweep.one_seed_in, 1);
+  const std::size_t count = sweep.most_seeds == 0 ? share : std::min(share, sweep.most_seeds);
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t seed = sweep.first_seed; seeds.size() < count; ++seed) {
     seeds.push_back(seed);

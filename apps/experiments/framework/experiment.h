@@ -24,7 +24,8 @@ struct ExperimentSweep {
   std::vector<SweepAxis> axes{};        ///< May be empty: then a policy has one point.
   std::vector<std::string> policies{};  ///< Empty: that of the scenario.
   std::uint64_t first_seed{1};
-  std::size_t most_seeds{};  ///< Where flights take the host long; 0: as many as were asked for.
+  std::size_t most_seeds{};    ///< Where flights take the host long; 0: as many as were asked for.
+  std::size_t one_seed_in{1};  ///< 3: a third of those that were asked for, but at least one.
 };
 
 /// What an experiment found.

@@ -22,9 +22,9 @@ std::string paper_detector() {
 std::vector<PaperMission> paper_missions() {
   return {{"scanning", "scanning_farm", {}},
           {"delivery", "delivery_forest", quick_map()},
-          {"mapping", "mapping_office", {}},
-          {"search", "search_collapsed_building", {paper_detector()}},
-          {"photography", "photography_park", {paper_detector()}}};
+          {"mapping", "mapping_office", {}, true},
+          {"search", "search_collapsed_building", {paper_detector()}, true},
+          {"photography", "photography_park", {paper_detector()}, true}};
 }
 
 std::vector<std::string> slowed(int number, const std::string& kernels, double factor) {

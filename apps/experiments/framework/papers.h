@@ -26,6 +26,7 @@ struct PaperMission {
   std::string name{};  ///< As the paper has it.
   std::string scenario{};
   std::vector<std::string> settings{};
+  bool takes_the_host_long{};  ///< Twenty seconds a flight, or a minute.
 };
 [[nodiscard]] std::vector<PaperMission> paper_missions();
 
