@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/plausibility.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -25,23 +26,6 @@ constexpr double slack_rad = 0.2;
 bool is_stream(const std::string& topic) {
   return topic == "setpoint" || topic == "pose";
 }
-
-/// The numbers of a message with what they are.
-class Numbers final : public NumberVisitor {
- public:
-  struct Number {
-    std::string_view name;
-    Quantity quantity;
-    double value;
-  };
-  void visit(std::string_view name, Quantity quantity, double& number) override {
-    all.push_back({name, quantity, number});
-  }
-  void visit(std::string_view name, Quantity quantity, float& number) override {
-    all.push_back({name, quantity, static_cast<double>(number)});
-  }
-  std::vector<Number> all{};
-};
 
 /// The largest magnitude.
 double most_of(Quantity quantity, const Brief& brief) {
@@ -87,12 +71,68 @@ double change(Quantity quantity, double before, double now) {
   return std::abs(quantity == Quantity::angle ? wrap_angle(now - before) : now - before);
 }
 
-std::string described(const Numbers::Number& number, const char* what) {
+std::string described(std::string_view name, double value, const char* what) {
   char text[96];
-  std::snprintf(text, sizeof text, "%s %.6g is out of its %s", std::string{number.name}.c_str(),
-                number.value, what);
+  std::snprintf(text, sizeof text, "%s %.6g is out of its %s", std::string{name}.c_str(), value,
+                what);
   return text;
 }
+
+/// Looks at each number once and keeps those of streams only: a cloud has a hundred thousand.
+class Judge final : public NumberVisitor {
+ public:
+  /// Judges ranges.
+  void limit(const Brief& brief) {
+    for (std::size_t i = 0; i < most_.size(); ++i) {
+      most_[i] = most_of(static_cast<Quantity>(i), brief);
+    }
+    judges_range_ = true;
+  }
+  /// Judges changes against these numbers.
+  void compare(const std::vector<double>& before, double dt_s) {
+    before_ = &before;
+    dt_s_ = dt_s;
+  }
+  /// `numbers` will hold all of the message.
+  void keep() { keeps_ = true; }
+
+  void visit(std::string_view name, Quantity quantity, double& number) override {
+    see(name, quantity, number);
+  }
+  void visit(std::string_view name, Quantity quantity, float& number) override {
+    see(name, quantity, static_cast<double>(number));
+  }
+
+  [[nodiscard]] const std::string& why() const {
+    return out_of_range_.empty() ? out_of_rate_ : out_of_range_;
+  }
+  std::vector<double> numbers{};
+
+ private:
+  void see(std::string_view name, Quantity quantity, double value) {
+    if (judges_range_ && out_of_range_.empty() &&
+        !(std::abs(value) <= most_[static_cast<std::size_t>(quantity)])) {
+      out_of_range_ = described(name, value, "range");
+    }
+    if (!keeps_) {
+      return;
+    }
+    const std::size_t i = numbers.size();
+    if (before_ != nullptr && i < before_->size() && out_of_rate_.empty() &&
+        !(change(quantity, (*before_)[i], value) <= most_change(quantity, dt_s_))) {
+      out_of_rate_ = described(name, value, "rate");
+    }
+    numbers.push_back(value);
+  }
+
+  std::array<double, static_cast<std::size_t>(Quantity::other) + 1> most_{};
+  bool judges_range_{};
+  const std::vector<double>* before_{};  ///< Owner: the stream.
+  double dt_s_{};
+  bool keeps_{};
+  std::string out_of_range_{};
+  std::string out_of_rate_{};
+};
 
 }  // namespace
 
@@ -100,34 +140,24 @@ std::string Plausibility::refused(const TopicSpec& topic, const void* message, M
   if (topic.with_numbers == nullptr || !(use_.range || use_.rate)) {
     return {};
   }
-  Numbers numbers;
-  (void)topic.with_numbers(message, numbers);
-  std::string why;
-  for (const auto& number : numbers.all) {
-    if (use_.range && why.empty() &&
-        !(std::abs(number.value) <= most_of(number.quantity, brief_))) {
-      why = described(number, "range");
-    }
+  Judge judge;
+  if (use_.range) {
+    judge.limit(brief_);
   }
   if (!is_stream(topic.name)) {
-    return why;
+    (void)topic.with_numbers(message, judge);
+    return judge.why();
   }
   Stream& stream = streams_[topic.name];
-  const double dt_s = to_seconds(now - stream.at);
-  for (std::size_t i = 0; use_.rate && i < stream.numbers.size() && i < numbers.all.size(); ++i) {
-    const auto& number = numbers.all[i];
-    const double changed = change(number.quantity, stream.numbers[i], number.value);
-    if (why.empty() && !(changed <= most_change(number.quantity, dt_s))) {
-      why = described(number, "rate");
-    }
+  if (use_.rate) {
+    judge.compare(stream.numbers, to_seconds(now - stream.at));
   }
-  if (!why.empty() && ++stream.refused_in_row <= most_in_row) {
-    return why;
+  judge.keep();
+  (void)topic.with_numbers(message, judge);
+  if (!judge.why().empty() && ++stream.refused_in_row <= most_in_row) {
+    return judge.why();
   }
-  stream = {now, {}, 0};
-  for (const auto& number : numbers.all) {
-    stream.numbers.push_back(number.value);
-  }
+  stream = {now, std::move(judge.numbers), 0};
   return {};
 }
 
