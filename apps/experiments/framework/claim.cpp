@@ -40,7 +40,8 @@ bool has_trend(const Claim& claim) {
 
 std::string sentence_of(const Claim& claim, const Cause& cause) {
   std::string text = cause.changed + ": " + measured_text(cause.ours, claim.unit);
-  if (const auto share = share_of_gap(claim, cause)) {
+  const auto share = share_of_gap(claim, cause);
+  if (share && verdict_of(claim) != Verdict::reproduced) {  // Else there is hardly a gap.
     const double percent = 100.0 * std::abs(*share);
     text += *share < 0.0 ? ", which widens the gap by " + rounded(percent, 0) + " %"
                          : ", which closes " + rounded(percent, 0) + " % of the gap";

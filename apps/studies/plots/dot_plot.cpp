@@ -133,7 +133,7 @@ std::string dot_plot_svg(const std::string& title, const std::vector<PlottedValu
       content += text(x.at(0.0) + 4.0, y + 4.0, "start", "no flight succeeded");
     }
   }
-  return svg::picture(width_px, foot_px + 20.0, content);
+  return svg::picture(std::max(width_px, svg::width_of(title)), foot_px + 20.0, content);
 }
 
 void mark_best(std::vector<PlottedPoint>& points) {

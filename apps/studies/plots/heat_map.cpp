@@ -61,8 +61,10 @@ std::string cell_svg(const HeatMap& map, const HeatCell& cell, double x, double 
   const std::string ink = share > dark_from ? "style=\"fill:#fff\"" : "style=\"fill:#111\"";
   const std::string small = share > dark_from ? "style=\"fill:#fff;font-size:10px\""
                                               : "style=\"fill:#111;font-size:10px\"";
-  const std::string interval =
-      "[" + rounded(cell.value->lo, digits) + ", " + rounded(cell.value->hi, digits) + "]";
+  const bool has_interval = cell.value->lo < cell.value->hi;  // A single flight has none.
+  const std::string interval = has_interval ? "[" + rounded(cell.value->lo, digits) + ", " +
+                                                  rounded(cell.value->hi, digits) + "]"
+                                            : "";
   return svg::rectangle({x, y, cell_width_px, cell_height_px},
                         "fill=\"" + fill_of(share) + "\" stroke=\"#fff\"",
                         svg::interval_text(map.title, *cell.value) + ", " + cell.under) +

@@ -107,6 +107,12 @@ TEST(Claim, tells_of_the_strongest_cause_first) {
             "computed, which widens the gap by 100 %. other: -.");
 }
 
+TEST(Claim, says_nothing_of_the_gap_where_there_is_hardly_one) {
+  Claim claim = claim_of(4.0, 3.9);
+  claim.causes = {{"slower", computed(2.0)}};
+  EXPECT_EQ(cause_text(claim), "slower: 2.00, computed.");
+}
+
 TEST(Claim, prints_a_number_with_its_interval_and_count) {
   EXPECT_EQ(measured_text({MedianInterval{123.4, 120.0, 130.0}, 5}, "W"),
             "123.4 [120.0, 130.0] W, n 5");

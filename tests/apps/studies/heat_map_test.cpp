@@ -11,7 +11,7 @@ HeatMap made_map() {
   HeatMap map{"energy, kJ", "range", "cells", {"5", "10"}, {"0.15", "0.3"}, {}, 10.0, 40.0};
   map.cells = {{MedianInterval{10.0, 9.0, 11.0}, "n 3"},
                {MedianInterval{20.0, 19.0, 21.0}, "n 3"},
-               {MedianInterval{40.0, 39.0, 41.0}, "1 of 3 fly"},
+               {MedianInterval{40.0, 40.0, 40.0}, "1 of 3 fly"},
                {std::nullopt, "0 of 3 fly"}};
   return map;
 }
@@ -27,6 +27,7 @@ TEST(HeatMap, says_each_value_with_its_interval_and_how_many_flights_there_are) 
                            ">0 of 3 fly<", ">range<", ">cells<", ">0.15<", ">energy, kJ<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text << " is not in\n" << svg;
   }
+  EXPECT_EQ(svg.find("[40.0, 40.0]"), std::string::npos) << "a single flight has no interval";
 }
 
 TEST(HeatMap, colours_the_least_and_the_greatest_with_the_ends_of_the_scale) {
