@@ -61,7 +61,7 @@ std::string cell_svg(const HeatMap& map, const HeatCell& cell, double x, double 
   const std::string ink = share > dark_from ? "style=\"fill:#fff\"" : "style=\"fill:#111\"";
   const std::string small = share > dark_from ? "style=\"fill:#fff;font-size:10px\""
                                               : "style=\"fill:#111;font-size:10px\"";
-  const bool has_interval = cell.value->lo < cell.value->hi;  // A single flight has none.
+  const bool has_interval = cell.value->lo < cell.value->hi;  // Not of one flight or equal ones.
   const std::string interval = has_interval ? "[" + rounded(cell.value->lo, digits) + ", " +
                                                   rounded(cell.value->hi, digits) + "]"
                                             : "";
