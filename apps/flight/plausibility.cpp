@@ -110,8 +110,17 @@ class Judge final : public NumberVisitor {
 
  private:
   void see(std::string_view name, Quantity quantity, double value) {
-    if (judges_range_ && out_of_range_.empty() &&
-        !(std::abs(value) <= most_[static_cast<std::size_t>(quantity)])) {
+    const bool is_in_range = std::abs(value) <= most_[static_cast<std::size_t>(quantity)];
+    if (!is_in_range || keeps_) {
+      consider(name, quantity, value, is_in_range);
+    }
+  }
+  /// Out of line, so that the numbers of a cloud pass by quickly.
+  [[gnu::noinline]] void consider(std::string_view name,
+                                  Quantity quantity,
+                                  double value,
+                                  bool is_in_range) {
+    if (!is_in_range && judges_range_ && out_of_range_.empty()) {
       out_of_range_ = described(name, value, "range");
     }
     if (!keeps_) {
@@ -137,7 +146,8 @@ class Judge final : public NumberVisitor {
 }  // namespace
 
 std::string Plausibility::refused(const TopicSpec& topic, const void* message, MissionTime now) {
-  if (topic.with_numbers == nullptr || !(use_.range || use_.rate)) {
+  const bool judges = use_.range || (use_.rate && is_stream(topic.name));
+  if (topic.with_numbers == nullptr || !judges) {
     return {};
   }
   Judge judge;

@@ -118,22 +118,25 @@ Measured mean_life_ratio(const Point& over,
           static_cast<int>(std::min(over.flights.size(), under.flights.size()))};
 }
 
-Measured success_percent(const Point& point) {
+Measured share_percent(const Point& point, const std::function<bool(const Summary&)>& is_so) {
   constexpr double z = normal_95;
   if (point.flights.empty()) {
     return {};
   }
-  const auto succeeded =
-      std::count_if(point.flights.begin(), point.flights.end(),
-                    [](const Summary* flight) { return has_succeeded(*flight); });
+  const auto so = std::count_if(point.flights.begin(), point.flights.end(),
+                                [&is_so](const Summary* flight) { return is_so(*flight); });
   const auto n = static_cast<double>(point.flights.size());
-  const double share = static_cast<double>(succeeded) / n;
+  const double share = static_cast<double>(so) / n;
   const double below = 1.0 + z * z / n;
   const double middle = (share + z * z / (2.0 * n)) / below;
   const double reach = z * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n)) / below;
   return {MedianInterval{100.0 * share, 100.0 * std::max(0.0, middle - reach),
                          100.0 * std::min(1.0, middle + reach)},
           static_cast<int>(point.flights.size())};
+}
+
+Measured success_percent(const Point& point) {
+  return share_percent(point, has_succeeded);
 }
 
 }  // namespace flyball

@@ -61,8 +61,11 @@ class Evidence {
                                        const Point& under,
                                        const FlightFigure& time_s,
                                        const std::function<bool(const Summary&)>& ends_in_loss);
-/// How many of the flights succeed [%], with the Wilson interval of a share (1927,
+/// Of how many flights something holds [%], with the Wilson interval of a share (1927,
 /// doi:10.1080/01621459.1927.10502953). All flights count.
+[[nodiscard]] Measured share_percent(const Point& point,
+                                     const std::function<bool(const Summary&)>& is_so);
+/// How many of the flights succeed [%].
 [[nodiscard]] Measured success_percent(const Point& point);
 
 }  // namespace flyball

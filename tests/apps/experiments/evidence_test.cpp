@@ -64,6 +64,8 @@ TEST(Evidence, leaves_failed_flights_out_unless_they_count) {
   Point point = evidence.at("made", {"2"});
   EXPECT_EQ(success_percent(point).value->median, 50.0);
   EXPECT_EQ(success_percent(point).n, 2);
+  EXPECT_EQ(share_percent(point, [](const Summary& /*flight*/) { return false; }).value->median,
+            0.0);
   // Wilson's interval of 1 in 2.
   EXPECT_NEAR(success_percent(point).value->lo, 9.45, 0.01);
   EXPECT_NEAR(success_percent(point).value->hi, 90.55, 0.01);
