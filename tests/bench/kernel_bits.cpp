@@ -27,6 +27,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,16 +104,16 @@ Airframe airframe() {
 
 constexpr double step_s = 0.004;
 
-/// Unequal rotors and a side wind, from rest: Simbody's own arithmetic without a controller.
-void vehicle() {
-  Vehicle flying{airframe(), 0.5, {{0.0, 0.0, 20.0}, 0.3, 0.0}};
+/// Unequal rotors and a side wind, from rest, without a controller.
+void vehicle(const char* name, const std::optional<GimbalSpec>& gimbal) {
+  Vehicle flying{airframe(), 0.5, {{0.0, 0.0, 20.0}, 0.3, 0.0}, gimbal};
   TraceHash hash;
   for (int i = 0; i < 250; ++i) {
     flying.step(step_s, {63.0, 61.0, 60.0, 62.5}, {1.0, -0.4, 0.1});
     add(hash, flying.state().X_WB.translation());
     add(hash, flying.state().X_WB.linear().col(0));
   }
-  print("vehicle (Simbody)", hash);
+  print(name, hash);
 }
 
 /// The controller on states that no vehicle has computed.
@@ -273,7 +274,8 @@ void all_parts() {
   c_library();
   eigen(8);
   eigen(32);
-  vehicle();
+  vehicle("vehicle", std::nullopt);
+  vehicle("vehicle with a gimbal (Simbody)", GimbalSpec{});
   flight_controller();
   depth_camera();
   const auto frames = frames_of(Scene::indoor, image, flight_stride);

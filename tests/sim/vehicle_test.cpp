@@ -250,6 +250,38 @@ TEST(Vehicle, holds_its_cameras_axis_while_it_banks_and_balances_its_energy) {
   EXPECT_LT(std::abs(residual_j() - start_j), 0.01 * std::abs(flight.vehicle.rotor_work_j()));
 }
 
+/// A body alone is computed in closed form, one with a gimbal by Simbody: with a gimbal that weighs
+/// nothing, both are the same body.
+TEST(Vehicle, moves_alone_as_the_multibody_system_does) {
+  const Airframe airframe = shipped_airframe("matrice_100");
+  GimbalSpec weightless;
+  weightless.mass_kg = 1e-9;
+  const VehicleStart start{{0.0, 0.0, 0.5 * airframe.body_height_m + 0.3}, 0.4, 0.0};
+  Vehicle alone{airframe, 0.7, start};
+  Vehicle multibody{airframe, 0.7, start, weightless};
+  const double hover = hover_rev_s(airframe, alone.mass_kg());
+  double fastest_rad_s = 0.0;
+  for (int i = 0; i < 3000; ++i) {  // Falls on a foot, leaves the ground, turns about all axes.
+    const double t_s = i * dt_s;
+    const double turn = 4.0 * std::sin(5.0 * t_s);
+    const double lift = t_s < 0.5 ? 0.3 * hover : 1.1 * hover;
+    const RotorSpeeds command{lift + turn, lift - 0.5 * turn, lift, lift + 0.3 * turn};
+    const Vec3 wind_W{3.0 * std::cos(t_s), -2.0, 0.5};
+    alone.step(dt_s, command, wind_W);
+    multibody.step(dt_s, command, wind_W);
+    const VehicleState& a = alone.state();
+    const VehicleState& b = multibody.state();
+    ASSERT_LT((a.X_WB.matrix() - b.X_WB.matrix()).cwiseAbs().maxCoeff(), 1e-6) << t_s;
+    ASSERT_LT((a.a_WB - b.a_WB).norm(), 1e-4) << t_s;
+    ASSERT_LT((a.w_WB_B - b.w_WB_B).norm(), 1e-5) << t_s;
+    fastest_rad_s = std::max(fastest_rad_s, a.w_WB_B.norm());
+  }
+  EXPECT_GT(fastest_rad_s, 1.0);
+  EXPECT_GT(alone.contact_loss_j(), 1.0);
+  EXPECT_NEAR(alone.kinetic_j(), multibody.kinetic_j(), 1e-3);
+  EXPECT_NEAR(alone.potential_j(), multibody.potential_j(), 1e-3);
+}
+
 TEST(Vehicle, goes_on_when_the_payload_leaves) {
   const Airframe airframe = in_vacuum();
   Vehicle vehicle{airframe, 1.0, {{0.0, 0.0, 100.0}, 0.4, 0.0}};

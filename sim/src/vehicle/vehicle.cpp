@@ -4,7 +4,8 @@
 
 #include "flyball/runtime/assert.h"
 
-#include "vehicle/vehicle_system.h"
+#include "vehicle/free_body.h"
+#include "vehicle/gimballed_body.h"
 #include <algorithm>
 #include <cmath>
 
@@ -14,13 +15,25 @@ namespace flyball {
 namespace {
 
 constexpr double contact_step_s = 0.001;  // the stiff contact bounds the step, flight does not
+constexpr double payload_gap_m = 0.02;  // payload's centre below the body's lower face: own choice
+
 }  // namespace
+
+SimTK::MassProperties Build::body() const {
+  const SimTK::Vec3 at{0.0, 0.0, -0.5 * airframe.body_size_m.z() - payload_gap_m};
+  const double both_kg = airframe.mass_kg + payload_kg;
+  const Vec3 inertia = airframe.inertia_kg_m2();
+  const SimTK::Inertia about_origin =
+      SimTK::Inertia{inertia.x(), inertia.y(), inertia.z()} + SimTK::Inertia{at, payload_kg};
+  return {both_kg, (payload_kg / both_kg) * at, about_origin};
+}
 
 struct Vehicle::Body {
   Build made_of;
   Shape shape;
   Loads loads;
-  std::unique_ptr<VehicleSystem> physics;
+  std::unique_ptr<VehicleDynamics> dynamics;
+  GimballedBody* gimballed{};  ///< The dynamics, if there is a gimbal.
   GimbalServo servo;
   VehicleState seen;
   double gimbal_work_j{};
@@ -38,27 +51,22 @@ struct Vehicle::Body {
     build();
   }
 
-  void build() { physics = std::make_unique<VehicleSystem>(made_of, shape, loads); }
-  [[nodiscard]] GimbalJoints joints(const SimTK::Vector& values, int first) const {
-    return made_of.gimbal ? GimbalJoints{values[first], values[first + 1], values[first + 2]}
-                          : GimbalJoints{};
-  }
-
+  void build();
   void turn_rotors(double dt_s, const RotorSpeeds& command);
   void turn_camera(double dt_s);
-  /// Room for what a step computes, so that none allocates.
-  struct Steps {
-    SimTK::Vector udot{};
-    SimTK::Vector motors{};  ///< Of the gimbal.
-    SimTK::Vector mean{};
-    SimTK::Vector qdot{};
-  };
-  Steps steps{};
-
   void integrate(double dt_s);
-  void turn_and_move(double dt_s);
-  void read_state(const SimTK::Vec3& a_WB);
+  void read_state(const SimTK::SpatialVec& A_WB);
 };
+
+void Vehicle::Body::build() {
+  if (!made_of.gimbal) {
+    dynamics = std::make_unique<FreeBody>(made_of, shape, loads);
+    return;
+  }
+  auto with_camera = std::make_unique<GimballedBody>(made_of, shape, loads);
+  gimballed = with_camera.get();
+  dynamics = std::move(with_camera);
+}
 
 /// First-order lag, exact for a constant command; thrust and torque follow from the mean of n^2
 /// over the step, so the impulse of a spin-up does not depend on the step.
@@ -89,79 +97,32 @@ void Vehicle::Body::turn_rotors(double dt_s, const RotorSpeeds& command) {
 }
 
 void Vehicle::Body::turn_camera(double dt_s) {
-  if (made_of.gimbal) {
-    const SimTK::State& state = physics->state;
+  if (gimballed != nullptr) {
     servo.slew(dt_s);
-    physics->joint_acceleration_rad_s2 =
-        servo.acceleration(seen.X_WB.linear(), joints(state.getQ(), first_joint_q),
-                           joints(state.getU(), first_joint_u));
+    gimballed->turn_joints(
+        servo.acceleration(seen.X_WB.linear(), gimballed->joints(), gimballed->joint_rates()));
   }
 }
 
 void Vehicle::Body::integrate(double dt_s) {
-  SimTK::State& state = physics->state;
-  physics->system.realize(state, SimTK::Stage::Acceleration);
-  Steps& step = steps;
-  step.udot = state.getUDot();
-  if (made_of.gimbal) {
-    physics->matter.findMotionForces(state, step.motors);
-  }
-  // Work at the mean speed of the step: with it a force's work is exactly the kinetic energy that
-  // this scheme gives a mass.
-  SimTK::Vector& mean = step.mean;
-  SimTK::Vector& u = state.updU();
-  mean.resize(u.size());
-  for (int i = 0; i < u.size(); ++i) {
-    const double before = u[i];
-    u[i] += dt_s * step.udot[i];
-    mean[i] = 0.5 * (before + u[i]);
-  }
-  const SimTK::SpatialVec V_mean{SimTK::Vec3{mean[0], mean[1], mean[2]},
-                                 SimTK::Vec3{mean[3], mean[4], mean[5]}};
-  rotor_work_j += dt_s * (~loads.rotors * V_mean);
-  drag_loss_j -= dt_s * (~loads.drag * V_mean);
-  contact_loss_j -= dt_s * (~loads.contact * V_mean);
-  if (made_of.gimbal) {
-    gimbal_work_j -= dt_s * (~step.motors * mean);  // Simbody's sign: against the motion.
-  }
-  turn_and_move(dt_s);
-  read_state(SimTK::Vec3{step.udot[3], step.udot[4], step.udot[5]});
+  const MotionStep step = dynamics->step(dt_s);
+  rotor_work_j += dt_s * (~loads.rotors * step.V_mean);
+  drag_loss_j -= dt_s * (~loads.drag * step.V_mean);
+  contact_loss_j -= dt_s * (~loads.contact * step.V_mean);
+  gimbal_work_j += step.gimbal_work_j;
+  read_state(step.A_WB);
 }
 
-/// With the speeds that the step ends with. What Simbody's matter does for all joints is done here
-/// for the free one alone: there it looks up every cache of the state, at each call.
-void Vehicle::Body::turn_and_move(double dt_s) {
-  SimTK::State& state = physics->state;
-  if (made_of.gimbal) {
-    physics->matter.multiplyByN(state, false, state.getU(), steps.qdot);
-    state.updQ() += dt_s * steps.qdot;
-    physics->matter.normalizeQuaternions(state);
-    return;
-  }
-  const SimTK::Vector& u = state.getU();
-  SimTK::Vector& q = state.updQ();
-  SimTK::Vec4 attitude{q[0], q[1], q[2], q[3]};
-  const SimTK::Vec4 turn =
-      SimTK::Rotation::calcUnnormalizedNForQuaternion(attitude) * SimTK::Vec3{u[0], u[1], u[2]};
-  attitude += dt_s * turn;
-  attitude = attitude / attitude.norm();
-  for (int i = 0; i < 4; ++i) {
-    q[i] = attitude[i];
-  }
-  for (int i = 0; i < 3; ++i) {
-    q[4 + i] += dt_s * u[3 + i];
-  }
-}
-
-void Vehicle::Body::read_state(const SimTK::Vec3& a_WB) {
-  const SimTK::Vector& q = physics->state.getQ();
-  const SimTK::Vector& u = physics->state.getU();
+void Vehicle::Body::read_state(const SimTK::SpatialVec& A_WB) {
+  const BodyMotion now = dynamics->motion();
+  const SimTK::Vec4& q = now.attitude;
+  const auto eigen = [](const SimTK::Vec3& v) { return Vec3{v[0], v[1], v[2]}; };
   const Eigen::Matrix3d R_WB = Eigen::Quaterniond{q[0], q[1], q[2], q[3]}.toRotationMatrix();
   seen.X_WB.linear() = R_WB;
-  seen.X_WB.translation() = Vec3{q[4], q[5], q[6]};
-  seen.w_WB_B = R_WB.transpose() * Vec3{u[0], u[1], u[2]};
-  seen.v_WB = Vec3{u[3], u[4], u[5]};
-  seen.a_WB = Vec3{a_WB[0], a_WB[1], a_WB[2]};
+  seen.X_WB.translation() = eigen(now.p_WB);
+  seen.w_WB_B = R_WB.transpose() * eigen(now.V_WB[0]);
+  seen.v_WB = eigen(now.V_WB[1]);
+  seen.a_WB = eigen(A_WB[1]);
 }
 
 Vehicle::Vehicle(const Airframe& airframe,
@@ -171,15 +132,11 @@ Vehicle::Vehicle(const Airframe& airframe,
   FLYBALL_ASSERT(airframe.validate().empty(), "%s", airframe.validate().front().message.c_str());
   FLYBALL_ASSERT(payload_kg >= 0.0, "payload_kg=%g", payload_kg);
   body_ = std::make_unique<Body>(Build{airframe, payload_kg, gimbal}, start.ground_z_m);
-  SimTK::Vector& q = body_->physics->state.updQ();
-  q[0] = std::cos(0.5 * start.yaw_rad);
-  q[1] = 0.0;
-  q[2] = 0.0;
-  q[3] = std::sin(0.5 * start.yaw_rad);
-  for (int i = 0; i < 3; ++i) {
-    q[4 + i] = start.p_WB[i];
-  }
-  body_->read_state(SimTK::Vec3{0.0});
+  BodyMotion motion;
+  motion.attitude = {std::cos(0.5 * start.yaw_rad), 0.0, 0.0, std::sin(0.5 * start.yaw_rad)};
+  motion.p_WB = {start.p_WB.x(), start.p_WB.y(), start.p_WB.z()};
+  body_->dynamics->place(motion);
+  body_->read_state({SimTK::Vec3{0.0}, SimTK::Vec3{0.0}});
 }
 
 Vehicle::~Vehicle() = default;
@@ -208,12 +165,16 @@ const VehicleState& Vehicle::state() const {
 
 void Vehicle::set_payload(double payload_kg) {
   FLYBALL_ASSERT(payload_kg >= 0.0, "payload_kg=%g", payload_kg);
-  const SimTK::Vector q = body_->physics->state.getQ();
-  const SimTK::Vector u = body_->physics->state.getU();
+  const BodyMotion motion = body_->dynamics->motion();
+  const GimbalJoints angles = gimbal_joints();
+  const GimbalJoints rates =
+      body_->gimballed != nullptr ? body_->gimballed->joint_rates() : GimbalJoints{};
   body_->made_of.payload_kg = payload_kg;
   body_->build();
-  body_->physics->state.updQ() = q;
-  body_->physics->state.updU() = u;
+  body_->dynamics->place(motion);
+  if (body_->gimballed != nullptr) {
+    body_->gimballed->place_joints(angles, rates);
+  }
 }
 
 double Vehicle::payload_kg() const {
@@ -244,14 +205,12 @@ void Vehicle::aim(const GimbalAngles& command) {
 }
 
 GimbalJoints Vehicle::gimbal_joints() const {
-  return body_->joints(body_->physics->state.getQ(), first_joint_q);
+  return body_->gimballed != nullptr ? body_->gimballed->joints() : GimbalJoints{};
 }
 
 Pose Vehicle::camera_pose() const {
-  FLYBALL_ASSERT(body_->made_of.gimbal, "this vehicle has no gimbal");
-  const VehicleSystem& physics = *body_->physics;
-  physics.system.realize(physics.state, SimTK::Stage::Position);
-  const SimTK::Transform& X = physics.camera.getBodyTransform(physics.state);
+  FLYBALL_ASSERT(body_->gimballed != nullptr, "this vehicle has no gimbal");
+  const SimTK::Transform X = body_->gimballed->camera_X_W();
   Pose X_WG = Pose::Identity();
   for (int i = 0; i < 3; ++i) {
     X_WG.translation()[i] = X.p()[i];
@@ -263,16 +222,12 @@ Pose Vehicle::camera_pose() const {
 }
 
 double Vehicle::kinetic_j() const {
-  const VehicleSystem& physics = *body_->physics;
-  physics.system.realize(physics.state, SimTK::Stage::Velocity);
-  return physics.matter.calcKineticEnergy(physics.state);
+  return body_->dynamics->kinetic_j();
 }
 
 double Vehicle::potential_j() const {
-  const VehicleSystem& physics = *body_->physics;
-  physics.system.realize(physics.state, SimTK::Stage::Position);
-  const SimTK::Vec3 centre_W = physics.matter.calcSystemMassCenterLocationInGround(physics.state);
-  return mass_kg() * gravity_m_s2 * (centre_W[2] - body_->shape.ground_z_m);
+  return mass_kg() * gravity_m_s2 *
+         (body_->dynamics->centre_of_mass_W()[2] - body_->shape.ground_z_m);
 }
 
 double Vehicle::shaft_power_w() const {

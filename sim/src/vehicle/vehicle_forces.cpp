@@ -20,6 +20,43 @@ SimTK::Vec3 simtk(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+SimTK::SpatialVec of_rotors(const SimTK::Rotation& R_WB, const Shape& shape, const Loads& loads) {
+  SimTK::Vec3 torque_B{0.0, 0.0, loads.reaction_nm};
+  double thrust_n = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double t = loads.thrust_n[i];
+    thrust_n += t;
+    torque_B += shape.rotors_B[i] % SimTK::Vec3{0.0, 0.0, t};
+  }
+  return {R_WB * torque_B, thrust_n * SimTK::Vec3{R_WB.z()}};
+}
+
+SimTK::SpatialVec of_drag(const SimTK::Vec3& v_WB, const Shape& shape, const Loads& loads) {
+  const SimTK::Vec3 airspeed = v_WB - simtk(loads.wind_W);
+  return {SimTK::Vec3{0.0}, -shape.drag_factor * airspeed.norm() * airspeed};
+}
+
+SimTK::SpatialVec of_contact(const SimTK::Transform& X_WB,
+                             const SimTK::SpatialVec& V_WB,
+                             const Shape& shape) {
+  SimTK::SpatialVec sum{SimTK::Vec3{0.0}, SimTK::Vec3{0.0}};
+  for (const SimTK::Vec3& foot_B : shape.feet_B) {
+    const SimTK::Vec3 arm = X_WB.R() * foot_B;
+    const double sink_m = shape.ground_z_m - (X_WB.p()[2] + arm[2]);
+    if (sink_m <= 0.0) {
+      continue;
+    }
+    const SimTK::Vec3 v = V_WB[1] + V_WB[0] % arm;
+    const double normal_n =
+        std::max(0.0, shape.stiffness_n_m * sink_m - shape.damping_n_s_m * v[2]);
+    const double slip_m_s = std::max(friction_slip_m_s, std::hypot(v[0], v[1]));
+    const double grip = friction * normal_n / slip_m_s;
+    const SimTK::Vec3 force{-grip * v[0], -grip * v[1], normal_n};
+    sum += SimTK::SpatialVec{arm % force, force};
+  }
+  return sum;
+}
+
 }  // namespace
 
 Shape shape_of(const Airframe& airframe, double ground_z_m) {
@@ -38,52 +75,14 @@ Shape shape_of(const Airframe& airframe, double ground_z_m) {
   return shape;
 }
 
-void BodyForce::calcForce(const SimTK::State& state,
-                          SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                          SimTK::Vector_<SimTK::Vec3>& /*particle_forces*/,
-                          SimTK::Vector& /*mobility_forces*/) const {
-  const SimTK::Transform& X_WB = body_.getBodyTransform(state);
-  const SimTK::SpatialVec& V_WB = body_.getBodyVelocity(state);
-  loads_.rotors = rotors(X_WB.R());
-  loads_.drag = drag(V_WB[1]);
-  loads_.contact = contact(X_WB, V_WB);
-  body_.applyBodyForce(state, loads_.rotors + loads_.drag + loads_.contact, body_forces);
-}
-
-SimTK::SpatialVec BodyForce::rotors(const SimTK::Rotation& R_WB) const {
-  SimTK::Vec3 torque_B{0.0, 0.0, loads_.reaction_nm};
-  double thrust_n = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double t = loads_.thrust_n[i];
-    thrust_n += t;
-    torque_B += shape_.rotors_B[i] % SimTK::Vec3{0.0, 0.0, t};
-  }
-  return {R_WB * torque_B, thrust_n * SimTK::Vec3{R_WB.z()}};
-}
-
-SimTK::SpatialVec BodyForce::drag(const SimTK::Vec3& v_WB) const {
-  const SimTK::Vec3 airspeed = v_WB - simtk(loads_.wind_W);
-  return {SimTK::Vec3{0.0}, -shape_.drag_factor * airspeed.norm() * airspeed};
-}
-
-SimTK::SpatialVec BodyForce::contact(const SimTK::Transform& X_WB,
-                                     const SimTK::SpatialVec& V_WB) const {
-  SimTK::SpatialVec sum{SimTK::Vec3{0.0}, SimTK::Vec3{0.0}};
-  for (const SimTK::Vec3& foot_B : shape_.feet_B) {
-    const SimTK::Vec3 arm = X_WB.R() * foot_B;
-    const double sink_m = shape_.ground_z_m - (X_WB.p()[2] + arm[2]);
-    if (sink_m <= 0.0) {
-      continue;
-    }
-    const SimTK::Vec3 v = V_WB[1] + V_WB[0] % arm;
-    const double normal_n =
-        std::max(0.0, shape_.stiffness_n_m * sink_m - shape_.damping_n_s_m * v[2]);
-    const double slip_m_s = std::max(friction_slip_m_s, std::hypot(v[0], v[1]));
-    const double grip = friction * normal_n / slip_m_s;
-    const SimTK::Vec3 force{-grip * v[0], -grip * v[1], normal_n};
-    sum += SimTK::SpatialVec{arm % force, force};
-  }
-  return sum;
+SimTK::SpatialVec push(const SimTK::Transform& X_WB,
+                       const SimTK::SpatialVec& V_WB,
+                       const Shape& shape,
+                       Loads& loads) {
+  loads.rotors = of_rotors(X_WB.R(), shape, loads);
+  loads.drag = of_drag(V_WB[1], shape, loads);
+  loads.contact = of_contact(X_WB, V_WB, shape);
+  return loads.rotors + loads.drag + loads.contact;
 }
 
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What pushes the multibody vehicle: rotors, drag and the ground.
+/// What pushes the vehicle: rotors, drag and the ground.
 
 #include "flyball/sim/airframe.h"
 
@@ -35,30 +35,11 @@ struct Shape {
 
 [[nodiscard]] Shape shape_of(const Airframe& airframe, double ground_z_m);
 
-/// All forces but gravity. Borrows its arguments; writes the wrenches of `loads`.
-class BodyForce final : public SimTK::Force::Custom::Implementation {
- public:
-  BodyForce(const SimTK::MobilizedBody& body, const Shape& shape, Loads& loads)
-      : body_{body}, shape_{shape}, loads_{loads} {}
-
-  void calcForce(const SimTK::State& state,
-                 SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                 SimTK::Vector_<SimTK::Vec3>& particle_forces,
-                 SimTK::Vector& mobility_forces) const override;
-  /// Gravity's is counted by the vehicle; the legs' springs count as contact.
-  [[nodiscard]] SimTK::Real calcPotentialEnergy(const SimTK::State& /*state*/) const override {
-    return 0.0;
-  }
-
- private:
-  [[nodiscard]] SimTK::SpatialVec rotors(const SimTK::Rotation& R_WB) const;
-  [[nodiscard]] SimTK::SpatialVec drag(const SimTK::Vec3& v_WB) const;
-  [[nodiscard]] SimTK::SpatialVec contact(const SimTK::Transform& X_WB,
-                                          const SimTK::SpatialVec& V_WB) const;
-
-  const SimTK::MobilizedBody& body_;
-  const Shape& shape_;
-  Loads& loads_;
-};
+/// All that pushes the body but gravity, at this pose and velocity: sets the wrenches of `loads`,
+/// and returns their sum.
+SimTK::SpatialVec push(const SimTK::Transform& X_WB,
+                       const SimTK::SpatialVec& V_WB,
+                       const Shape& shape,
+                       Loads& loads);
 
 }  // namespace flyball

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Simbody multibody vehicle: free body, four rotors with first-order lag, drag, ground contact,
-/// and a camera on a gimbal if there is one.
+/// The vehicle: a rigid body, four rotors with first-order lag, drag and ground contact; with a
+/// camera on a gimbal it is a multibody system of Simbody's.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/sim/airframe.h"
