@@ -35,8 +35,7 @@ struct Place {
 };
 
 // OctoMap begins a new map with each change of the cells, so only there a change has a price worth
-// a part of its own. Only where cells cost next to nothing would the finest ones be taken
-// everywhere.
+// a part of its own.
 std::vector<Place> places() {
   const std::vector<std::string> mixed{"world.length_m=260", "world.buildings=1", "world.crowds=1",
                                        "world.slits=1"};
@@ -51,11 +50,6 @@ std::vector<Place> places() {
        "into a building with OctoMap",
        {"kernels.mapper=octomap"},
        {{"mission_energy_without_switching_price", "price of a change of cells"}}},
-      {"with_a_quick_map",
-       "delivery_mixed",
-       "building, crowd and slit with our map's price",
-       joined(quick_map_at_own_price(), mixed),
-       {{"mission_energy_without_finest_reserve", "reserve of the finest cells"}}},
   };
 }
 

@@ -40,7 +40,6 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"detour_prices", Part::detour_prices},
       {"switching_price", Part::switching_price},
-      {"finest_reserve", Part::finest_reserve},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"noise_limit", Part::noise_limit},
       {"wide_first_bound", Part::wide_first_bound},
@@ -113,7 +112,7 @@ Observation Ablation::seen(Observation seen) const {
 void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) const {
   if (part_ == Part::resolution) {
     // The finest cells pass every gap, so they are the ones to keep.
-    around.coarsest_m = around.finest_m = 0.0;
+    around.coarsest_m = 0.0;
   } else if (part_ == Part::range) {
     // Between those that are for slow places and those that noise does not always allow.
     around.least_range_m = around.most_range_m = ranges_m[(ranges_m.size() - 1) / 2];
@@ -123,8 +122,6 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.visibility_m = no_limit;
   } else if (part_ == Part::failed_plan_prices) {
     around.failed_plans_per_m = nullptr;
-  } else if (part_ == Part::finest_reserve) {
-    around.finest_m = 0.0;
   }
 }
 

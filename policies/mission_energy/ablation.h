@@ -55,7 +55,6 @@ class Ablation {
     declared_zones,
     detour_prices,
     switching_price,
-    finest_reserve,
     plan_budgets,
     noise_limit,
     wide_first_bound

@@ -238,10 +238,6 @@ void MissionLimits::limit_lattice(const Observation& seen,
   if (needs_finest(seen, near, in_force)) {
     around.coarsest_m = levels_m_.front();
   }
-  // Paths in the finest cells pass obstacles more closely, bend more sharply and take longer to
-  // find. So even on a computer for which they cost no time, the finest cells are only used where a
-  // gap needs them.
-  around.finest_m = levels_m_[1] <= around.coarsest_m ? levels_m_[1] : 0.0;
   around.clear_range_m = clear_range_m(seen, near);
   if (!near) {  // A vehicle that may be fast needs to see farther.
     around.least_range_m = std::max(around.least_range_m, least_range_m_);

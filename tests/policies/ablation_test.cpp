@@ -98,7 +98,8 @@ double behind_the_door_m(const std::string& without) {
       seen.now = now;
       seen.map_resolution_m = 0.15;
     }
-    seen.speed_m_s = seen.speed_limit_m_s = 1.0;
+    seen.speed_m_s = seen.speed_limit_m_s = 2.0;
+    seen.latency = seen.map_resolution_m > 0.15 ? 100ms : 1500ms;  // So small cells are too slow.
     seen.now += 250ms;
     seen.map_revision = static_cast<std::uint64_t>(i) + 2;
     seen.map_resolution_m = rule.wish(seen, "map.resolution_m");
