@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -64,13 +65,23 @@ svg::Frame frame_of(const LinePlot& plot, const std::vector<double>& numbers) {
   return frame;
 }
 
-/// Lines at the places themselves: these were flown, and nothing between them.
+/// Lines at the places themselves: these were flown, and nothing between them. Where names
+/// would overlap, the first ones stand.
 std::string axes_of(const LinePlot& plot, const svg::Frame& frame, const std::vector<double>& at) {
+  constexpr double between_px = 4.0;
   std::string content = svg::y_axis(frame);
+  std::vector<std::pair<double, double>> named_px;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double x = frame.x.at(at[i]);
-    content += svg::line(x, frame_top_px, x, frame_bottom_px, svg::grid) +
-               svg::text(x, frame_bottom_px + 16.0, "middle", plot.places[i]);
+    const double reach_px = 0.5 * (svg::width_of(plot.places[i]) + between_px);
+    content += svg::line(x, frame_top_px, x, frame_bottom_px, svg::grid);
+    const bool has_room = std::none_of(named_px.begin(), named_px.end(), [&](const auto& other) {
+      return x - reach_px < other.second && x + reach_px > other.first;
+    });
+    if (has_room) {
+      content += svg::text(x, frame_bottom_px + 16.0, "middle", plot.places[i]);
+      named_px.emplace_back(x - reach_px, x + reach_px);
+    }
   }
   return content;
 }

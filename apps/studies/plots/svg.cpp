@@ -58,8 +58,9 @@ std::string picture(double width, double height, const std::string& content) {
 double tick_step(double span) {
   const double rough = std::max(span, 1e-9) / 4.0;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  constexpr double nearly = 1.42;  // Square root of 2: the nearer one of 1, 2, 5 and 10, in ratio.
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) {
+    if (factor * power * nearly >= rough) {
       return factor * power;
     }
   }

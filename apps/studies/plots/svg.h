@@ -41,7 +41,7 @@ struct Box {
 /// About the width of a text in the page's type.
 [[nodiscard]] double width_of(const std::string& text);
 
-/// Ticks at 1, 2 or 5 times a power of ten, about four of them.
+/// Ticks at 1, 2 or 5 times a power of ten: two to six of them.
 [[nodiscard]] double tick_step(double span);
 /// With as many digits as the step needs.
 [[nodiscard]] std::string number(double value, double step);

@@ -17,10 +17,11 @@ LinePlot made_plot(const std::vector<std::string>& places) {
            {"b", {std::nullopt, MedianInterval{7.0, 7.0, 7.0}, MedianInterval{9.0, 8.0, 9.5}}}}};
 }
 
-/// The x of the text that says so.
-double place_of(const std::string& svg, const std::string& text) {
-  const std::size_t at = svg.rfind("<text x=\"", svg.find(">" + text + "<"));
-  return at == std::string::npos ? -1.0 : std::stod(svg.substr(at + 9));
+/// The x of the place that is named so; -1 where none is.
+double place_of(const std::string& svg, const std::string& name) {
+  const std::size_t found = svg.find("text-anchor=\"middle\" >" + name + "<");
+  return found == std::string::npos ? -1.0
+                                    : std::stod(svg.substr(svg.rfind("<text x=\"", found) + 9));
 }
 
 TEST(LinePlot, puts_numbers_where_they_belong) {
@@ -37,6 +38,24 @@ TEST(LinePlot, puts_names_in_a_row) {
     const double near = place_of(svg, places[1]) - place_of(svg, places[0]);
     EXPECT_NEAR(place_of(svg, places[2]) - place_of(svg, places[1]), near, 0.2) << places[2];
     EXPECT_GT(near, 50.0);
+  }
+}
+
+TEST(LinePlot, leaves_names_out_where_they_would_overlap) {
+  const std::string svg = line_plot_svg(made_plot({"3.98", "0.20", "0.15"}));
+  EXPECT_GT(place_of(svg, "0.20"), 0.0);
+  EXPECT_EQ(place_of(svg, "0.15"), -1.0);
+  EXPECT_GT(place_of(svg, "3.98"), 0.0);
+}
+
+TEST(LinePlot, has_some_numbers_on_the_axis_whatever_it_spans) {
+  for (const double most : {1.3, 1.9, 2.6, 3.4, 4.9, 7.2, 8.83, 13.0}) {
+    LinePlot plot = made_plot({"1", "2", "3"});
+    plot.lines.pop_back();
+    plot.lines[0].values = {MedianInterval{0.1, 0.1, 0.1}, MedianInterval{most, most, most}, {}};
+    const std::size_t numbers = kit::count(line_plot_svg(plot), "text-anchor=\"end\"") - 1;
+    EXPECT_GE(numbers, 2U) << most << ", beside the title of the other axis";
+    EXPECT_LE(numbers, 7U) << most;
   }
 }
 
