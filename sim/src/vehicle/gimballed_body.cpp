@@ -87,7 +87,8 @@ GimballedBody::GimballedBody(const Build& build, const Shape& shape, Loads& load
                               SimTK::UnitVec3{SimTK::XAxis}, SimTK::YAxis};
   const SimTK::Vec3 below{0.0, 0.0, -0.5 * build.airframe.body_size_m.z() - build.gimbal->radius_m};
   camera_ = {body_, SimTK::Transform{joint, below}, ball(*build.gimbal), SimTK::Transform{joint}};
-  SimTK::Motion::Custom{camera_, new JointMotors{joint_acceleration_rad_s2_}};  // Simbody's, too.
+  // Simbody owns the motors, too.
+  const SimTK::Motion::Custom motors{camera_, new JointMotors{joint_acceleration_rad_s2_}};
   state_ = system_.realizeTopology();
   system_.realizeModel(state_);
 }
