@@ -280,6 +280,11 @@ Claim claim_of(const Evidence& evidence, const Printed& print) {
         {"of the person's true place, in all pictures, also where the box is not on the person",
          ratio(corners.fast, corners.slow, flight_figure("quality.mean_person_error_percent"))});
   }
+  if (print.figure == "kernel.kcf_real_time.mean_ms") {
+    claim.causes.push_back(
+        {"of the tracker that goes through the frames that came while the detector worked",
+         ratio(corners.slow, corners.fast, flight_figure("kernel.kcf_buffered.mean_ms"))});
+  }
   if (print.figure == "mission_time_s" && print.mission != "scanning") {
     claim.causes.push_back(
         {"time in hover left out", ratio(corners.fast, corners.slow, moving_time_s)});
