@@ -15,9 +15,8 @@ namespace {
 constexpr const char* look = R"(<style>
   h2 { margin-top: 34px; border-top: 2px solid #dfe5ea; padding-top: 18px; }
   body { max-width: 1400px; }
-  td { white-space: normal; }
+  td.text, td small { white-space: normal; }
   td.text, th.text { text-align: left; min-width: 9em; }
-  td.number { white-space: nowrap; }
   .verdict { display: inline-block; border-radius: 9px; padding: 0 9px; white-space: nowrap;
              background: #e8ecf0; }
   .reproduced { background: #cdeadb; } .same_trend { background: #fbeab8; }
@@ -26,7 +25,6 @@ constexpr const char* look = R"(<style>
   figure svg { max-width: 100%; height: auto; }
   code { font-size: 12px; overflow-wrap: anywhere; white-space: normal; }
   @media print { h2 { break-before: page; border: 0; } td.text, th.text { min-width: 0; }
-                 td.number { white-space: normal; }
                  body { max-width: none; } .verdict { white-space: normal; padding: 0 4px; } }
 </style>
 )";
@@ -38,8 +36,8 @@ std::string chip(Verdict verdict) {
   return "<span class=\"verdict " + style + "\">" + name + "</span>";
 }
 
-std::string number_cell(const std::string& text) {
-  return "<td class=\"number\">" + html_text(text) + "</td>";
+std::string cell(const std::string& text) {
+  return "<td>" + html_text(text) + "</td>";
 }
 
 std::string text_cell(const std::string& text) {
@@ -66,10 +64,9 @@ std::string overview_row(const ExperimentResult& result) {
     return name + "<td class=\"text\" colspan=\"6\">" + html_text(result.trouble) + "</td></tr>\n";
   }
   const Claim& first = result.findings.claims.front();
-  return name + text_cell(first.what) + number_cell(paper_text(first)) +
-         number_cell(measured_text(first.ours, first.unit)) + "<td>" + chip(verdict_of(first)) +
-         "</td>" + text_cell(verdict_counts(result.findings)) + text_cell(cause_of(first)) +
-         "</tr>\n";
+  return name + text_cell(first.what) + cell(paper_text(first)) +
+         cell(measured_text(first.ours, first.unit)) + "<td>" + chip(verdict_of(first)) + "</td>" +
+         text_cell(verdict_counts(result.findings)) + text_cell(cause_of(first)) + "</tr>\n";
 }
 
 std::string overview(const std::vector<ExperimentResult>& results) {
@@ -112,7 +109,7 @@ std::string claims_table(const Findings& findings) {
     const std::string where =
         claim.paper ? "<small>" + html_text(claim.paper->where) + "</small>" : "";
     rows += "<tr>" + text_cell(claim.what) + "<td>" + html_text(paper_text(claim)) + where +
-            "</td>" + number_cell(measured_text(claim.ours, claim.unit)) + "<td>" +
+            "</td>" + cell(measured_text(claim.ours, claim.unit)) + "<td>" +
             chip(verdict_of(claim)) + "</td>" + text_cell(cause_of(claim)) + "</tr>\n";
   }
   return html_table(rows);
