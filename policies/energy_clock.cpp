@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Sets the clock alone, with the model of mission_energy, beside an application that sets its map
-// itself. It takes the clock with the least energy per metre for the cells in force, but only at
-// the mission's own speed limit, and only if that saves more than the mission could lose by waiting
-// longer for everything else that it computes. While the vehicle is idle, it takes the lowest clock
-// that makes maps soon enough.
+// itself. It takes the clock with the least energy per metre for the cells in force, but only where
+// nothing but the map holds the vehicle up, and only if that saves more than the mission could lose
+// by waiting longer for everything else that it computes. While the vehicle is idle, it takes the
+// lowest clock that makes maps soon enough.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/idle.h"
@@ -94,8 +94,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
     // map's range does.
     around.visibility_m = flyball::shown_free_m(seen);
     around.coarsest_m = around.finest_m = cells_m;
-    // The model does not price plans.
-    around.needs_top_clock = !flyball::flies_at_limit(seen) || seen.planner_failures > 0;
+    around.needs_top_clock = flyball::is_held_up(seen) || seen.planner_failures > 0;
     around.waits = waiting_;
     return search_->choose(around, seen.now).setting.clock_hz;
   }

@@ -85,6 +85,13 @@ bool flies_at_limit(const Observation& seen) {
          seen.speed_m_s >= nearly * limits_of(seen).speed_limit_m_s;
 }
 
+bool is_held_up(const Observation& seen) {
+  constexpr double standing_m_s = 0.1;  // Chosen: slower than any cruise.
+  const bool is_free = seen.phase == MissionPhase::cruise && seen.speed_m_s > standing_m_s &&
+                       seen.planner_failures == 0 && seen.narrowest_gap_m >= open_path_m;
+  return !is_free && !flies_at_limit(seen);
+}
+
 double shown_free_m(const Observation& seen) {
   constexpr double farthest_m = 1e6;
   const double flown_m = seen.speed_m_s * std::max(0.0, to_seconds(seen.latency));

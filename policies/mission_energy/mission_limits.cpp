@@ -12,8 +12,9 @@
 namespace flyball {
 namespace {
 
-constexpr double waiting_m_s = 0.1;  // Chosen: slower than any cruise.
-constexpr double open_m = 6.0;       // The width of a path that has nothing beside it, as observed.
+constexpr double waiting_m_s = 0.1;         // Chosen: slower than any cruise.
+constexpr double declared_ahead_m = 20.0;   // Observation::speed_limit_m_s looks so far.
+constexpr double next_maps_s = 0.5;         // Chosen: for two decisions a range stays in force.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
 
 /// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
@@ -150,11 +151,17 @@ double MissionLimits::range_with_m(double noise_m) const {
 
 // Hits that noise has moved narrow a gap from both sides. Where gaps are seen and no narrow ones
 // are declared, noise may be a quarter of what the narrowest one leaves beside the body. Where none
-// is seen, nothing tells how narrow the next one is.
+// is seen, nothing tells how narrow the next one is. The range ends before the place up to which
+// the mission declares narrow gaps: noise of that distance would close the doors of a house.
 double MissionLimits::clear_range_m(const Observation& seen, bool near) const {
   const bool sees_gaps =
-      camera_ && !near && seen.phase == MissionPhase::cruise && seen.narrowest_gap_m < open_m;
-  return sees_gaps ? range_with_m(0.25 * (seen.narrowest_gap_m - body_m_)) : 0.0;
+      camera_ && !near && seen.phase == MissionPhase::cruise && seen.narrowest_gap_m < open_path_m;
+  if (!sees_gaps) {
+    return 0.0;
+  }
+  const double flown_m = next_maps_s * std::max(0.0, seen.speed_m_s);
+  return std::min(declared_ahead_m - flown_m,
+                  range_with_m(0.25 * (seen.narrowest_gap_m - body_m_)));
 }
 
 void MissionLimits::add_ranges_beyond(double most_m) {
@@ -246,7 +253,7 @@ void MissionLimits::limit_lattice(const Observation& seen,
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();
   around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
-  around.needs_top_clock |= !flies_at_limit(seen);
+  around.needs_top_clock |= is_held_up(seen);
 }
 
 // Before a narrow place, a plan may fail because the cells are larger than its door, so the next

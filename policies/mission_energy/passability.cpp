@@ -104,7 +104,7 @@ void Passability::count_path(const Observation& seen) {
 void Passability::need_until_past(const Observation& seen, Standing standing) {
   if (seen.planner_failures > 0 || standing != Standing::no) {
     failed_on_m_ = settings_.near_m;
-  } else {
+  } else if (seen.map_resolution_m > 0.0) {  // Before the first map, there is no gap to be past.
     gap_on_m_ =
         std::max(gap_on_m_, std::min(seen.gap_distance_m + behind_the_gap_m, farthest_gap_m));
   }

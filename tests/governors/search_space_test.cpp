@@ -63,6 +63,31 @@ TEST(SearchSpace, only_who_cruises_as_fast_as_the_mission_lets_it_flies_at_the_l
   }
 }
 
+TEST(SearchSpace, in_the_open_a_vehicle_is_slow_because_of_latency_alone) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  seen.speed_limit_m_s = 4.0;
+  seen.speed_m_s = 2.0;
+  seen.narrowest_gap_m = open_path_m;
+  EXPECT_FALSE(is_held_up(seen));
+  Observation at_a_gap = seen;
+  at_a_gap.narrowest_gap_m = 2.0;
+  EXPECT_TRUE(is_held_up(at_a_gap));
+  at_a_gap.speed_m_s = 4.0;
+  EXPECT_FALSE(is_held_up(at_a_gap)) << "it could not be faster";
+  Observation after_a_failed_plan = seen;
+  after_a_failed_plan.planner_failures = 1;
+  EXPECT_TRUE(is_held_up(after_a_failed_plan));
+  Observation lands = seen;
+  lands.phase = MissionPhase::land;
+  EXPECT_TRUE(is_held_up(lands));
+  for (const double standing_m_s : {0.0, 0.05, std::numeric_limits<double>::quiet_NaN()}) {
+    Observation stands = seen;
+    stands.speed_m_s = standing_m_s;
+    EXPECT_TRUE(is_held_up(stands)) << standing_m_s;
+  }
+}
+
 TEST(SearchSpace, what_was_shown_free_counts_from_where_the_frame_was_taken) {
   Observation seen;
   seen.known_free_m = 3.0;

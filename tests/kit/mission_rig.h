@@ -90,8 +90,8 @@ struct MissionRig {
 };
 
 /// A straight corridor along x, 40 m of it known free, then unknown.
-inline GridMap corridor(double known_to_m) {
-  GridMap map{{Vec3{-2.0, -3.0, 0.0}, Vec3{60.0, 3.0, 3.0}}, 0.15, CellState::unknown};
+inline GridMap corridor(double known_to_m, double cell_m = 0.15) {
+  GridMap map{{Vec3{-2.0, -3.0, 0.0}, Vec3{60.0, 3.0, 3.0}}, cell_m, CellState::unknown};
   map.fill({Vec3{-2.0, -3.0, 0.0}, Vec3{known_to_m, 3.0, 3.0}}, CellState::free);
   return map;
 }

@@ -60,7 +60,8 @@ struct Trip {
   void publish_map(Duration age, std::optional<double> blocked_at_m = std::nullopt) {
     const NavigatorState state = navigator.state();
     PathClearance clearance;
-    clearance.revision = {++revision, now - age, cell_m, std::make_shared<const GridMap>(map)};
+    clearance.revision = {++revision, now - age, cell_m,
+                          other_map ? other_map : std::make_shared<const GridMap>(map)};
     clearance.published = now;
     clearance.path_number = state.path_number;
     clearance.blocked_at_m = blocked_at_m;
@@ -104,6 +105,7 @@ struct Trip {
     return navigator.next_query(now);
   }
   GridMap map;
+  std::shared_ptr<const GridMap> other_map{};  ///< Is published instead, if there is one.
   MissionRig rig;
   Navigator navigator;
   PoseEstimate where{};

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the rule does on a mapper with a lattice of cells; the instruments have tests of their own.
+#include "flyball/governors/search_space.h"
+
 #include "cruising.h"
 #include "started_policy.h"
 
@@ -65,11 +67,12 @@ TEST(MissionEnergy, has_no_large_cells_where_the_mission_is_slow) {
 }
 
 /// A small vehicle, whose computer's watts count, flies on like this for half a minute.
-double clock_hz(double speed_m_s) {
+double clock_hz(double speed_m_s, double gap_m) {
   flyball::Observation seen = cruising();
   seen.speed_limit_m_s = 3.0;
   seen.speed_m_s = speed_m_s;
   seen.rotor_power = flyball::Watts{20.0};
+  seen.narrowest_gap_m = gap_m;
   EnergyRule rule;
   for (int i = 0; i < 120; ++i) {
     seen.now += 250ms;
@@ -79,9 +82,11 @@ double clock_hz(double speed_m_s) {
   return rule.wish(seen, "cpu.frequency_hz");
 }
 
-TEST(MissionEnergy, lowers_the_clock_only_at_the_missions_own_limit_of_speed) {
-  EXPECT_EQ(clock_hz(2.0), top_hz);
-  EXPECT_LT(clock_hz(3.0), top_hz);
+TEST(MissionEnergy, keeps_the_top_clock_while_a_gap_ahead_holds_it_up) {
+  constexpr double gap_m = 4.0;
+  EXPECT_EQ(clock_hz(2.0, gap_m), top_hz);
+  EXPECT_LT(clock_hz(3.0, gap_m), top_hz);
+  EXPECT_LT(clock_hz(2.0, flyball::open_path_m), top_hz);
 }
 
 TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed_in_them) {

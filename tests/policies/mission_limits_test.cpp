@@ -101,6 +101,9 @@ TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
   EXPECT_NEAR(clear_m(between_trees(3.0)), 15.1, 0.051);
   EXPECT_LT(clear_m(between_trees(0.8)), 7.0) << "a door";
   EXPECT_EQ(clear_m(between_trees(6.0)), 0.0) << "nothing is seen";
+  Observation fast = between_trees(3.0);
+  fast.speed_m_s = 12.0;
+  EXPECT_NEAR(clear_m(fast), 14.0, 0.051) << "what is declared narrow 20 m ahead comes nearer";
   Observation slow = between_trees(3.0);
   slow.speed_limit_m_s = 1.0;
   EXPECT_EQ(clear_m(slow), 0.0) << "narrow places are declared";
@@ -181,7 +184,7 @@ TEST(MissionLimits, says_what_contradicts_what) {
             "flyball list knobs");
 }
 
-TEST(MissionLimits, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_open) {
+TEST(MissionLimits, needs_the_top_clock_where_a_gap_holds_the_vehicle_up) {
   auto limits = made();
   ASSERT_TRUE(limits.ok());
   const MapSetting coarse{0.80, 7.0, 2e9};
@@ -189,6 +192,9 @@ TEST(MissionLimits, at_the_missions_limit_of_speed_needs_no_top_clock_in_the_ope
   EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
   seen.now += 250ms;
   seen.speed_m_s = 4.0;
+  EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
+  seen.now += 250ms;
+  seen.narrowest_gap_m = 5.0;
   EXPECT_TRUE(limits->look(seen, coarse).needs_top_clock);
 }
 

@@ -163,6 +163,14 @@ TEST(Passability, needs_finest_cells_until_it_is_past_the_gap_though_they_do_not
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
 }
 
+TEST(Passability, needs_no_cells_for_a_gap_before_there_is_a_map) {
+  Passability passability = among_obstacles();
+  Observation before = seen(0.0, 24.0, 0.0);
+  before.gap_distance_m = 0.0;
+  EXPECT_EQ(passability.judge(before).coarsest_level, 0U) << "nothing is known";
+  EXPECT_EQ(passability.judge(seen(0.25, 24.0, 0.15)).coarsest_level, 3U);
+}
+
 TEST(Passability, forgets_a_gap_that_finest_cells_do_not_show_where_it_was) {
   Passability passability = among_obstacles();
   Observation seen_it = seen(0.0, 0.3, 0.30);

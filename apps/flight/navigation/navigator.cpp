@@ -23,6 +23,7 @@ constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unk
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double least_lead_in_m = 0.3;    // On less of a straight line a bend gains nothing.
 constexpr double straight = 0.999;         // Chord over arc: a turn by 9 degrees.
+constexpr double least_detour_m = 3.0;     // Chosen: as in plan_with_tubes.
 constexpr double rounding_m = 1e-6;
 
 }  // namespace
@@ -116,6 +117,26 @@ void Navigator::path_checked(MissionTime now, const PathClearance& clearance) {
   if (blocked_at_m_ && pending_id_ == 0) {
     want_plan(now, "path blocked");
   }
+  note_finer_map(now);
+}
+
+// In larger cells a door may have been closed, and the path is the way around. The way through the
+// door is looked for once, when the first map of smaller cells is there.
+void Navigator::note_finer_map(MissionTime now) {
+  if (pending_id_ == 0 && map_->resolution_m() < planned_in_m_ - rounding_m) {
+    planned_in_m_ = map_->resolution_m();
+    if (is_detour()) {
+      want_plan(now, "a finer map may show a shorter path");
+    }
+  }
+}
+
+bool Navigator::is_detour() const {
+  if (!goal_W_ || !follower_.has_path()) {
+    return false;
+  }
+  const double line_m = (*goal_W_ - follower_.position_W()).norm();
+  return follower_.path().length_m() - follower_.s_m() > line_m + least_detour_m;
 }
 
 void Navigator::want_plan(MissionTime now, const std::string& why) {
@@ -158,6 +179,7 @@ PlanQuery Navigator::query() {
     start_from_path(query);
   }
   joins_ = known_.has_value();
+  planned_in_m_ = joins_ ? planned_in_m_ : map_->resolution_m();
   query.known = std::exchange(known_, std::nullopt);
   query.goal_W = *goal_W_;
   query.failures = failures_;

@@ -47,9 +47,16 @@ namespace flyball {
 /// All else has its default, and visibility is unlimited.
 [[nodiscard]] Surroundings limits_of(const Observation& seen);
 
-/// Whether the vehicle cruises as fast as the mission allows. Only then does lower latency gain
-/// nothing: a slower vehicle waits for a plan, or brakes before its goal or for want of a plan.
+/// Width of a path that has nothing beside it, as an observation tells it [m].
+constexpr double open_path_m = 6.0;
+
+/// Whether the vehicle cruises as fast as the mission allows, so that lower latency gains nothing.
 [[nodiscard]] bool flies_at_limit(const Observation& seen);
+
+/// Whether something beside the latency of maps makes the vehicle slower than the mission allows:
+/// it stands, a plan has failed, or obstacles narrow its path. The search does not price what plans
+/// and turns cost there, so a lower clock may lose more than the search expects.
+[[nodiscard]] bool is_held_up(const Observation& seen);
 
 /// How far the newest map showed the committed path as free, from the place where its frame was
 /// taken [m]: d of eq. 2, without the allowance for body and tube. It also ends where the path

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of a path that was found but cannot be joined.
+// What becomes of a path that was found but cannot be joined, or that is a way around.
 #include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
@@ -9,6 +9,7 @@
 namespace flyball {
 namespace {
 
+using kit::detour;
 using kit::straight;
 using kit::Trip;
 
@@ -54,6 +55,32 @@ TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
     const auto again = trip.navigator.next_query(trip.now);
     ASSERT_TRUE(again.has_value());
     EXPECT_EQ(again->known.has_value(), ticks == 1500);
+  }
+}
+
+// In larger cells the door was closed.
+TEST(NavigatorJoins, looks_once_for_a_shorter_path_than_a_detour_when_the_map_is_finer) {
+  for (const double more_m : {1.0, 10.0}) {
+    Trip trip;
+    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
+    trip.publish_map(std::chrono::milliseconds{100});
+    trip.set_goal(Vec3{20, 0, 1.5});
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.navigator.path_planned(trip.now,
+                                {query->id, detour(query->start_W, query->goal_W, more_m), ""});
+    trip.tick(50);
+    EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "the map is as it was";
+    trip.other_map = nullptr;
+    trip.tick(10);
+    const auto again = trip.navigator.next_query(trip.now);
+    ASSERT_EQ(again.has_value(), more_m > 5.0);
+    if (again) {
+      trip.navigator.path_planned(trip.now,
+                                  {again->id, detour(again->start_W, again->goal_W, more_m), ""});
+      trip.tick(50);
+      EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "it has looked";
+    }
   }
 }
 

@@ -66,6 +66,8 @@ class Navigator {
   void clear_goal();
   void refresh_known_free();
   void note_map(MissionTime now, const PathClearance& clearance);
+  void note_finer_map(MissionTime now);
+  [[nodiscard]] bool is_detour() const;
   void note_rest(MissionTime now, double speed_m_s);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
@@ -105,6 +107,7 @@ class Navigator {
   int replans_{};
   StepBack back_{};
   MissionTime asked_at_{};
+  double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
   PlanLead lead_{};
   double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
