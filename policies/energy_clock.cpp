@@ -33,7 +33,8 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
     return {{"fine_latency_s", 0.5, 0.001, 60.0,
              "Sensor to map, .15 m, 7 m, top clock; learned later."},
             {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarsest map."},
-            {"rest_s", 1.0, 0.01, 3600.0, "While the vehicle waits: a map in so long is enough."}};
+            {"rest_s", 1.0, 0.01, 3600.0,
+             "While the vehicle waits, a map may take so long, unless the mission says."}};
   }
 
   flyball::Status start(const flyball::Parameters& given,

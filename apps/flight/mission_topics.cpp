@@ -104,8 +104,12 @@ void log_event(JobContext& job, const MissionTopics& topics, const std::string& 
   log(job, topics, "event", {{"what", what}});
 }
 
-void tell_progress(JobContext& job, const MissionTopics& topics, ProgressUnit unit, double value) {
-  job.publish(topics.progress, MissionProgress{unit, value});
+void tell_progress(JobContext& job,
+                   const MissionTopics& topics,
+                   ProgressUnit unit,
+                   double value,
+                   Duration map_within) {
+  job.publish(topics.progress, MissionProgress{unit, value, map_within});
 }
 
 void end_mission(JobContext& job,

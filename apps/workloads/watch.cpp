@@ -120,7 +120,8 @@ class Watch final : public Workload {
       ++maps_;
     }
     longest_s_ = std::max(longest_s_, to_seconds(job.now() - news_));
-    tell_progress(job, mission_, ProgressUnit::second, to_seconds(job.now() - since_));
+    tell_progress(job, mission_, ProgressUnit::second, to_seconds(job.now() - since_),
+                  from_seconds(brief_->settings.watch.longest_s));
     if (to_seconds(job.now() - since_) < brief_->settings.watch.time_s) {
       return;
     }

@@ -15,7 +15,7 @@ constexpr double declared_m = 5.0;
 
 std::optional<double> Idle::patience_s(const Observation& seen) const {
   if (seen.phase == MissionPhase::wait) {
-    return map_s_;
+    return seen.map_within > Duration::zero() ? to_seconds(seen.map_within) : map_s_;
   }
   // A landing after a flight with maps does not count as idle, because the next flight begins with
   // the latencies that are learned now.

@@ -79,17 +79,14 @@ Surroundings limits_of(const Observation& seen) {
   return around;
 }
 
-bool flies_at_limit(const Observation& seen) {
-  constexpr double nearly = 0.9;  // The reference approaches its limit gradually.
-  return seen.phase == MissionPhase::cruise &&
-         seen.speed_m_s >= nearly * limits_of(seen).speed_limit_m_s;
-}
-
 bool is_held_up(const Observation& seen) {
   constexpr double standing_m_s = 0.1;  // Chosen: slower than any cruise.
-  const bool is_free = seen.phase == MissionPhase::cruise && seen.speed_m_s > standing_m_s &&
-                       seen.planner_failures == 0 && seen.narrowest_gap_m >= open_path_m;
-  return !is_free && !flies_at_limit(seen);
+  constexpr double nearly = 0.9;        // The reference approaches its limit gradually.
+  if (seen.phase != MissionPhase::cruise || !(seen.speed_m_s > standing_m_s)) {
+    return true;
+  }
+  const bool is_free = seen.planner_failures == 0 && seen.narrowest_gap_m >= open_path_m;
+  return !is_free && seen.speed_m_s < nearly * limits_of(seen).speed_limit_m_s;
 }
 
 double shown_free_m(const Observation& seen) {

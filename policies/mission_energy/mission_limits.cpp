@@ -59,7 +59,8 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
       {"min_fine_s", 2.0, 0.0, 3600.0, "Finer cells last at least this long."},
       {"coarse_budget", 200.0, 100.0, 1e6, "Iterations of a plan in coarse cells."},
-      {"rest_s", 1.0, 0.01, 3600.0, "While the vehicle waits, a map may take so long."},
+      {"rest_s", 1.0, 0.01, 3600.0,
+       "While the vehicle waits, a map may take so long, unless the mission says."},
       {"patience_s", 3.0, 0.1, 3600.0, "After standing for so long, the map gets fine cells."}};
 }
 

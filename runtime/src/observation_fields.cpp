@@ -187,7 +187,10 @@ std::vector<ObservationField> progress_and_power_fields() {
       optional(scalar<&O::cpu_power>("cpu_power_w", "W", "Power of the processors' rail")),
       optional(scalar<&O::gpu_power>("gpu_power_w", "W", "Power of the graphics processor's rail")),
       optional(scalar<&O::memory_power>("memory_power_w", "W", "Power of the memory's rail")),
-      optional(scalar<&O::soc_power>("soc_power_w", "W", "Power of the rest of the chip"))};
+      optional(scalar<&O::soc_power>("soc_power_w", "W", "Power of the rest of the chip")),
+      optional(seconds<&O::map_within>(
+          "map_within_s",
+          "While waiting: how soon after a map the mission needs the next; 0: nobody says"))};
 }
 
 std::vector<ObservationField> stage_fields() {
@@ -214,7 +217,7 @@ std::vector<ObservationField> stage_fields() {
 }  // namespace
 
 // A member that is missing above is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 432, "a new member belongs into observation_fields() too");
+static_assert(sizeof(Observation) == 440, "a new member belongs into observation_fields() too");
 
 const std::vector<ObservationField>& observation_fields() {
   static const std::vector<ObservationField> all = [] {

@@ -25,6 +25,15 @@ TEST(Idle, begins_when_the_vehicle_has_waited_for_a_moment) {
   EXPECT_FALSE(idle.allowed_s(seen_at(1.5, MissionPhase::wait))) << "it waits anew";
 }
 
+TEST(Idle, a_mission_may_say_how_long_a_map_may_take) {
+  Idle idle{1.5};
+  Observation seen = seen_at(0.0, MissionPhase::wait);
+  seen.map_within = std::chrono::seconds{2};
+  (void)idle.allowed_s(seen);
+  seen.now += std::chrono::seconds{1};
+  EXPECT_EQ(idle.allowed_s(seen), 2.0);
+}
+
 TEST(Idle, flight_by_a_map_is_none) {
   Idle idle{1.5};
   for (double t_s = 0.0; t_s < 10.0; t_s += 0.5) {

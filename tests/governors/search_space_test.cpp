@@ -48,21 +48,6 @@ TEST(SearchSpace, the_missions_own_limits_count_where_they_make_sense) {
   }
 }
 
-TEST(SearchSpace, only_who_cruises_as_fast_as_the_mission_lets_it_flies_at_the_limit) {
-  Observation seen;
-  seen.phase = MissionPhase::cruise;
-  seen.speed_limit_m_s = 4.0;
-  seen.speed_m_s = 3.7;
-  EXPECT_TRUE(flies_at_limit(seen));
-  seen.phase = MissionPhase::land;
-  EXPECT_FALSE(flies_at_limit(seen));
-  seen.phase = MissionPhase::cruise;
-  for (const double slower_m_s : {0.0, 3.5, std::numeric_limits<double>::quiet_NaN()}) {
-    seen.speed_m_s = slower_m_s;
-    EXPECT_FALSE(flies_at_limit(seen)) << slower_m_s;
-  }
-}
-
 TEST(SearchSpace, in_the_open_a_vehicle_is_slow_because_of_latency_alone) {
   Observation seen;
   seen.phase = MissionPhase::cruise;

@@ -180,6 +180,7 @@ void GovernorLoop::observe_progress(JobContext& job) {
   if (const auto progress = job.latest(parts_.mission.progress)) {
     seen_.progress_unit = progress->unit;
     seen_.progress = progress->value;
+    seen_.map_within = progress->map_within;
   }
 }
 

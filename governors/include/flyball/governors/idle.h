@@ -17,7 +17,7 @@ namespace flyball {
 /// decision.
 class Idle {
  public:
-  /// @param map_s  While the vehicle waits, a map may take so long [s].
+  /// @param map_s  While the vehicle waits, a map may take so long [s], unless the mission says.
   explicit Idle(double map_s) : map_s_{map_s} {}
 
   /// How long a map may take [s]. Infinite in a flight without a map; empty while the vehicle is

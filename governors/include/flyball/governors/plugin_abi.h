@@ -28,7 +28,7 @@ extern "C" {
 #endif
 
 enum {
-  flyball_abi_version = 5,   /* Goes up when a structure grows. */
+  flyball_abi_version = 6,   /* Goes up when a structure grows. */
   flyball_wish_capacity = 16 /* For good: the array stands inside a structure. */
 };
 
@@ -201,6 +201,9 @@ typedef struct FlyballObservation {
   double memory_power_w;
   double soc_power_w;
   FlyballStage stages[flyball_stage_count];
+  /* Version 5 ends here. */
+
+  int64_t map_within_ns;
 } FlyballObservation;
 
 typedef struct FlyballWish {

@@ -110,6 +110,7 @@ struct PolicyCandidate {
     seen.progress_unit = static_cast<ProgressUnit>(draw.next() % 5);
     seen.progress = 0.25 * static_cast<double>(i);
     seen.cpu_power = Watts{draw.uniform(0.0, 0.5) * seen.computer_power.value()};
+    seen.map_within = from_seconds(draw.uniform(0.0, 3.0));
     for (StageUse& stage : seen.stages) {
       stage = {from_seconds(draw.uniform(0.0, 3.0)), draw.uniform(0.0, 2.0),
                draw.uniform(0.0, 6.0)};
@@ -137,7 +138,8 @@ struct PolicyCandidate {
     seen.map_revision = all.size();
     seen.frequency = Hertz{x};
     seen.computer_power = seen.rotor_power = Watts{x};
-    seen.latency = seen.latency_bound = seen.map_age = std::chrono::hours{x < 0.0 ? -24 : 24};
+    seen.latency = seen.latency_bound = seen.map_age = seen.map_within =
+        std::chrono::hours{x < 0.0 ? -24 : 24};
     seen.deadline_misses = seen.queue_drops = seen.planner_failures = most;
     seen.cores = x < 0.0 ? -1 : 1 << 30;
     seen.headroom_m = seen.progress = x;

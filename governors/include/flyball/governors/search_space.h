@@ -50,9 +50,6 @@ namespace flyball {
 /// Width of a path that has nothing beside it, as an observation tells it [m].
 constexpr double open_path_m = 6.0;
 
-/// Whether the vehicle cruises as fast as the mission allows, so that lower latency gains nothing.
-[[nodiscard]] bool flies_at_limit(const Observation& seen);
-
 /// Whether something beside the latency of maps makes the vehicle slower than the mission allows:
 /// it stands, a plan has failed, or obstacles narrow its path. The search does not price what plans
 /// and turns cost there, so a lower clock may lose more than the search expects.

@@ -77,7 +77,9 @@ struct Observation {
   Watts cpu_power{};  ///< Of the processors' rail; these four are 0 where the board has no such
   Watts gpu_power{};  ///< meter, and they are in `computer_power` too.
   Watts memory_power{};
-  Watts soc_power{};  ///< Of the rest of the chip.
+  Watts soc_power{};      ///< Of the rest of the chip.
+  Duration map_within{};  ///< While the vehicle waits: how soon after a map the mission needs the
+                          ///< next one; 0: nobody says.
   std::array<StageUse, stage_count> stages{};
 
   [[nodiscard]] const StageUse& stage(Stage one) const {

@@ -55,6 +55,7 @@ struct MissionState {
 struct MissionProgress {
   ProgressUnit unit{};
   double value{};
+  Duration map_within{};  ///< As in `Observation`.
 };
 
 /// A node, or the referee, says that the mission is over. The first message counts.
@@ -97,7 +98,11 @@ void log(JobContext& job,
 /// A row of channel `event`.
 void log_event(JobContext& job, const MissionTopics& topics, const std::string& what);
 /// @pre The node declares that it writes `progress`.
-void tell_progress(JobContext& job, const MissionTopics& topics, ProgressUnit unit, double value);
+void tell_progress(JobContext& job,
+                   const MissionTopics& topics,
+                   ProgressUnit unit,
+                   double value,
+                   Duration map_within = {});
 /// @pre The node declares that it writes `end`.
 void end_mission(JobContext& job,
                  const MissionTopics& topics,
