@@ -59,6 +59,18 @@ TEST(Watch, a_lower_clock_saves_a_quarter_of_the_computers_energy_while_nothing_
   }
 }
 
+TEST(Watch, a_mission_that_needs_maps_less_often_takes_less) {
+  for (const char* policy : {"fixed_fine_energy_clock", "mission_energy"}) {
+    Scenario scenario = watching(0.0, policy);
+    scenario.watch.longest_s = 1.3;
+    const double often_j = flown(scenario).energy_computer_j;
+    scenario.watch.longest_s = 4.0;
+    const Summary seldom = flown(scenario);
+    EXPECT_EQ(seldom.status, MissionStatus::succeeded) << policy;
+    EXPECT_LT(seldom.energy_computer_j, 0.95 * often_j) << policy;
+  }
+}
+
 TEST(Watch, fails_when_the_news_is_too_old) {
   Scenario scenario = watching(0.0, "fixed_fine");
   scenario.platform.frequency_hz = 345.6e6;  // Two seconds and more for a map.
