@@ -23,7 +23,6 @@ constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unk
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double least_lead_in_m = 0.3;    // On less of a straight line a bend gains nothing.
 constexpr double straight = 0.999;         // Chord over arc: a turn by 9 degrees.
-constexpr double least_detour_m = 3.0;     // Chosen: as in plan_with_tubes.
 constexpr double rounding_m = 1e-6;
 
 }  // namespace
@@ -179,7 +178,9 @@ PlanQuery Navigator::query() {
     start_from_path(query);
   }
   joins_ = known_.has_value();
-  planned_in_m_ = joins_ ? planned_in_m_ : map_->resolution_m();
+  if (!joins_) {
+    planned_in_m_ = map_->resolution_m();
+  }
   query.known = std::exchange(known_, std::nullopt);
   query.goal_W = *goal_W_;
   query.failures = failures_;

@@ -2,6 +2,7 @@
 #include "flyball/flight/navigation/plan_with_tubes.h"
 
 #include "flyball/flight/navigation/gap_scan.h"
+#include "flyball/flight/navigation/known_path.h"
 #include "flyball/flight/navigation/plan_race.h"
 #include "flyball/flight/perception/counted_map.h"
 #include "flyball/runtime/random.h"
@@ -22,7 +23,6 @@ constexpr double exact_to_m = 0.25;  // To this, `gaps_ahead` knows the widths o
 constexpr double half_band_m = 0.3;  // A little more than half the body's height.
 
 // Chosen by hand, apart from those with a source.
-constexpr double detour_m = 3.0;    // A path longer than the line by this is worth another search.
 constexpr double worthwhile = 0.5;  // Flight is slower in a narrow tube: it must save this share.
 constexpr int shorter_iterations = 400;  // A known door takes fewer (tests/kernels/rrt_test.cpp).
 constexpr int most_improvements = 3;
@@ -93,7 +93,7 @@ class Search {
       const double now_m = length_m(plan_.waypoints_W);
       const double saved_m = worthwhile * (now_m - line_m);
       request_.shorter_than_m = now_m - saved_m;
-      const int iterations = now_m > line_m + detour_m ? iterations_worth(saved_m) : 0;
+      const int iterations = now_m > line_m + least_detour_m ? iterations_worth(saved_m) : 0;
       if (iterations == 0 || !try_with(situation_.brief.narrow_body(), iterations)) {
         return;
       }

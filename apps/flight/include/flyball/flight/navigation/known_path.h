@@ -19,6 +19,8 @@ struct KnownPath {
 /// How much longer the path is than the straight line between its ends. @pre The path has at least
 /// one waypoint.
 [[nodiscard]] double detour_m(const std::vector<Vec3>& path_W);
+/// Chosen: a path longer than the straight line by this is worth another search.
+constexpr double least_detour_m = 3.0;
 
 /// The waypoints of `path`, with `start_W` in place of the first one. The second waypoint is left
 /// out when the start has already passed it and the line to the third is free. The caller must
