@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/search_space.h"
 
+#include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
@@ -80,9 +81,8 @@ Surroundings limits_of(const Observation& seen) {
 }
 
 bool is_held_up(const Observation& seen) {
-  constexpr double standing_m_s = 0.1;  // Chosen: slower than any cruise.
-  constexpr double nearly = 0.9;        // The reference approaches its limit gradually.
-  if (seen.phase != MissionPhase::cruise || !(seen.speed_m_s > standing_m_s)) {
+  constexpr double nearly = 0.9;  // The reference approaches its limit gradually.
+  if (seen.phase != MissionPhase::cruise || stands_in_cruise(seen)) {
     return true;
   }
   const bool is_free = seen.planner_failures == 0 && seen.narrowest_gap_m >= open_path_m;

@@ -3,6 +3,7 @@
 
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/search_space.h"
+#include "flyball/governors/waiting_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@
 namespace flyball {
 namespace {
 
-constexpr double waiting_m_s = 0.1;         // Chosen: slower than any cruise.
 constexpr double declared_ahead_m = 20.0;   // Observation::speed_limit_m_s looks so far.
 constexpr double next_maps_s = 0.5;         // Chosen: for two decisions a range stays in force.
 constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
@@ -240,7 +240,7 @@ void MissionLimits::limit_lattice(const Observation& seen,
   // be seen, and outside of cruise, because a new goal asks for a plan. A vehicle that stands waits
   // for a plan, and the map must keep its cells until that plan is there.
   const bool cruises = seen.phase == MissionPhase::cruise;
-  const bool waits = cruises && !(seen.speed_m_s > waiting_m_s);
+  const bool waits = stands_in_cruise(seen);
   around.coarsest_m = std::min(
       {around.coarsest_m, near || !cruises ? large_m_ : 1e9, waits ? in_force.resolution_m : 1e9});
   if (needs_finest(seen, near, in_force)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "passability.h"
 
+#include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@ namespace flyball {
 namespace {
 
 // Chosen by hand.
-constexpr double standing_m_s = 0.1;      // Slower than any cruise.
 constexpr double behind_the_gap_m = 3.0;  // A plan through a gap needs to know the space behind it.
 constexpr Duration settled = std::chrono::seconds{1};  // Then a map holds several frames.
 constexpr double farthest_gap_m = 30.0;  // Longer than the scan for gaps, which reaches 24 m.
@@ -61,7 +61,7 @@ std::size_t Passability::clear_level(const Observation& seen, std::size_t open) 
 // A plan takes a while. With a lattice of levels, where frames of fine cells with a long range take
 // longest of all, frames with a short range get more time before a long range is asked for.
 Passability::Standing Passability::standing(const Observation& seen) {
-  const bool stands = seen.phase == MissionPhase::cruise && !(seen.speed_m_s > standing_m_s);
+  const bool stands = stands_in_cruise(seen);
   standing_since_ = stands ? standing_since_.value_or(seen.now) : std::optional<MissionTime>{};
   const Duration stood = stands ? seen.now - *standing_since_ : Duration::zero();
   const int longer = settings_.near_m > 0.0 ? 4 : 2;

@@ -19,6 +19,20 @@ void fly(WaitingShare& waiting, double begin_s, double seconds, double speed_m_s
   }
 }
 
+TEST(WaitingShare, stands_in_cruise_who_does_not_surely_move) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  for (const double standing_m_s : {0.0, 0.1, std::nan("")}) {
+    seen.speed_m_s = standing_m_s;
+    EXPECT_TRUE(stands_in_cruise(seen)) << standing_m_s;
+  }
+  seen.phase = MissionPhase::wait;
+  EXPECT_FALSE(stands_in_cruise(seen));
+  seen.phase = MissionPhase::cruise;
+  seen.speed_m_s = 0.2;
+  EXPECT_FALSE(stands_in_cruise(seen));
+}
+
 TEST(WaitingShare, follows_the_exponential_of_one_minute) {
   WaitingShare waiting;
   EXPECT_EQ(waiting.share(), 0.0);

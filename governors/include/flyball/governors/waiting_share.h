@@ -10,6 +10,10 @@
 
 namespace flyball {
 
+/// Whether the vehicle stands although it is to cruise, because it waits for a map, a plan or the
+/// next view. A speed that is no number counts as standing.
+[[nodiscard]] bool stands_in_cruise(const Observation& seen);
+
 /// The share w of the last minute of cruise in which the vehicle stood, because it waited for a
 /// map, a plan or the next view. A speed limit does not tell of such waits. If all of them grew as
 /// the computer slows down, a clock f would make the mission longer by the factor
