@@ -261,14 +261,10 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
   EnergyEstimate best;
   best.joules_per_m = std::numeric_limits<double>::infinity();
   best.response_s = std::numeric_limits<double>::infinity();
-  best.setting.resolution_m = std::numeric_limits<double>::infinity();
   for (const EnergyEstimate& estimated : estimates_) {
-    const bool is_finer = estimated.setting.resolution_m < best.setting.resolution_m;
-    const bool is_coarser = estimated.setting.resolution_m > best.setting.resolution_m;
     const bool is_sooner = estimated.response_s < best.response_s;
     const bool is_equal = estimated.joules_per_m <= (1.0 + equal) * least_j;
-    if (is_equal && std::isfinite(least_j) &&
-        (around.prefers_fine ? is_finer || (!is_coarser && is_sooner) : is_sooner)) {
+    if (is_equal && std::isfinite(least_j) && is_sooner) {
       best = estimated;
     }
   }

@@ -9,6 +9,11 @@
 #include <utility>
 
 namespace flyball {
+namespace {
+
+constexpr double between_obstacles_m = 20.0;  // In RoboRun's congestion.
+
+}  // namespace
 
 Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
                                           const Parameters& given,
@@ -31,7 +36,7 @@ Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
   if (!settings) {
     return settings.error();
   }
-  settings->spacing_m = std::max(settings->spacing_m, limits->spacing_m());
+  settings->spacing_m = std::max(settings->spacing_m, between_obstacles_m);
   const auto levels =
       limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
   auto search = EnergySearch::make(*settings, levels, limits->ranges_m(), knobs, *power);

@@ -8,14 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace flyball {
 namespace {
 
-constexpr double declared_ahead_m = 20.0;   // Observation::speed_limit_m_s looks so far.
-constexpr double next_maps_s = 0.5;         // Chosen: for two decisions a range stays in force.
-constexpr double spacing_between_m = 20.0;  // From obstacle to obstacle, in RoboRun's congestion.
+constexpr double declared_ahead_m = 20.0;  // Observation::speed_limit_m_s looks so far.
+constexpr double next_maps_s = 0.5;        // Chosen: for two decisions a range stays in force.
 
 /// The mapper's coarsest cells of which the ground's do not reach up to the vehicle: there every
 /// plan would begin in an occupied cell.
@@ -25,22 +23,28 @@ double above_ground_m(const std::vector<double>& cells_m, const VehicleModel& ve
   return too_large != cells_m.begin() ? *std::prev(too_large) : cells_m.front();
 }
 
-/// For a mapper with a lattice, all its cells between the finest and the coarsest one; for another,
-/// these two. A mapper may have certain cells only, and the search needs one of them.
+/// All cells of a lattice between the finest and the coarsest one. A mapper that takes any cells
+/// gets some that are about half as large as the next ones, with equal ratios between them.
 std::vector<double> levels_of(const Parameters& given,
                               const KnobSpec& resolution,
                               const VehicleModel& vehicle) {
   constexpr double usual_coarse_m = 0.8;  // MAVBench's coarse cells.
-  const bool is_lattice = !resolution.legal.empty();
+  const std::vector<double>& lattice_m = resolution.legal;
   const double given_m = given.number("coarse_m");
-  const double coarsest_m = is_lattice ? above_ground_m(resolution.legal, vehicle) : usual_coarse_m;
+  const double coarsest_m = lattice_m.empty() ? usual_coarse_m : above_ground_m(lattice_m, vehicle);
   const double fine_m = smallest_cells_m(resolution, given.number("fine_m"));
   const double coarse_m = resolution.nearest(given_m > 0.0 ? given_m : coarsest_m);
-  if (!is_lattice || fine_m >= coarse_m) {
+  if (fine_m >= coarse_m) {
     return {fine_m, coarse_m};
   }
   std::vector<double> levels_m;
-  std::copy_if(resolution.legal.begin(), resolution.legal.end(), std::back_inserter(levels_m),
+  if (lattice_m.empty()) {
+    const double steps = std::max(1.0, std::floor(std::log2(coarse_m / fine_m)));
+    for (double step = 0.0; step <= steps; ++step) {
+      levels_m.push_back(resolution.nearest(fine_m * std::pow(coarse_m / fine_m, step / steps)));
+    }
+  }
+  std::copy_if(lattice_m.begin(), lattice_m.end(), std::back_inserter(levels_m),
                [&](double r_m) { return r_m >= fine_m && r_m <= coarse_m; });
   return levels_m;
 }
@@ -53,7 +57,7 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: the mapper's coarsest clear of the ground, .8 without a lattice."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map, but for slow_range_m."},
-      {"slow_range_m", 3.5, 0.5, 100.0, "Shortest where narrow gaps are declared, with a lattice."},
+      {"slow_range_m", 3.5, 0.5, 100.0, "Shortest where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
@@ -89,24 +93,22 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
   const double most_m = given_m > 0.0 ? given_m : limits.longest_m(knobs);
   limits.ranges_m_ = most_m > limits.least_range_m_ ? ranges_between(limits.least_range_m_, most_m)
                                                     : std::vector<double>{limits.least_range_m_};
-  if (given_m == 0.0 && limits.is_lattice_ && vehicle.depth_camera) {
+  if (given_m == 0.0 && vehicle.depth_camera) {
     limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
   }
-  if (limits.is_lattice_) {
-    limits.add_ranges_from(knobs.spec("map.range_m")->nearest(given.number("slow_range_m")));
-  }
+  limits.add_ranges_from(knobs.spec("map.range_m")->nearest(given.number("slow_range_m")));
   return limits;
 }
 
 MissionLimits::MissionLimits(const Parameters& given,
                              const KnobSettings& knobs,
                              const VehicleModel& vehicle)
-    : is_lattice_{!knobs.spec("map.resolution_m")->legal.empty()},
+    : keeps_hits_{!knobs.spec("map.resolution_m")->legal.empty()},
       least_range_m_{given.number("least_range_m")},
       narrow_m_s_{given.number("narrow_m_s")},
       patience_s_{given.number("patience_s")},
       body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
-      large_m_{is_lattice_ ? 0.5 * body_m_ : std::numeric_limits<double>::max()},
+      large_m_{0.5 * body_m_},
       full_budget_{knobs.value("planner.budget")},
       coarse_budget_{std::min(knobs.spec("planner.budget")->nearest(given.number("coarse_budget")),
                               full_budget_)},
@@ -123,10 +125,8 @@ Passability MissionLimits::passability(const Parameters& given) const {
   passable.body_m = body_m_;
   passable.least = from_seconds(given.number("min_fine_s"));
   passable.patience = from_seconds(patience_s_);
-  if (is_lattice_) {
-    passable.retry_m = large_m_;
-    passable.near_m = near_m();
-  }
+  passable.retry_m = large_m_;
+  passable.near_m = near_m();
   // They are sorted here although `make` may refuse them afterwards.
   std::vector<double> levels_m = levels_m_;
   std::sort(levels_m.begin(), levels_m.end());
@@ -138,7 +138,7 @@ Passability MissionLimits::passability(const Parameters& given) const {
 // So with a lattice noise also stays below a quarter of the body's width on each side: a gap of one
 // and a half bodies stays passable.
 double MissionLimits::noise_free_m(double resolution_m) const {
-  return range_with_m(std::min(0.5 * resolution_m, is_lattice_ ? 0.25 * body_m_ : 1e9));
+  return range_with_m(std::min(0.5 * resolution_m, keeps_hits_ ? 0.25 * body_m_ : 1e9));
 }
 
 double MissionLimits::range_with_m(double noise_m) const {
@@ -195,10 +195,6 @@ double MissionLimits::near_m() const {
   return least_range_m_ + 1.0;
 }
 
-double MissionLimits::spacing_m() const {
-  return is_lattice_ ? spacing_between_m : 0.0;
-}
-
 std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) const {
   auto levels = levels_between(levels_m_, fine_s, coarse_s);
   for (SearchLevel& level : levels) {
@@ -212,13 +208,37 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   const Passability::Verdict gaps = passability_.judge(seen);
   const bool near = seen.speed_limit_m_s <= narrow_m_s_;
   Surroundings around = limits_of(seen);
-  around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], under_ceiling_m(seen));
+  around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], coarsest_m(seen, near, in_force));
   around.least_range_m = gaps.look_m;
-  around.needs_top_clock = gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise;
+  if (!near) {  // A vehicle that may be fast needs to see farther.
+    around.least_range_m = std::max(around.least_range_m, least_range_m_);
+  }
+  around.clear_range_m = clear_range_m(seen, near);
   failed_.note(seen, in_force.resolution_m);
-  is_lattice_ ? limit_lattice(seen, near, in_force, around)
-              : limit_two_levels(seen, near, in_force, around);
+  around.failed_plans_per_m = &failed_.per_m();
+  visibility_.note(seen, in_force.range_m);
+  around.visibility_m = visibility_.distance_m();
+  around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
+  around.needs_top_clock =
+      gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise || is_held_up(seen);
   return around;
+}
+
+// Cells are limited where the mission's speed limit tells of narrow gaps, before any of them can be
+// seen, and outside of cruise, because a new goal asks for a plan. A vehicle that stands waits for
+// a plan, and the map must keep its cells until that plan is there.
+double MissionLimits::coarsest_m(const Observation& seen, bool near, const MapSetting& in_force) {
+  if (needs_finest(seen, near, in_force)) {
+    return levels_m_.front();
+  }
+  double coarsest_m = under_ceiling_m(seen);
+  if (near || seen.phase != MissionPhase::cruise) {
+    coarsest_m = std::min(coarsest_m, large_m_);
+  }
+  if (stands_in_cruise(seen)) {
+    coarsest_m = std::min(coarsest_m, in_force.resolution_m);
+  }
+  return coarsest_m;
 }
 
 // In cells that the ceiling fills down to the vehicle, every plan would begin in an occupied cell.
@@ -232,31 +252,6 @@ double MissionLimits::under_ceiling_m(const Observation& seen) const {
   return largest_m;
 }
 
-void MissionLimits::limit_lattice(const Observation& seen,
-                                  bool near,
-                                  const MapSetting& in_force,
-                                  Surroundings& around) {
-  // Cells are limited where the mission's speed limit tells of narrow gaps, before any of them can
-  // be seen, and outside of cruise, because a new goal asks for a plan. A vehicle that stands waits
-  // for a plan, and the map must keep its cells until that plan is there.
-  const bool cruises = seen.phase == MissionPhase::cruise;
-  const bool waits = stands_in_cruise(seen);
-  around.coarsest_m = std::min(
-      {around.coarsest_m, near || !cruises ? large_m_ : 1e9, waits ? in_force.resolution_m : 1e9});
-  if (needs_finest(seen, near, in_force)) {
-    around.coarsest_m = levels_m_.front();
-  }
-  around.clear_range_m = clear_range_m(seen, near);
-  if (!near) {  // A vehicle that may be fast needs to see farther.
-    around.least_range_m = std::max(around.least_range_m, least_range_m_);
-  }
-  around.failed_plans_per_m = &failed_.per_m();
-  visibility_.note(seen, in_force.range_m);
-  around.visibility_m = visibility_.distance_m();
-  around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
-  around.needs_top_clock |= is_held_up(seen);
-}
-
 // Before a narrow place, a plan may fail because the cells are larger than its door, so the next
 // plan is made in the finest cells. Inside, they are kept even when the space looks clear for a
 // moment: larger cells would close the door through which the path leads, and at this speed the
@@ -266,23 +261,6 @@ bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSe
   const bool is_within =
       near && seen.speed_m_s <= narrow_m_s_ && !(in_force.resolution_m > levels_m_.front());
   return seeks_door_ || is_within;
-}
-
-void MissionLimits::limit_two_levels(const Observation& seen,
-                                     bool near,
-                                     const MapSetting& in_force,
-                                     Surroundings& around) const {
-  constexpr double no_limit = std::numeric_limits<double>::max();
-  // Another map begins with every change of the cells, and a plan in small ones finds every gap.
-  around.prefers_fine = true;
-  const bool fine = around.coarsest_m <= levels_m_.front();
-  // Far away, noise opens and closes gaps, so narrow ones are looked at from nearby only.
-  const bool from_nearby = (fine || near) && !(around.least_range_m > 0.0);
-  around.most_range_m = from_nearby ? least_range_m_ : no_limit;
-  // When space is free nearly up to the end of the range, a longer range would show more.
-  constexpr double nearly_m = 1.5;  // Chosen: the last cells within the range are not seen whole.
-  const bool world_ends_it = fine && !(seen.known_free_m >= in_force.range_m - nearly_m);
-  around.visibility_m = world_ends_it ? least_range_m_ : no_limit;
 }
 
 double MissionLimits::plan_budget(const Observation& seen, double resolution_m) const {
@@ -304,9 +282,6 @@ Decision MissionLimits::wish(const Observation& seen, const MapSetting& setting)
 /// another seed and a newer map, twice as long each time (Luby, Sinclair and Zuckerman 1993,
 /// doi:10.1016/0020-0190(93)90029-9).
 double MissionLimits::fine_budget(const Observation& seen) const {
-  if (!is_lattice_) {
-    return full_budget_;
-  }
   const double halvings = std::max(0.0, 2.0 - static_cast<double>(seen.planner_failures));
   return std::max(coarse_budget_, full_budget_ * std::pow(0.5, halvings));
 }

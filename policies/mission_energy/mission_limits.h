@@ -26,16 +26,14 @@ namespace flyball {
 /// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
 ///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
 ///   the rate of failures at each level is a price of its cells (`FailedPlans`).
-/// - The camera's noise: a level ends where noise is half a cell or, with a lattice, a quarter of
-///   the body's width. Where wide gaps are seen, a lattice may have more noise.
+/// - The camera's noise: a level ends where noise is half a cell. A mapper with a lattice keeps all
+///   hits, also those far off, so there noise stays below a quarter of the body's width, too. Where
+///   wide gaps are seen there may be more noise.
 /// - Visibility: where the world ends the view, a longer range gains nothing.
 /// - The mission's own speed limit. There lower latency gains nothing, but a longer range still
 ///   makes the path shorter.
 ///
-/// A mapper with a lattice of cells keeps all hits at its finest level, so finer cells are known as
-/// soon as they are asked for. Any other mapper starts a new map when the cells change. With such a
-/// mapper two levels are used, and narrow gaps are looked at from nearby only. Nothing allocates
-/// after `make`.
+/// Nothing allocates after `make`.
 class MissionLimits {
  public:
   /// A policy adds them to its own.
@@ -50,8 +48,6 @@ class MissionLimits {
   /// The levels that the search compares.
   [[nodiscard]] std::vector<SearchLevel> levels(double fine_s, double coarse_s) const;
   [[nodiscard]] const std::vector<double>& ranges_m() const { return ranges_m_; }
-  /// Length of path per obstacle, for `EnergySearchSettings`.
-  [[nodiscard]] double spacing_m() const;
 
   /// How long a map may take while the vehicle is idle; see `Idle`.
   [[nodiscard]] std::optional<double> idle_map_s(const Observation& seen) {
@@ -68,8 +64,6 @@ class MissionLimits {
   /// This setting, with its plan's budget.
   [[nodiscard]] Decision wish(const Observation& seen, const MapSetting& setting) const;
 
-  /// Whether the mapper has several levels in one map.
-  [[nodiscard]] bool is_lattice() const { return is_lattice_; }
   /// Larger cells may close openings that nobody has seen yet.
   [[nodiscard]] double large_m() const { return large_m_; }
   [[nodiscard]] double body_m() const { return body_m_; }
@@ -78,15 +72,8 @@ class MissionLimits {
 
  private:
   MissionLimits(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle);
-  void limit_lattice(const Observation& seen,
-                     bool near,
-                     const MapSetting& in_force,
-                     Surroundings& around);
+  [[nodiscard]] double coarsest_m(const Observation& seen, bool near, const MapSetting& in_force);
   [[nodiscard]] bool needs_finest(const Observation& seen, bool near, const MapSetting& in_force);
-  void limit_two_levels(const Observation& seen,
-                        bool near,
-                        const MapSetting& in_force,
-                        Surroundings& around) const;
   [[nodiscard]] Passability passability(const Parameters& given) const;
   [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
   [[nodiscard]] double noise_free_m(double resolution_m) const;
@@ -101,7 +88,7 @@ class MissionLimits {
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
   [[nodiscard]] double fine_budget(const Observation& seen) const;
 
-  bool is_lattice_;
+  bool keeps_hits_;  ///< The mapper does, at its finest level. Any other starts a new map.
   double least_range_m_;
   double narrow_m_s_;
   double patience_s_;

@@ -25,14 +25,13 @@ Passability::Passability(const PassabilitySettings& settings, std::vector<double
       retry_level_{level_} {
   FLYBALL_ASSERT(!levels_m_.empty() && std::is_sorted(levels_m_.begin(), levels_m_.end()),
                  "%zu levels", levels_m_.size());
-  while (settings_.retry_m > 0.0 && retry_level_ > 0 &&
-         levels_m_[retry_level_] > settings_.retry_m + level_rounding_m) {
+  while (retry_level_ > 0 && levels_m_[retry_level_] > settings_.retry_m + level_rounding_m) {
     --retry_level_;
   }
 }
 
 double Passability::least_m(std::size_t level) const {
-  return settings_.body_m + (settings_.retry_m > 0.0 ? 2.0 * levels_m_[level] : 0.0);
+  return settings_.body_m + 2.0 * levels_m_[level];
 }
 
 // A comparison with NaN is false, so an observation without sense gives the finest level. Cells
@@ -58,13 +57,13 @@ std::size_t Passability::clear_level(const Observation& seen, std::size_t open) 
   return level;
 }
 
-// A plan takes a while. With a lattice of levels, where frames of fine cells with a long range take
-// longest of all, frames with a short range get more time before a long range is asked for.
+// A plan takes a while, and frames of fine cells with a long range take longest of all. So frames
+// with a short range get more time before a long range is asked for.
 Passability::Standing Passability::standing(const Observation& seen) {
   const bool stands = stands_in_cruise(seen);
   standing_since_ = stands ? standing_since_.value_or(seen.now) : std::optional<MissionTime>{};
   const Duration stood = stands ? seen.now - *standing_since_ : Duration::zero();
-  const int longer = settings_.near_m > 0.0 ? 4 : 2;
+  constexpr int longer = 4;
   if (stood < settings_.patience || stood == Duration::zero()) {
     return Standing::no;
   }
@@ -74,7 +73,6 @@ Passability::Standing Passability::standing(const Observation& seen) {
 // The finest cells have a short range. So while a gap is still far away, and after a first failed
 // plan without an obstacle nearby, the next coarser level is used.
 std::size_t Passability::needed_level(const Observation& seen, Standing standing) const {
-  const bool has_near = settings_.near_m > 0.0;
   const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
   const bool may_be_far = seen.planner_failures < 2 && standing != Standing::for_good;
   if (has_failed && !(may_be_far && is_far_off(seen))) {
@@ -82,12 +80,12 @@ std::size_t Passability::needed_level(const Observation& seen, Standing standing
   }
   const std::size_t coarsest = has_failed ? retry_level_ : levels_m_.size() - 1;
   const std::size_t open = open_level(seen);
-  const bool is_far = has_near && seen.gap_distance_m > settings_.near_m;
+  const bool is_far = seen.gap_distance_m > settings_.near_m;
   return std::min(coarsest, is_far ? std::max(open, std::min(std::size_t{1}, retry_level_)) : open);
 }
 
 bool Passability::is_far_off(const Observation& seen) const {
-  return settings_.near_m > 0.0 && seen.nearest_obstacle_m > settings_.near_m;
+  return seen.nearest_obstacle_m > settings_.near_m;
 }
 
 void Passability::count_path(const Observation& seen) {
@@ -124,7 +122,7 @@ Passability::Verdict Passability::judge(const Observation& seen) {
   count_path(seen);
   const std::size_t needed = needed_level(seen, stands);
   const bool is_gap_gone = is_gone(seen);
-  if (settings_.near_m > 0.0 && needed == 0) {
+  if (needed == 0) {
     need_until_past(seen, stands);
   } else if (is_gap_gone) {
     gap_on_m_ = 0.0;

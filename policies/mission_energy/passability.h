@@ -17,10 +17,10 @@ struct PassabilitySettings {
   double body_m{0.71};  ///< Width of the vehicle with its tube at a crawl, both sides together.
   Duration least{};     ///< A finer level that was needed is kept at least this long.
   Duration patience{};  ///< A vehicle that stands this long in cruise lacks a view of something.
-  /// Largest cells after a plan has failed or while the vehicle stands; 0: no such limit.
-  double retry_m{};
-  /// A closed gap gets the finest cells once it is nearer than this; 0: as soon as it shows.
-  double near_m{};
+  /// Largest cells after a plan has failed or while the vehicle stands.
+  double retry_m{0.355};
+  /// A closed gap gets the finest cells once it is nearer than this, and before it the next ones.
+  double near_m{8.0};
 };
 
 /// Finds the coarsest level whose cells leave the narrowest gap ahead open. An occupied cell blocks

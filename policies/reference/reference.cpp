@@ -137,7 +137,7 @@ class Reference final : public flyball::Policy,
   [[nodiscard]] double open_m(double opening_m, double map_resolution_m) const noexcept {
     for (std::size_t i = levels_m_.size(); i-- > 1;) {
       const double r_m = levels_m_[i];
-      const double least_m = limits_->body_m() + (limits_->is_lattice() ? 2.0 * r_m : 0.0);
+      const double least_m = limits_->body_m() + 2.0 * r_m;
       if (opening_m - 2.0 * std::max(0.0, r_m - map_resolution_m) >= least_m) {
         return r_m;
       }

@@ -288,19 +288,6 @@ TEST(EnergySearch, a_map_that_does_not_come_is_late_once) {
   EXPECT_EQ(one.bounds().late, before.late + 1);
 }
 
-TEST(EnergySearch, takes_the_finest_cells_where_they_cost_nothing_and_are_preferred) {
-  EnergySearchSettings settings;
-  settings.switching_s = 0.0;
-  Surroundings around = open_space();
-  around.needs_top_clock = true;  // At a lower one, a coarser map would leave the cores idle.
-  around.speed_limit_m_s = 1.0;
-  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.80);
-  around.prefers_fine = true;
-  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.15);
-  around.speed_limit_m_s = 10.0;
-  EXPECT_EQ(search_with(settings).choose(around, {}).setting.resolution_m, 0.80);
-}
-
 TEST(EnergySearch,
      with_a_constant_margin_is_late_for_good_when_costs_triple_and_nothing_is_learned) {
   EnergySearchSettings once;

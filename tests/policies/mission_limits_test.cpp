@@ -25,22 +25,36 @@ std::string refusal(const std::map<std::string, ParameterValue>& given,
   return limits ? "" : limits.error().message;
 }
 
-TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
-  auto limits = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
-  ASSERT_TRUE(limits.ok());
-  EXPECT_TRUE(limits->is_lattice());
-  std::vector<double> cells_m;
-  for (const SearchLevel& level : limits->levels(0.5, 0.1)) {
-    cells_m.push_back(level.resolution_m);
-  }
-  EXPECT_EQ(cells_m, (std::vector<double>{0.30, 0.60, 0.80}));
-}
-
 /// Of a mapper that takes any cells.
 KnobSettings any_resolution() {
   std::vector<KnobSpec> specs = conformance_knobs().specs();
   specs.front().legal.clear();
   return KnobSettings{specs};
+}
+
+std::vector<double> cells_of(const MissionLimits& limits) {
+  std::vector<double> all_m;
+  for (const SearchLevel& level : limits.levels(0.5, 0.1)) {
+    all_m.push_back(level.resolution_m);
+  }
+  return all_m;
+}
+
+TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
+  auto limits = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
+  ASSERT_TRUE(limits.ok());
+  EXPECT_EQ(cells_of(*limits), (std::vector<double>{0.30, 0.60, 0.80}));
+}
+
+// By hand: sqrt(.15 * .8) = .3464.
+TEST(MissionLimits, has_cells_with_equal_ratios_near_two_where_the_mapper_takes_any) {
+  const auto cells = cells_of(*made({}, any_resolution()));
+  ASSERT_EQ(cells.size(), 3U);
+  EXPECT_EQ(cells.front(), 0.15);
+  EXPECT_NEAR(cells[1], 0.3464, 1e-4);
+  EXPECT_EQ(cells.back(), 0.80);
+  EXPECT_EQ(cells_of(*made({{"coarse_m", 0.2}}, any_resolution())),
+            (std::vector<double>{0.15, 0.20}));
 }
 
 TEST(MissionLimits, begins_with_the_finest_cells_that_the_mapper_has) {
@@ -120,7 +134,6 @@ TEST(MissionLimits, may_look_nearer_where_the_mission_is_slow) {
   seen.speed_limit_m_s = 1.0;
   EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
   EXPECT_EQ(made({{"slow_range_m", 7.0}})->ranges_m().front(), 7.0);
-  EXPECT_EQ(made({}, any_resolution())->ranges_m().front(), 7.0) << "each range is another map";
 }
 
 TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {

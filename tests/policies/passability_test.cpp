@@ -15,6 +15,8 @@ Passability four_levels() {
   settings.body_m = 0.7;
   settings.least = 2s;
   settings.patience = 3s;
+  settings.retry_m = 0.35;
+  settings.near_m = 8.0;
   return {settings, {0.15, 0.30, 0.60, 1.20}};
 }
 
@@ -24,7 +26,7 @@ Observation seen(double t_s, double gap_m, double resolution_m) {
   seen.phase = MissionPhase::cruise;
   seen.speed_m_s = 5.0;
   seen.narrowest_gap_m = gap_m;
-  seen.gap_distance_m = 12.0;
+  seen.gap_distance_m = 5.0;
   seen.nearest_obstacle_m = 20.0;
   seen.map_resolution_m = resolution_m;
   return seen;
@@ -40,15 +42,17 @@ TEST(Passability, asks_for_the_finest_cells_for_a_gap_that_is_shut) {
 }
 
 TEST(Passability, counts_on_what_coarser_cells_take_from_a_gap) {
-  // 1.6 m in cells of .15 m: 1.3 m in .30, .7 m in .60, shut in 1.20.
-  EXPECT_EQ(four_levels().judge(seen(0.0, 1.6, 0.15)).coarsest_level, 2U);
-  EXPECT_EQ(four_levels().judge(seen(0.0, 1.59, 0.15)).coarsest_level, 1U);
-  EXPECT_EQ(four_levels().judge(seen(0.0, 0.9, 0.15)).coarsest_level, 0U);
+  // 1.6 m in cells of .15 m: 1.3 m in .30, which is the body with a cell on each side.
+  EXPECT_EQ(four_levels().judge(seen(0.0, 1.6, 0.15)).coarsest_level, 1U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 1.59, 0.15)).coarsest_level, 0U);
+  // 2.8 m: 1.9 m in .60, the same.
+  EXPECT_EQ(four_levels().judge(seen(0.0, 2.8, 0.15)).coarsest_level, 2U);
+  EXPECT_EQ(four_levels().judge(seen(0.0, 2.79, 0.15)).coarsest_level, 1U);
 }
 
 TEST(Passability, does_not_flutter_where_the_chosen_cells_narrow_the_gap) {
   Passability passability = four_levels();
-  const double gap_m = 1.75;  // True width.
+  const double gap_m = 2.05;  // True width.
   double resolution_m = 0.15;
   const double levels_m[] = {0.15, 0.30, 0.60, 1.20};
   std::size_t before = passability.judge(seen(0.0, gap_m - 2.0 * 0.15, 0.15)).coarsest_level;
@@ -84,22 +88,9 @@ TEST(Passability, becomes_coarser_only_when_obstacles_are_some_cells_away) {
 TEST(Passability, asks_for_the_finest_cells_after_a_failed_plan) {
   Passability passability = four_levels();
   Observation failed = seen(0.0, 24.0, 0.60);
+  failed.nearest_obstacle_m = 4.0;
   failed.planner_failures = 1;
   EXPECT_EQ(passability.judge(failed).coarsest_level, 0U);
-}
-
-TEST(Passability, looks_farther_before_it_would_stand_for_ever) {
-  Passability passability = four_levels();
-  Observation standing = seen(0.0, 24.0, 0.60);
-  standing.speed_m_s = 0.0;
-  EXPECT_EQ(passability.judge(standing).coarsest_level, 2U + 1U);
-  standing.now += 3s;
-  EXPECT_EQ(passability.judge(standing).coarsest_level, 0U);
-  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
-  standing.now += 3s;
-  EXPECT_EQ(passability.judge(standing).look_m, 15.0);
-  standing.speed_m_s = 1.0;
-  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
 }
 
 TEST(Passability, stands_without_haste_where_the_mission_waits) {
@@ -112,18 +103,8 @@ TEST(Passability, stands_without_haste_where_the_mission_waits) {
   EXPECT_EQ(passability.judge(waiting).coarsest_level, 3U);
 }
 
-/// Where a plan has failed, cells are no larger than half the body.
-Passability among_obstacles() {
-  PassabilitySettings settings;
-  settings.body_m = 0.7;
-  settings.patience = 3s;
-  settings.retry_m = 0.35;
-  settings.near_m = 8.0;
-  return {settings, {0.15, 0.30, 0.60, 1.20}};
-}
-
 TEST(Passability, allows_large_cells_among_obstacles_that_stand_apart_until_a_plan_fails) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation seen_it = seen(0.0, 6.0, 1.20);
   seen_it.obstacle_density = seen_it.density_ahead = 0.2;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
@@ -134,45 +115,49 @@ TEST(Passability, allows_large_cells_among_obstacles_that_stand_apart_until_a_pl
 TEST(Passability, wants_a_cell_of_room_on_each_side_of_the_body) {
   Observation seen_it = seen(0.0, 0.7 + 2.0 * 0.30, 0.30);
   seen_it.gap_distance_m = 5.0;
-  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 1U);
+  EXPECT_EQ(four_levels().judge(seen_it).coarsest_level, 1U);
   seen_it.narrowest_gap_m -= 0.01;
-  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 0U);
+  EXPECT_EQ(four_levels().judge(seen_it).coarsest_level, 0U);
   seen_it.narrowest_gap_m = 0.7 + 2.0 * 0.60;
   seen_it.map_resolution_m = 1.20;  // Finer cells than the map's show no less.
-  EXPECT_EQ(among_obstacles().judge(seen_it).coarsest_level, 2U);
+  EXPECT_EQ(four_levels().judge(seen_it).coarsest_level, 2U);
 }
 
 TEST(Passability, looks_at_a_far_gap_with_the_next_cells_and_at_a_near_one_with_the_finest) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation seen_it = seen(0.0, 0.3, 0.60);
+  seen_it.gap_distance_m = 12.0;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 1U);
   seen_it.gap_distance_m = 7.0;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
 }
 
 TEST(Passability, needs_finest_cells_until_it_is_past_the_gap_though_they_do_not_show_it_yet) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation seen_it = seen(0.0, 0.3, 0.30);
   seen_it.gap_distance_m = 6.0;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
-  seen_it = seen(1.0, 24.0, 0.15);  // At 5 m/s; nothing of the wall is in the new map.
+  seen_it = seen(2.0, 24.0, 0.15);  // Nothing of the wall is in the new map.
+  seen_it.speed_m_s = 2.5;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
-  seen_it.now += 700ms;  // 8.5 m on.
+  seen_it.now += 1400ms;  // 8.5 m on.
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
-  seen_it.now += 200ms;
+  seen_it.now += 400ms;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 3U);
 }
 
 TEST(Passability, needs_no_cells_for_a_gap_before_there_is_a_map) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation before = seen(0.0, 24.0, 0.0);
-  before.gap_distance_m = 0.0;
+  before.gap_distance_m = before.speed_m_s = 0.0;
   EXPECT_EQ(passability.judge(before).coarsest_level, 0U) << "nothing is known";
-  EXPECT_EQ(passability.judge(seen(0.25, 24.0, 0.15)).coarsest_level, 3U);
+  before.now += 2s;
+  before.map_resolution_m = 0.15;
+  EXPECT_EQ(passability.judge(before).coarsest_level, 3U);
 }
 
 TEST(Passability, forgets_a_gap_that_finest_cells_do_not_show_where_it_was) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation seen_it = seen(0.0, 0.3, 0.30);
   seen_it.gap_distance_m = 8.0;
   EXPECT_EQ(passability.judge(seen_it).coarsest_level, 0U);
@@ -186,8 +171,9 @@ TEST(Passability, forgets_a_gap_that_finest_cells_do_not_show_where_it_was) {
 }
 
 TEST(Passability, does_not_turn_to_finest_cells_at_once_for_what_they_do_not_reach) {
-  Passability passability = among_obstacles();
+  Passability passability = four_levels();
   Observation failed = seen(0.0, 0.3, 0.30);
+  failed.gap_distance_m = 12.0;
   failed.nearest_obstacle_m = 11.0;
   failed.planner_failures = 1;
   EXPECT_EQ(passability.judge(failed).coarsest_level, 1U);
@@ -195,19 +181,24 @@ TEST(Passability, does_not_turn_to_finest_cells_at_once_for_what_they_do_not_rea
   EXPECT_EQ(passability.judge(failed).coarsest_level, 0U);
   failed.nearest_obstacle_m = 4.0;
   failed.planner_failures = 1;
-  EXPECT_EQ(among_obstacles().judge(failed).coarsest_level, 0U);
+  EXPECT_EQ(four_levels().judge(failed).coarsest_level, 0U);
 }
 
-TEST(Passability, among_obstacles_too_looks_farther_before_it_would_stand_for_ever) {
-  Passability passability = among_obstacles();
+TEST(Passability, looks_farther_before_it_would_stand_for_ever) {
+  Passability passability = four_levels();
   Observation standing = seen(0.0, 24.0, 0.30);
+  standing.gap_distance_m = 12.0;
   standing.speed_m_s = 0.0;
-  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
-  standing.now += 11s;
+  EXPECT_EQ(passability.judge(standing).coarsest_level, 3U);
+  standing.now += 3s;
+  EXPECT_EQ(passability.judge(standing).coarsest_level, 1U) << "nothing near is in its way";
+  standing.now += 8s;
   EXPECT_EQ(passability.judge(standing).look_m, 0.0);
   standing.now += 1s;
   EXPECT_EQ(passability.judge(standing).look_m, 15.0);
   EXPECT_EQ(passability.judge(standing).coarsest_level, 0U);
+  standing.speed_m_s = 1.0;
+  EXPECT_EQ(passability.judge(standing).look_m, 0.0);
 }
 
 TEST(Passability, takes_what_is_no_number_for_a_narrow_gap) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/navigation/navigator.h"
 
-#include "flyball/flight/navigation/step_aside.h"
 #include "flyball/flight/perception/counted_map.h"
 
 #include <algorithm>
@@ -59,8 +58,12 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
 }
 
 void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
-  follower_.hover_at(p_W, yaw_rad);
   back_.forget();
+  leave_path_at(p_W, yaw_rad);
+}
+
+void Navigator::leave_path_at(const Vec3& p_W, double yaw_rad) {
+  follower_.hover_at(p_W, yaw_rad);
   blocked_at_m_.reset();
   ++path_number_;
 }
@@ -243,10 +246,7 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   }
   ++failures_;
   if (planned.failure == "start blocked" && at_rest_since_) {
-    if (const auto aside_W = place_aside_W(situation(), follower_.position_W())) {
-      hover_at(*aside_W, follower_.yaw_rad());
-    }
-    trust_own_place();
+    leave_blocked_place();
   }
   // The governor sees the failure first, because its settings may be the reason.
   const Duration look = from_seconds(brief_->settings.governor.period_s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: navigator
 #include "flyball/flight/navigation/navigator.h"
+#include "flyball/flight/navigation/step_aside.h"
 
 namespace flyball {
 namespace {
@@ -31,20 +32,34 @@ void Navigator::note_stall(MissionTime now) {
   }
 }
 
-bool Navigator::steps_back() {
+// Where no step aside is enough, the way by which the vehicle came is free.
+void Navigator::leave_blocked_place() {
+  if (const auto aside_W = place_aside_W(situation(), follower_.position_W())) {
+    leave_path_at(*aside_W, follower_.yaw_rad());
+  } else {
+    (void)steps_back();
+  }
+  trust_own_place();
+}
+
+double Navigator::yaw_ahead_rad() const {
   constexpr double ahead_m = 3.0;  // Chosen: the camera turns to this place on the path.
-  const Path& path = follower_.path();
-  const Vec3 ahead_W = path.at(follower_.s_m() + ahead_m).p_W - follower_.position_W();
+  if (!follower_.has_path()) {
+    return follower_.yaw_rad();
+  }
+  const Vec3 ahead_W = follower_.path().at(follower_.s_m() + ahead_m).p_W;
+  return yaw_of(ahead_W - follower_.position_W());
+}
+
+bool Navigator::steps_back() {
   const Intrinsics camera = brief_->settings.camera.intrinsics();
   const double away_m = blind_m(map_->resolution_m(), brief_->narrow_body(),
                                 0.5 * camera.height_px / camera.focal_px);
   const bool is_unseen = brief_->maps_obstacles && !knobs_->restraint.must_hover;
-  if (!is_unseen || !back_.begin(away_m, yaw_of(ahead_W))) {
+  if (!is_unseen || !back_.begin(away_m, yaw_ahead_rad())) {
     return false;
   }
-  follower_.hover_at(follower_.position_W(), follower_.yaw_rad());
-  blocked_at_m_.reset();
-  ++path_number_;
+  leave_path_at(follower_.position_W(), follower_.yaw_rad());
   news_.events.push_back("steps back to see what is before it");
   return true;
 }

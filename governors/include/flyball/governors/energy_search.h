@@ -69,7 +69,6 @@ struct Surroundings {
   /// close gaps that nobody has seen yet; null: none. It stays the owner's.
   const std::vector<double>* failed_plans_per_m{};
   double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
-  bool prefers_fine{};     ///< Of settings that cost the same, smaller cells are taken.
   WaitingShare waits{};    ///< Raises the price of lower clocks.
   bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
 };

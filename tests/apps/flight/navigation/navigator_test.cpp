@@ -229,6 +229,28 @@ TEST(Navigator, steps_out_of_what_reaches_into_its_tube_when_a_plan_cannot_begin
   EXPECT_LT((again->start_W - after_W).norm(), 1e-9);
 }
 
+TEST(Navigator, goes_back_by_the_way_it_came_where_no_step_aside_lets_a_plan_begin) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  const auto there = trip.navigator.next_query(trip.now);
+  trip.answer(*there);
+  trip.tick(100);
+  trip.block(25.0);
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.tick(1000);  // It stands.
+  const Vec3 before_W = trip.navigator.follower().position_W();
+  trip.map.fill({before_W - Vec3{0.1, 3.0, 1.0}, Vec3{60, 3, 3}}, CellState::occupied);
+  trip.navigator.path_planned(trip.now, {query->id, {}, "start blocked"});
+  trip.tick(200);
+  const Vec3 after_W = trip.navigator.follower().position_W();
+  EXPECT_LT(after_W.x(), before_W.x() - 0.2);
+  EXPECT_NEAR(after_W.y(), before_W.y(), 1e-6);
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_LT((again->start_W - after_W).norm(), 1e-9);
+}
+
 TEST(Navigator, counts_a_plan_that_led_nowhere_as_failed_until_it_moves) {
   Trip trip;
   const auto fly_for = [&](int ticks) {

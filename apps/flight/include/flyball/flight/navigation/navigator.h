@@ -75,6 +75,9 @@ class Navigator {
   void resume_after_search(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
   void note_stall(MissionTime now);
+  void leave_blocked_place();
+  void leave_path_at(const Vec3& p_W, double yaw_rad);
+  [[nodiscard]] double yaw_ahead_rad() const;
   [[nodiscard]] bool steps_back();
   void go_back(MissionTime now, Duration dt, double error_m);
   void plan_failed(MissionTime now, const PlannedPath& planned);
