@@ -23,6 +23,12 @@ double above_ground_m(const std::vector<double>& cells_m, const VehicleModel& ve
   return too_large != cells_m.begin() ? *std::prev(too_large) : cells_m.front();
 }
 
+/// Whether the mission makes progress by what its views show, not by the way that it flies.
+bool explores(const Observation& seen) {
+  return seen.progress_unit == ProgressUnit::cubic_metre ||
+         seen.progress_unit == ProgressUnit::square_metre;
+}
+
 /// All cells of a lattice between the finest and the coarsest one. A mapper that takes any cells
 /// gets some that are about half as large as the next ones, with equal ratios between them.
 std::vector<double> levels_of(const Parameters& given,
@@ -210,7 +216,7 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   Surroundings around = limits_of(seen);
   around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], coarsest_m(seen, near, in_force));
   around.least_range_m = gaps.look_m;
-  if (!near) {  // A vehicle that may be fast needs to see farther.
+  if (!near || explores(seen)) {  // A vehicle that may be fast needs to see farther, too.
     around.least_range_m = std::max(around.least_range_m, least_range_m_);
   }
   around.clear_range_m = clear_range_m(seen, near);

@@ -133,6 +133,12 @@ TEST(MissionLimits, may_look_nearer_where_the_mission_is_slow) {
   EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0);
   seen.speed_limit_m_s = 1.0;
   EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
+  for (const ProgressUnit unit : {ProgressUnit::cubic_metre, ProgressUnit::square_metre}) {
+    seen.progress_unit = unit;
+    EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0) << "progress is what a view shows";
+  }
+  seen.progress_unit = ProgressUnit::metre;
+  EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
   EXPECT_EQ(made({{"slow_range_m", 7.0}})->ranges_m().front(), 7.0);
 }
 

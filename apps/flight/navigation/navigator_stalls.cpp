@@ -19,15 +19,15 @@ void Navigator::trust_own_place() {
   news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
 }
 
-// After the first stall, a plan from here may lead elsewhere. When the vehicle stalls again, the
-// camera cannot see the space ahead from here, and the vehicle has to step back.
+// The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
+// plan from here may lead elsewhere.
 void Navigator::note_stall(MissionTime now) {
   if (follower_.stalled(now) <= stall_patience || wants_plan_) {
     return;
   }
   trust_own_place();
   failures_ = ++stalls_;
-  if (stalls_ < 2 || !steps_back()) {
+  if (!steps_back()) {
     want_plan(now, "stalled before unknown space");
   }
 }
