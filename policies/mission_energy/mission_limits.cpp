@@ -45,9 +45,10 @@ std::vector<double> levels_of(const Parameters& given,
   }
   std::vector<double> levels_m;
   if (lattice_m.empty()) {
-    const double steps = std::max(1.0, std::floor(std::log2(coarse_m / fine_m)));
-    for (double step = 0.0; step <= steps; ++step) {
-      levels_m.push_back(resolution.nearest(fine_m * std::pow(coarse_m / fine_m, step / steps)));
+    const int steps = std::max(1, std::ilogb(coarse_m / fine_m));
+    for (int step = 0; step <= steps; ++step) {
+      const double share = static_cast<double>(step) / steps;
+      levels_m.push_back(resolution.nearest(fine_m * std::pow(coarse_m / fine_m, share)));
     }
   }
   std::copy_if(lattice_m.begin(), lattice_m.end(), std::back_inserter(levels_m),

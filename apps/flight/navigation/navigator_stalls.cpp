@@ -19,15 +19,15 @@ void Navigator::trust_own_place() {
   news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
 }
 
-// The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
-// plan from here may lead elsewhere.
+// After the first stall, a plan from here may lead elsewhere. When the vehicle stalls again, the
+// camera cannot see the space ahead from here, and the vehicle has to step back.
 void Navigator::note_stall(MissionTime now) {
   if (follower_.stalled(now) <= stall_patience || wants_plan_) {
     return;
   }
   trust_own_place();
   failures_ = ++stalls_;
-  if (!steps_back()) {
+  if (stalls_ < 2 || !steps_back()) {
     want_plan(now, "stalled before unknown space");
   }
 }
