@@ -51,7 +51,9 @@ struct Trip {
     hover_at(Vec3{0, 0, 1.5});
   }
   void hover_at(const Vec3& p_W) { navigator.obey(now, {++commands, HoverAt{p_W, 0.0}}); }
-  void set_goal(const Vec3& p_W) { navigator.obey(now, {++commands, GoTo{p_W, {}}}); }
+  void set_goal(const Vec3& p_W, const std::optional<double>& yaw_rad = {}) {
+    navigator.obey(now, {++commands, GoTo{p_W, yaw_rad}});
+  }
   void turn(const std::string& knob, double value) {
     EXPECT_TRUE(rig.set(knob, value));
     navigator.set_knobs(now, rig.knobs);

@@ -49,7 +49,7 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
   if (const auto* hover = std::get_if<HoverAt>(&command.what)) {
     hover_at(hover->p_W, hover->yaw_rad);
   } else if (const auto* go = std::get_if<GoTo>(&command.what)) {
-    follower_.face(go->yaw_rad);
+    goal_yaw_rad_ = go->yaw_rad;
     failures_ = 0;
     set_goal(now, go->p_W);
   } else {
@@ -340,8 +340,9 @@ Setpoint Navigator::tick(MissionTime now,
   resume_after_search(now, where);
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
-  // The same view would fail again.
+  // The same view would fail again. A step back turns by itself.
   follower_.look_for_way_to(failures_ > 0 && !back_.is_active() ? goal_W_ : std::nullopt);
+  follower_.face(back_.is_active() ? std::nullopt : goal_yaw_rad_);
   const PathReference reference = follower_.tick(now, dt, error_W);
   if (back_.is_active()) {
     go_back(now, dt, error_W.norm());

@@ -19,25 +19,27 @@ void Navigator::trust_own_place() {
   news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
 }
 
-// After the first stall, a plan from here may lead elsewhere. When the vehicle stalls again, the
-// camera cannot see the space ahead from here, and the vehicle has to step back.
+// The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
+// plan from here may lead elsewhere.
 void Navigator::note_stall(MissionTime now) {
   if (follower_.stalled(now) <= stall_patience || wants_plan_) {
     return;
   }
   trust_own_place();
   failures_ = ++stalls_;
-  if (stalls_ < 2 || !steps_back()) {
+  if (!steps_back()) {
     want_plan(now, "stalled before unknown space");
   }
 }
 
 // Where no step aside is enough, the way by which the vehicle came is free.
 void Navigator::leave_blocked_place() {
-  if (const auto aside_W = place_aside_W(situation(), follower_.position_W())) {
-    leave_path_at(*aside_W, follower_.yaw_rad());
-  } else {
+  const Vec3 here_W = follower_.position_W();
+  const auto aside_W = place_aside_W(situation(), here_W);
+  if (!aside_W) {
     (void)steps_back();
+  } else if (*aside_W != here_W) {
+    leave_path_at(*aside_W, follower_.yaw_rad());
   }
   trust_own_place();
 }

@@ -21,7 +21,7 @@ std::optional<Vec3> place_aside_W(const Situation& situation, const Vec3& here_W
     return situation.map.body_state(p_W, situation.brief.narrow_body()) == CellState::occupied;
   };
   if (!is_blocked(here_W)) {
-    return std::nullopt;
+    return here_W;
   }
   for (std::size_t i = 0; i < turns * steps_m.size(); ++i) {
     const double yaw_rad = static_cast<double>(i % turns) * eighth_rad;
