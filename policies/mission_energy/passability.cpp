@@ -18,6 +18,10 @@ constexpr double level_rounding_m = 1e-9;
 
 }  // namespace
 
+double left_of_gap_m(double gap_m, double cells_m, double map_resolution_m) {
+  return gap_m - 2.0 * std::max(0.0, cells_m - map_resolution_m);
+}
+
 Passability::Passability(const PassabilitySettings& settings, std::vector<double> levels_m)
     : settings_{settings},
       levels_m_{std::move(levels_m)},
@@ -34,12 +38,11 @@ double Passability::least_m(std::size_t level) const {
   return settings_.body_m + 2.0 * levels_m_[level];
 }
 
-// A comparison with NaN is false, so an observation without sense gives the finest level. Cells
-// that are finer than the map's leave gaps at least as wide as the map shows them.
+// A comparison with NaN is false, so an observation without sense gives the finest level.
 std::size_t Passability::open_level(const Observation& seen) const {
   for (std::size_t level = levels_m_.size(); level-- > 1 && seen.map_resolution_m > 0.0;) {
-    const double coarser_m = std::max(0.0, levels_m_[level] - seen.map_resolution_m);
-    if (seen.narrowest_gap_m - 2.0 * coarser_m >= least_m(level) - level_rounding_m) {
+    if (left_of_gap_m(seen.narrowest_gap_m, levels_m_[level], seen.map_resolution_m) >=
+        least_m(level) - level_rounding_m) {
       return level;
     }
   }

@@ -13,6 +13,10 @@
 
 namespace flyball {
 
+/// What cells of this size leave at the worst of a gap that a map of `map_resolution_m` shows as
+/// `gap_m`; finer cells than the map's leave as much.
+[[nodiscard]] double left_of_gap_m(double gap_m, double cells_m, double map_resolution_m);
+
 struct PassabilitySettings {
   double body_m{0.71};  ///< Width of the vehicle with its tube at a crawl, both sides together.
   Duration least{};     ///< A finer level that was needed is kept at least this long.

@@ -132,13 +132,12 @@ class Reference final : public flyball::Policy,
     return coarsest_m;
   }
 
-  /// As in Passability: if a map of q shows a gap as w, cells of r >= q show at least
-  /// w - 2 (r - q) of it.
+  /// The largest cells that leave this opening wide enough, as in Passability.
   [[nodiscard]] double open_m(double opening_m, double map_resolution_m) const noexcept {
     for (std::size_t i = levels_m_.size(); i-- > 1;) {
       const double r_m = levels_m_[i];
       const double least_m = limits_->body_m() + 2.0 * r_m;
-      if (opening_m - 2.0 * std::max(0.0, r_m - map_resolution_m) >= least_m) {
+      if (flyball::left_of_gap_m(opening_m, r_m, map_resolution_m) >= least_m) {
         return r_m;
       }
     }
