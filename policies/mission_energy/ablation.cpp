@@ -41,6 +41,7 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"detour_prices", Part::detour_prices},
       {"switching_price", Part::switching_price},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
+      {"view_budgets", Part::view_budgets, "half_view_nodes", 0.0},
       {"noise_limit", Part::noise_limit},
       {"wide_first_bound", Part::wide_first_bound},
   };

@@ -56,6 +56,7 @@ class Ablation {
     detour_prices,
     switching_price,
     plan_budgets,
+    view_budgets,
     noise_limit,
     wide_first_bound
   };

@@ -2,7 +2,8 @@
 //
 // The least energy per metre of progress. MissionLimits says which settings the path ahead allows;
 // EnergySearch compares the settings of map and clock, and learns latency and rotor power in
-// flight. While the vehicle is idle, only the clock is chosen.
+// flight. While the vehicle is idle, only the clock is chosen. ViewBudget says how long a vehicle
+// that explores looks for its next view.
 
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/policy.h"
@@ -12,6 +13,7 @@
 
 #include "ablation.h"
 #include "limited_search.h"
+#include "view_budget.h"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -34,6 +36,8 @@ class MissionEnergy final : public flyball::Policy,
         {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
         {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
+        {"half_view_nodes", 3.0, 0.0, 1000.0,
+         "Nodes with which an explorer's view shows half of what the best would; 0: as set."},
         {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
     all.insert(all.end(), own.begin(), own.end());
     all.push_back(flyball::Ablation::parameter());
@@ -51,6 +55,10 @@ class MissionEnergy final : public flyball::Policy,
     if (!made) {
       return made.error();
     }
+    const flyball::KnobSpec* nodes = knobs.spec("explore.iterations");
+    if (const double half = given.number("half_view_nodes"); nodes != nullptr && half > 0.0) {
+      views_.emplace(half, knobs.value(nodes->name));
+    }
     limits_.emplace(std::move(made->limits));
     search_.emplace(std::move(made->search));
     return flyball::Done{};
@@ -67,7 +75,14 @@ class MissionEnergy final : public flyball::Policy,
     const MapSetting best =
         within_s ? search_->idle(home.resolution_m, home.range_m, *within_s, raised_by, seen.now)
                  : search_->choose(surroundings(seen), seen.now).setting;
-    return limits_->wish(seen, best);
+    flyball::Decision wish = limits_->wish(seen, best);
+    if (views_) {
+      views_->note(seen);
+      if (const auto nodes = views_->nodes()) {
+        wish.set("explore.iterations", *nodes);
+      }
+    }
+    return wish;
   }
 
   [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
@@ -112,6 +127,7 @@ class MissionEnergy final : public flyball::Policy,
   std::optional<flyball::Ablation> without_{};
   std::optional<flyball::MissionLimits> limits_{};
   std::optional<flyball::EnergySearch> search_{};
+  std::optional<flyball::ViewBudget> views_{};  ///< Empty where that knob is not to be turned.
 };
 
 }  // namespace

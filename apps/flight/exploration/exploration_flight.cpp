@@ -65,11 +65,14 @@ void ExplorationFlight::add_explore(Graph& graph) {
                                explorer = parts_.kernels.explorer](JobContext& job) {
     const auto query = job.take(service.request);
     const auto revision = job.latest(map);
-    if (!query || !revision) {
+    const auto knobs = job.latest(mission.knobs);
+    if (!query || !revision || !knobs) {
       return Work{};
     }
-    turn_knobs(job, mission, *explorer);
-    ExploreStep step = explorer->explore(query->request, *revision->map);
+    explorer->apply(knobs->knobs);
+    ExploreRequest request = query->request;
+    request.settings.iterations = static_cast<int>(knobs->value("explore.iterations"));
+    ExploreStep step = explorer->explore(request, *revision->map);
     Work work = step.work;
     job.publish(service.response, ExploreAnswer{query->id, std::move(step)});
     return work;

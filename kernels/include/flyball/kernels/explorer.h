@@ -30,7 +30,7 @@ struct ViewField {
 struct ExploreSettings {
   double gain_range_m{6.0};       ///< How far a view counts (MAVBench).
   double extension_m{4.0};        ///< Longest edge (MAVBench).
-  int iterations{15};             ///< Nodes of a tree (MAVBench), ...
+  int iterations{15};             ///< Nodes of a tree until a policy sets it (MAVBench), ...
   int most_iterations{80};        ///< ... as many as this while none of them has a gain.
   double discount_1_m{0.5};       ///< lambda of Bircher et al. 2016, its code's default.
   double coverage_percent{85.0};  ///< Of the reachable volume, to be mapped (MAVBench).
@@ -58,6 +58,17 @@ struct ExploreStep {
 
 class Explorer : public Kernel {
  public:
+  /// How much one step may cost: `ExploreSettings::iterations`.
+  [[nodiscard]] std::vector<KnobSpec> knobs() const override {
+    return {{"explore.iterations",
+             "nodes",
+             "explore",
+             {},
+             1.0,
+             10000.0,
+             15.0,
+             "nodes of the tree in which the next view is looked for"}};
+  }
   /// May remember earlier steps of the same mission. Same requests and maps, same steps. From a
   /// place, or in a volume, that is not finite nothing can be seen.
   [[nodiscard]] virtual ExploreStep explore(const ExploreRequest& request,
