@@ -187,7 +187,7 @@ class Culprit final : public flyball::Policy {
     flyball::Decision wish;
     wish.set(crime_ == "knob" ? "map.colour" : "map.resolution_m",
              crime_ == "nan" ? std::nan("") : 0.15);
-    for (int i = 0; crime_ == "overflow" && i < 20; ++i) {
+    for (int i = 0; crime_ == "overflow" && i < 30; ++i) {
       wish.set("map.range_m", 7.0);
     }
     if (crime_ == "random") {

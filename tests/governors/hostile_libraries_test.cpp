@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-static_assert(sizeof(AnswerPacket) == 1816, "as plugins/hostile.c sends it");
+static_assert(sizeof(AnswerPacket) == 1944, "as plugins/hostile.c sends it");
 static_assert(sizeof(OpeningPacket) == 536, "as plugins/hostile.c sends it");
 
 struct Hostile {

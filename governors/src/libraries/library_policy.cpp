@@ -16,7 +16,7 @@
 namespace flyball {
 namespace {
 
-static_assert(flyball_wish_capacity == Decision::capacity, "both hold the same");
+static_assert(flyball_wish_capacity <= Decision::capacity, "what a library wishes fits");
 static_assert(flyball_phase_wait == static_cast<int>(MissionPhase::wait), "in the same order");
 static_assert(flyball_reason_fallback == static_cast<int>(Reason::fallback), "in the same order");
 
@@ -327,15 +327,15 @@ Decision LibraryPolicy::decision_of(const FlyballDecision& answer) const noexcep
   decision.reason =
       answer.reason <= flyball_reason_fallback ? static_cast<Reason>(answer.reason) : Reason::fixed;
   const auto& specs = knobs_.specs();
-  for (std::uint32_t i = 0; i < answer.wish_count && !decision.overflowed(); ++i) {
-    if (i >= flyball_wish_capacity) {
-      decision.set("", 0.0);  // One too many: the governor sees it.
-      continue;
-    }
+  const bool is_too_many = answer.wish_count > flyball_wish_capacity;
+  for (std::uint32_t i = 0; i < answer.wish_count && i < flyball_wish_capacity; ++i) {
     const FlyballWish& wish = answer.wishes[i];
     decision.set(
         wish.knob < specs.size() ? std::string_view{specs[wish.knob].name} : "(no such place)",
         wish.value);
+  }
+  while (is_too_many && !decision.overflowed()) {
+    decision.set("", 0.0);  // The governor sees it.
   }
   return decision;
 }

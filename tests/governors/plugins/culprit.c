@@ -90,7 +90,7 @@ static int32_t decide(void* policy, const FlyballObservation* seen, FlyballDecis
       decision->wishes[0].knob = 1000;
       break;
     case crime_overflow:
-      decision->wish_count = 1000000;
+      decision->wish_count = flyball_wish_capacity + 1;
       break;
     case crime_fail:
       self->host->log(self->host->context, "I cannot");

@@ -22,7 +22,7 @@ class Decision {
     std::string_view knob;  ///< Outlives the decision: a literal, or owned by the policy.
     double value{};
   };
-  static constexpr std::size_t capacity = 16;
+  static constexpr std::size_t capacity = 24;
 
   Reason reason{Reason::fixed};
 
