@@ -17,11 +17,12 @@ struct Setting {
 };
 
 constexpr Setting frequency{"frequency_hz", "cpu.frequency_hz", 1e8, 1e10, "Clock of those cores."};
-constexpr std::array<Setting, 7> settings{{
+constexpr std::array<Setting, 8> settings{{
     {"resolution_m", "map.resolution_m", 0.05, 2.0, "Edge of a map cell."},
     {"range_m", "map.range_m", 0.5, 100.0, "How far depth is integrated into the map."},
     {"rate_hz", "map.rate_hz", 0.1, 100.0, "How often depth is integrated into the map."},
     {"planner_budget", "planner.budget", 1.0, 1e7, "Iterations that one plan may take."},
+    {"view_nodes", "explore.iterations", 1.0, 1e4, "Nodes in which a next view is looked for."},
     {"cores", "cpu.cores", 1.0, 64.0, "Cores that kernels may use."},
     {"max_speed_m_s", "mission.max_speed_m_s", 0.1, 50.0, "Upper limit of the speed."},
     frequency,

@@ -35,6 +35,7 @@ TEST(Fixed, reaches_every_knob_of_a_mission) {
                                             {"range_m", 7.0},
                                             {"rate_hz", 20.0},
                                             {"planner_budget", 40000.0},
+                                            {"view_nodes", 15.0},
                                             {"cores", 4.0},
                                             {"frequency_hz", 2035.2e6},
                                             {"max_speed_m_s", 10.0}});

@@ -4,6 +4,7 @@
 
 #include "cruising.h"
 #include "started_policy.h"
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,42 @@ TEST(MissionEnergy, keeps_the_top_clock_while_a_gap_ahead_holds_it_up) {
   EXPECT_EQ(clock_hz(2.0, gap_m), top_hz);
   EXPECT_LT(clock_hz(3.0, gap_m), top_hz);
   EXPECT_LT(clock_hz(2.0, flyball::open_path_m), top_hz);
+}
+
+bool has_wish(const flyball::Decision& decision, const std::string& knob) {
+  return std::any_of(decision.begin(), decision.end(),
+                     [&knob](const auto& wish) { return knob == wish.knob; });
+}
+
+/// The last decision of a mission of twenty views, for each of which so long was searched.
+flyball::Decision after_searches(flyball::Duration search, double half_view_nodes = 3.0) {
+  constexpr int views = 20;
+  constexpr int decisions_per_view = 32;  // Eight seconds.
+  const auto started =
+      flyball::start_policy("mission_energy", {{"half_view_nodes", half_view_nodes}});
+  flyball::Observation seen = cruising();
+  flyball::Decision decision;
+  for (int i = 0; i < views * decisions_per_view; ++i) {
+    seen.now += 250ms;
+    flyball::StageUse& explore = seen.stage(flyball::Stage::explore);
+    const bool is_over = search > 0ms && i % decisions_per_view == 0;
+    explore.latency = search;
+    explore.load = is_over ? 1.0 : 0.0;
+    decision = started.policy->decide(seen);
+  }
+  return decision;
+}
+
+TEST(MissionEnergy, looks_for_a_view_for_as_long_as_that_shows_the_most_a_second) {
+  const double quick = rule_wished(after_searches(1s), "explore.iterations");
+  const double slow = rule_wished(after_searches(4s), "explore.iterations");
+  EXPECT_GT(quick, slow);
+  EXPECT_GE(slow, 1.0);
+}
+
+TEST(MissionEnergy, leaves_the_search_for_views_alone_where_there_is_none_or_it_shall) {
+  EXPECT_FALSE(has_wish(after_searches(0s), "explore.iterations"));
+  EXPECT_FALSE(has_wish(after_searches(1s, 0.0), "explore.iterations")) << "as set";
 }
 
 TEST(MissionEnergy, has_larger_cells_where_it_flies_fast_until_plans_have_failed_in_them) {
