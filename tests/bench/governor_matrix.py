@@ -56,10 +56,15 @@ NOISE = {"clean": ["camera.rgbd_noise=false"], "noisy": ["camera.rgbd_noise=true
 PROGRESS = {"photography": "tracked_s"}
 
 
+# The setting that never changes and is tuned for such worlds; fixed_tuned_mixed for all others.
+TUNED = {"congestion": "fixed_tuned", "mapping": "fixed_tuned_mapping",
+         "search": "fixed_tuned_mapping"}
+
+
 def opponents(world, mapper, noise):
     """Without fixed_best. two_level has cells of .8 m, which a lattice has not."""
     names = ["gap_switch_rgbd" if noise == "noisy" else "gap_switch", "two_level_lattice",
-             "two_level_tuned", "fixed_tuned" if world == "congestion" else "fixed_tuned_mixed"]
+             "two_level_tuned", TUNED.get(world, "fixed_tuned_mixed")]
     return names + (["two_level"] if mapper == "stock" else [])
 
 
