@@ -189,7 +189,7 @@ class KnobbyCheck final : public CollisionChecker {
  public:
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override {
     return {{"first_m", 0.5, 0.0, 10.0, "First value of the knob."},
-            {"copies", 1.0, 1.0, 20.0, "How many knobs."},
+            {"copies", 1.0, 1.0, 30.0, "How many knobs."},
             {"name", std::string{"knobby.margin_m"}, 0.0, 0.0, "Of the knob."}};
   }
   Status configure(const Parameters& chosen, const FindModel&) override {
@@ -233,7 +233,7 @@ TEST_F(OwnKnobs, that_cannot_be_are_refused_in_one_sentence) {
                       "\"knobby.margin_m\" cannot be 5 m at first"),
             std::string::npos);
   EXPECT_NE(refusal(with("name", "map.range_m")).find("is there already"), std::string::npos);
-  EXPECT_NE(refusal(with("copies", 20.0)).find("a decision holds 16"), std::string::npos);
+  EXPECT_NE(refusal(with("copies", 30.0)).find("a decision holds 24"), std::string::npos);
 }
 
 }  // namespace
