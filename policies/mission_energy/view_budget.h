@@ -15,7 +15,8 @@ namespace flyball {
 /// stop and a map. Of what the best view would show, the best of n random ones shows a share of
 /// about n / (n + k). A search of n nodes at c seconds each, with T seconds of all else, shows the
 /// most per second at n = sqrt(k T / c). Both times are measured in flight, so a faster computer,
-/// or a higher clock, gets more nodes. Nothing allocates.
+/// or a higher clock, gets more nodes. What a search takes beside its nodes counts as theirs, which
+/// makes n smaller than it should be. Nothing allocates.
 class ViewBudget {
  public:
   /// @param half_nodes  k: with so many nodes a view shows half of what the best one would.
