@@ -18,13 +18,12 @@ void ViewBudget::note(const Observation& seen) {
     return;
   }
   searching_s_ += search_s;
-  searched_nodes_ += in_force_;
+  searched_nodes_ += wished_.value_or(first_);
   searches_ += 1.0;
   const double else_s =
       std::max(0.0, to_seconds(seen.now - *first_over_) - searching_s_) / searches_;
   const double node_s = searching_s_ / searched_nodes_;
   wished_ = std::max(1.0, std::round(std::sqrt(half_nodes_ * else_s / node_s)));
-  in_force_ = *wished_;
 }
 
 }  // namespace flyball

@@ -21,7 +21,7 @@ class ViewBudget {
  public:
   /// @param half_nodes  k: with so many nodes a view shows half of what the best one would.
   /// @param nodes       In force for the first search.
-  ViewBudget(double half_nodes, double nodes) : half_nodes_{half_nodes}, in_force_{nodes} {}
+  ViewBudget(double half_nodes, double nodes) : half_nodes_{half_nodes}, first_{nodes} {}
 
   void note(const Observation& seen);
   /// Of the next search; empty until two of them are over, and where nobody explores.
@@ -29,7 +29,7 @@ class ViewBudget {
 
  private:
   double half_nodes_;
-  double in_force_;  ///< Of the search that runs, or comes next.
+  double first_;  ///< In force until nodes are wished.
   std::optional<double> wished_{};
   std::optional<MissionTime> first_over_{};  ///< From here on, time is counted.
   double searching_s_{};
