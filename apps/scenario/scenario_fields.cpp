@@ -147,6 +147,8 @@ Fields watch_fields() {
       {"watch.time_s", &at<in, &W::time_s>, 1, 86400, "watched for so long"},
       {"watch.height_m", &at<in, &W::height_m>, 0, 120,
        "of the hover, above the ground; 0: standing there with the rotors off"},
+      {"watch.at_goal", &at<in, &W::at_goal>, 0, 0,
+       "true: the vehicle flies to the goal, stands there with its rotors off, and flies home"},
       {"watch.longest_s", &at<in, &W::longest_s>, 0.01, 3600,
        "longer between two maps is a failure"},
   };

@@ -2,12 +2,11 @@
 //
 // Watching a place: the vehicle hovers, or stands with its rotors off, and keeps its map of what
 // the camera sees up to date for a time. Lower latency does not make it any faster, so the computer
-// only has to keep the map recent enough. The graph of nodes is that of package delivery, so that
-// the vehicle could depart at once.
+// only has to keep the map recent enough. The place is the start, or the goal, to which the vehicle
+// flies and from where it comes home. The graph of nodes is that of package delivery.
 
-#include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
-#include "flyball/flight/navigation/navigation_nodes.h"
+#include "flyball/flight/navigation/round_trip.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -27,6 +26,14 @@ class Watch final : public Workload {
  public:
   [[nodiscard]] Status check(const FlightSettings& settings, const Site& site) const override {
     const double height_m = settings.watch.height_m;
+    if (settings.watch.at_goal && height_m != 0.0) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "watch.height_m = %g must be 0 with watch.at_goal = true: the vehicle lands at "
+                    "the goal",
+                    height_m);
+      return Error{ErrorCode::invalid_input, text};
+    }
     const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m;
     if (height_m == 0.0 || (height_m >= least_height_m && height_m <= ceiling_m)) {
       return Done{};
@@ -44,6 +51,7 @@ class Watch final : public Workload {
     mission_ = parts.mission;
     perception_ = add_perception(graph, parts);
     guidance_.emplace(add_navigation(graph, parts, perception_).guidance);
+    trip_.emplace(parts, perception_, *guidance_);
     legs_.emplace(parts.vehicle, parts.mission);
     NodeSpec spec;
     spec.name = "mission";
@@ -51,9 +59,7 @@ class Watch final : public Workload {
     spec.priority = 35;
     spec.reads = {perception_.localization.pose.index, perception_.map.index};
     spec.writes = {mission_.progress.index, mission_.end.index};
-    legs_->declare(spec);
-    guidance_->declare(spec);
-    declare_log(spec, mission_);
+    trip_->declare(spec);
     graph.node(std::move(spec), [this](JobContext& job) {
       if (const auto pose = job.latest(perception_.localization.pose)) {
         advance(job, *pose);
@@ -62,12 +68,23 @@ class Watch final : public Workload {
     });
   }
 
+  [[nodiscard]] bool flies_to_goal() const override {
+    return brief_ != nullptr && brief_->settings.watch.at_goal;
+  }
+
   [[nodiscard]] std::map<std::string, double> quality() const override {
     return {{"longest_without_map_s", longest_s_}, {"maps_watched", static_cast<double>(maps_)}};
   }
 
  private:
-  enum class Stage : std::uint8_t { ready, climbing, watching, landing, done };
+  enum class Stage : std::uint8_t {
+    ready,
+    climbing,
+    on_trip,  ///< To the goal, or home from there.
+    watching,
+    landing,
+    done
+  };
 
   void advance(JobContext& job, const PoseEstimate& pose) {
     switch (stage_) {
@@ -78,6 +95,9 @@ class Watch final : public Workload {
         if (legs_->are_done(job)) {
           watch_from(job);
         }
+        break;
+      case Stage::on_trip:
+        travel(job, pose);
         break;
       case Stage::watching:
         watch(job);
@@ -94,7 +114,25 @@ class Watch final : public Workload {
 
   [[nodiscard]] double height_m() const { return brief_->settings.watch.height_m; }
 
+  void travel(JobContext& job, const PoseEstimate& pose) {
+    switch (trip_->step(job, pose)) {
+      case RoundTrip::Landed::no:
+        break;
+      case RoundTrip::Landed::at_goal:
+        watch_from(job);
+        break;
+      case RoundTrip::Landed::at_home:
+        end(job);
+        break;
+    }
+  }
+
   void begin(JobContext& job, const PoseEstimate& pose) {
+    if (brief_->settings.watch.at_goal) {
+      stage_ = Stage::on_trip;
+      travel(job, pose);
+      return;
+    }
     const Vec3 place_W = brief_->site.start_W + Vec3::UnitZ() * height_m();
     guidance_->hover_at(job, place_W, yaw_of(pose.X_WB.linear().col(0)));
     if (height_m() == 0.0) {
@@ -125,6 +163,11 @@ class Watch final : public Workload {
     if (to_seconds(job.now() - since_) < brief_->settings.watch.time_s) {
       return;
     }
+    if (brief_->settings.watch.at_goal) {
+      trip_->go_home();
+      stage_ = Stage::on_trip;
+      return;
+    }
     if (height_m() == 0.0) {
       end(job);
       return;
@@ -144,6 +187,7 @@ class Watch final : public Workload {
   MissionTopics mission_{};
   std::optional<Guidance> guidance_{};
   std::optional<Legs> legs_{};
+  std::optional<RoundTrip> trip_{};
   PerceptionTopics perception_{};
   Stage stage_{Stage::ready};
   MissionTime since_{};

@@ -79,6 +79,34 @@ TEST(Watch, fails_when_the_news_is_too_old) {
   EXPECT_GT(summary.quality.at("longest_without_map_s"), 2.0);
 }
 
+TEST(Watch, at_the_goal_flies_there_stands_and_comes_home) {
+  Scenario scenario = watching(0.0, "fixed_fine");
+  scenario.watch.at_goal = true;
+  const auto record = fly(scenario, {});
+  ASSERT_TRUE(record.ok()) << record.error().message;
+  const Summary& summary = record->summary;
+  EXPECT_EQ(summary.status, MissionStatus::succeeded) << to_string(summary.failure);
+  EXPECT_TRUE(record->has_goal);
+  EXPECT_GT(summary.distance_m, 60.0);  // Twice the 30 m to the goal.
+  EXPECT_GT(summary.quality.at("maps_watched"), 5.0);
+  Scenario shorter = scenario;
+  shorter.watch.time_s = 4.0;
+  const Summary less = flown(shorter);
+  // Standing at the goal takes time, and not the rotors' energy.
+  EXPECT_NEAR(summary.mission_time_s - less.mission_time_s, 8.0, 1.0);
+  EXPECT_NEAR(summary.energy_rotor_j, less.energy_rotor_j, 0.05 * less.energy_rotor_j);
+}
+
+TEST(Watch, at_the_goal_is_refused_in_a_hover) {
+  Scenario scenario = watching(2.0, "fixed_fine");
+  scenario.watch.at_goal = true;
+  const auto record = fly(scenario, {});
+  ASSERT_FALSE(record.ok());
+  EXPECT_NE(record.error().message.find("watch.height_m = 2 must be 0 with watch.at_goal = true"),
+            std::string::npos)
+      << record.error().message;
+}
+
 TEST(Watch, is_refused_above_the_ceiling_and_next_to_the_ground) {
   for (const double height_m : {0.2, 9.0}) {
     const auto record = fly(watching(height_m, "fixed_fine"), {});

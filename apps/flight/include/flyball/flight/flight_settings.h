@@ -129,8 +129,9 @@ struct SearchSettings {
 
 /// Settings of the workload `watch`.
 struct WatchSettings {
-  double time_s{60.0};    ///< How long it watches.
-  double height_m{};      ///< Height of the hover; 0: the vehicle stands with its rotors off.
+  double time_s{60.0};  ///< How long it watches.
+  double height_m{};    ///< Height of the hover; 0: the vehicle stands with its rotors off.
+  bool at_goal{};  ///< It stands at the goal, and flies there and back; otherwise at the start.
   double longest_s{2.0};  ///< A longer time between two maps is a failure.
 };
 

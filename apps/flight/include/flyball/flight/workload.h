@@ -41,7 +41,7 @@ class Workload {
   /// Whether the workload needs a colour camera, a detector and trackers. If not, no colour image
   /// is rendered and no detector is needed.
   [[nodiscard]] virtual bool looks_for_people() const { return false; }
-  /// Whether the world's goal is a place of this mission.
+  /// Whether the world's goal is a place of this mission, once it is built.
   [[nodiscard]] virtual bool flies_to_goal() const { return false; }
   /// Figures, when the graph has stopped, that the vehicle itself believes; the unit is the name's
   /// ending. What is true, a referee says.

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whether a mission can need a clock that is turned in flight: one that flies and watches, at every
+// fixed clock of the computer and with policies that turn it.
+
+#include "experiments/framework/papers.h"
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+
+namespace flyball::experiments {
+namespace {
+
+/// A policy that turns the clock, and the same one that leaves it as it is set.
+struct Pair {
+  const char* turned;
+  const char* fixed;
+};
+
+constexpr std::array<Pair, 2> pairs{
+    {{"mission_energy", "mission_energy_fixed_clock"}, {"two_level_energy_clock", "two_level"}}};
+
+/// All clocks of the TX2.
+std::vector<std::string> clocks_hz() {
+  return {"0.3456e9", "0.4992e9", "0.6528e9", "0.8064e9", "0.96e9",   "1.1136e9",
+          "1.2672e9", "1.4208e9", "1.5744e9", "1.728e9",  "1.8816e9", "2.0352e9"};
+}
+
+std::string ghz(const std::string& clock_hz) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f GHz", std::stod(clock_hz) * 1e-9);
+  return text;
+}
+
+/// Of the clocks with which most flights succeed, the one that takes least.
+std::string best_clock_hz(const Evidence& evidence, const std::string& policy) {
+  const auto successes = [&](const std::string& clock_hz) {
+    const Point point = evidence.at("fixed", {clock_hz}, policy);
+    return std::count_if(point.flights.begin(), point.flights.end(), [](const Summary* flight) {
+      return flight->status == MissionStatus::succeeded;
+    });
+  };
+  const auto energy_kj = [&](const std::string& clock_hz) {
+    const Measured energy =
+        median(evidence.at("fixed", {clock_hz}, policy), flight_figure("energy_total_kj"));
+    return energy.value ? energy.value->median : std::numeric_limits<double>::infinity();
+  };
+  const std::vector<std::string> all = clocks_hz();
+  return *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+    return successes(a) != successes(b) ? successes(a) > successes(b) : energy_kj(a) < energy_kj(b);
+  });
+}
+
+Result<Findings> evaluate(const Evidence& evidence) {
+  Findings findings;
+  for (const Pair& pair : pairs) {
+    const Point turned = evidence.at("turned", {}, pair.turned);
+    const std::string best_hz = best_clock_hz(evidence, pair.fixed);
+    const auto over = [&](const std::string& clock_hz) {
+      return ratio(turned, evidence.at("fixed", {clock_hz}, pair.fixed),
+                   flight_figure("energy_total_kj"));
+    };
+    Claim least{std::string{pair.turned} + ": energy over that at the best fixed clock, " +
+                ghz(best_hz)};
+    least.ours = over(best_hz);
+    findings.claims.push_back(least);
+    Claim success{std::string{pair.turned} + ": flights that succeed", "%"};
+    success.ours = success_percent(turned);
+    findings.claims.push_back(success);
+    DotPlot plot{std::string{pair.turned} + ": energy over that at a fixed clock", {}};
+    for (const std::string& clock_hz : clocks_hz()) {
+      plot.values.push_back({ghz(clock_hz), over(clock_hz).value});
+      Claim at_success{std::string{pair.fixed} + " at " + ghz(clock_hz) + ": flights that succeed",
+                       "%"};
+      at_success.ours = success_percent(evidence.at("fixed", {clock_hz}, pair.fixed));
+      findings.claims.push_back(at_success);
+    }
+    findings.figures.push_back(
+        {pair.turned, "Median ratio over pairs of flights with the same seed.", plot});
+  }
+  return findings;
+}
+
+}  // namespace
+
+Experiment clock_turned() {
+  const std::vector<std::string> physics{"vehicle.physics_step_s=0.004"};
+  Experiment experiment{
+      "Can a mission need a clock that is turned in flight?",
+      "",
+      "A vehicle of 67 W of hover power flies 150 m through a forest, watches for five minutes "
+      "with "
+      "its rotors off, and flies home (watch_post). Two policies turn the clock; the same policies "
+      "fly with each of the TX2's twelve clocks. The best fixed clock is the one that takes least "
+      "among those with the most successes. Physics in steps of 4 ms.",
+      {},
+      {},
+      evaluate};
+  ExperimentSweep turned{"turned", "watch_post", physics, {}, {}};
+  ExperimentSweep fixed{
+      "fixed", "watch_post", physics, {{"platform.frequency_hz", clocks_hz()}}, {}};
+  for (const Pair& pair : pairs) {
+    turned.policies.emplace_back(pair.turned);
+    fixed.policies.emplace_back(pair.fixed);
+  }
+  experiment.sweeps = {turned, fixed};
+  return experiment;
+}
+
+}  // namespace flyball::experiments
