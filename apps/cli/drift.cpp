@@ -11,6 +11,7 @@
 #include "seed_list.h"
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -40,6 +41,7 @@ struct DriftEntry : PlannedFlight {
 /// What all seeds of one policy under one event came to.
 struct Outcome {
   DriftCount latency_bounds{};
+  std::map<double, DriftCount> levels{};  ///< By resolution [m]; of whole flights.
   std::size_t flights{};
   std::size_t succeeded{};
   std::size_t collisions{};
@@ -102,11 +104,38 @@ Status add(const DriftEntry& entry, double at_s, Outcome& outcome) {
       count_bounds(*record, MissionTime{from_seconds(at_s)}, first_bound, last_bound);
   outcome.latency_bounds.decisions += count.decisions;
   outcome.latency_bounds.late += count.late;
+  for (const LevelBounds& level : picture->summary.latency_bounds) {
+    outcome.levels[level.resolution_m].decisions += level.issued;
+    outcome.levels[level.resolution_m].late += level.late;
+  }
   return Done{};
 }
 
 std::string percent(double share) {
   return rounded(100.0 * share, 1) + " %";
+}
+
+std::string share_of(const DriftCount& count) {
+  return count.decisions > 0 ? percent(count.late_share()) : "-";
+}
+
+/// A bound is kept on the whole only if it is kept in rarely used levels, too.
+std::string levels_text(const DriftOptions& options,
+                        const std::vector<DriftCase>& cases,
+                        const std::vector<Outcome>& outcomes) {
+  std::vector<std::vector<std::string>> lines{
+      {"event", "policy", "cells m", "late", "of bounds", "share"}};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    for (const auto& [resolution_m, count] : outcomes[i].levels) {
+      lines.push_back({cases[i / options.policies.size()].name,
+                       options.policies[i % options.policies.size()], rounded(resolution_m, 4),
+                       std::to_string(count.late), std::to_string(count.decisions),
+                       share_of(count)});
+    }
+  }
+  return lines.size() == 1
+             ? ""
+             : "Latency bounds of each size of cells, of whole flights:\n" + aligned(lines);
 }
 
 std::string to_text(const DriftOptions& options,
@@ -116,21 +145,37 @@ std::string to_text(const DriftOptions& options,
       {"event", "policy", "late", "of bounds", "share", "succeeded", "collisions", "energy kJ"}};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& one = outcomes[i];
-    lines.push_back(
-        {cases[i / options.policies.size()].name, options.policies[i % options.policies.size()],
-         std::to_string(one.latency_bounds.late), std::to_string(one.latency_bounds.decisions),
-         one.latency_bounds.decisions > 0 ? percent(one.latency_bounds.late_share()) : "-",
-         std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
-         std::to_string(one.collisions),
-         rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
+    lines.push_back({cases[i / options.policies.size()].name,
+                     options.policies[i % options.policies.size()],
+                     std::to_string(one.latency_bounds.late),
+                     std::to_string(one.latency_bounds.decisions), share_of(one.latency_bounds),
+                     std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
+                     std::to_string(one.collisions),
+                     rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
   }
   std::string text = "Latency bounds " + std::to_string(first_bound) + " to " +
                      std::to_string(last_bound) + " after the event, over all seeds:\n" +
-                     aligned(lines);
+                     aligned(lines) + levels_text(options, cases, outcomes);
   for (const DriftCase& drift : cases) {
     text += drift.name + ": " + drift.description + "\n";
   }
   return text;
+}
+
+nlohmann::ordered_json share_in_json(const DriftCount& count) {
+  return count.decisions > 0 ? nlohmann::ordered_json(count.late_share())
+                             : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json levels_in_json(const Outcome& one) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const auto& [resolution_m, count] : one.levels) {
+    all.push_back({{"resolution_m", resolution_m},
+                   {"latency_bounds", count.decisions},
+                   {"late", count.late},
+                   {"late_share", share_in_json(count)}});
+  }
+  return all;
 }
 
 std::string to_json(const DriftOptions& options,
@@ -143,9 +188,8 @@ std::string to_json(const DriftOptions& options,
                    {"policy", options.policies[i % options.policies.size()]},
                    {"latency_bounds", one.latency_bounds.decisions},
                    {"late", one.latency_bounds.late},
-                   {"late_share", one.latency_bounds.decisions > 0
-                                      ? nlohmann::ordered_json(one.latency_bounds.late_share())
-                                      : nlohmann::ordered_json()},
+                   {"late_share", share_in_json(one.latency_bounds)},
+                   {"levels", levels_in_json(one)},
                    {"flights", one.flights},
                    {"succeeded", one.succeeded},
                    {"collisions", one.collisions},
