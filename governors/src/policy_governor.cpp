@@ -216,7 +216,7 @@ Decision PolicyGovernor::made_legal(const Decision& wished, MissionTime now) noe
   for (const auto& [name, value] : wished) {
     const std::size_t knob = index_of(name);
     const KnobSpec& spec = knobs_.specs()[knob];
-    if (may_change(knob, now)) {
+    if (leader_changes(spec.follows, wished, now).value_or(may_change(knob, now))) {
       put_in_force(knob, spec.nearest(value), now);
     }
     answer.set(spec.name, in_force_[knob]);
@@ -259,6 +259,24 @@ FallbackLadder::Request PolicyGovernor::requested() const noexcept {
 bool PolicyGovernor::may_change(std::size_t knob, MissionTime now) const noexcept {
   const Duration dwell = knobs_.specs()[knob].min_dwell.value_or(settings_.min_dwell);
   return !changed_[knob] || now - *changed_[knob] >= dwell;
+}
+
+/// Whether a knob that others follow changes in this decision; empty: nobody wishes that.
+std::optional<bool> PolicyGovernor::leader_changes(std::string_view leader,
+                                                   const Decision& wished,
+                                                   MissionTime now) const noexcept {
+  const auto wish = std::find_if(wished.begin(), wished.end(), [leader](const Decision::Wish& one) {
+    return one.knob == leader;
+  });
+  if (wish == wished.end()) {
+    return std::nullopt;
+  }
+  const std::size_t knob = index_of(leader);
+  if (changed_[knob] == now) {  // Its wish came first.
+    return true;
+  }
+  const bool is_new = knobs_.specs()[knob].nearest(wish->value) != in_force_[knob];
+  return is_new ? std::optional{may_change(knob, now)} : std::nullopt;
 }
 
 void PolicyGovernor::put_in_force(std::size_t knob, double value, MissionTime now) noexcept {

@@ -62,6 +62,9 @@ Status check_declaration(const KnobSpec& spec) {
     return wrong("has " + std::to_string(spec.labels.size()) + " labels for " +
                  std::to_string(spec.legal.size()) + " legal values");
   }
+  if (spec.follows == spec.name) {
+    return wrong("cannot follow itself");
+  }
   return Done{};
 }
 

@@ -130,6 +130,46 @@ TEST(PolicyGovernor, lets_a_knob_say_how_long_it_dwells) {
   EXPECT_EQ(2e9, values(governor.decide(at(2ms))).at("cpu.frequency_hz"));
 }
 
+// A range for large cells takes seconds in small ones.
+TEST(PolicyGovernor, changes_a_knob_together_with_the_one_that_it_follows) {
+  flyball::KnobSpec range;
+  range.name = "map.range_m";
+  range.min = 2.0;
+  range.max = 25.0;
+  range.fallback = 7.0;
+  range.follows = "map.resolution_m";
+  flyball::KnobSpec cells;
+  cells.name = "map.resolution_m";
+  cells.legal = {0.15, 1.2};
+  cells.fallback = 0.15;
+  using Setting = std::pair<double, double>;  // Range and cells.
+  const Setting fine{7.0, 0.15};
+  const Setting coarse{20.0, 1.2};
+  const Setting longer{22.0, 1.2};
+  Setting wished = coarse;
+  flyball::PolicyGovernor governor{std::make_unique<RulePolicy>([&wished](const Observation&) {
+                                     Decision decision = wish("map.range_m", wished.first);
+                                     decision.set("map.resolution_m", wished.second);
+                                     return decision;
+                                   }),
+                                   flyball::KnobSettings{{range, cells}},
+                                   {500ms, 100ms, 3},
+                                   {}};
+  const auto answer = [&governor](std::chrono::milliseconds now) {
+    const auto given = values(governor.decide(at(now)));
+    return Setting{given.at("map.range_m"), given.at("map.resolution_m")};
+  };
+  EXPECT_EQ(coarse, answer(0ms));
+  wished = fine;
+  EXPECT_EQ(coarse, answer(250ms)) << "the cells have to wait, and the range with them";
+  wished = longer;
+  EXPECT_EQ(longer, answer(500ms));
+  wished = fine;
+  EXPECT_EQ(fine, answer(600ms)) << "the cells may change, and the range with them";
+  wished.first = 5.0;
+  EXPECT_EQ(fine, answer(700ms)) << "alone it dwells as any knob";
+}
+
 struct Fault {
   Rule rule;
   PolicyFault name;

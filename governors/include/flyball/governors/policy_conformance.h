@@ -30,7 +30,7 @@ struct PolicyCandidate {
 [[nodiscard]] inline KnobSettings conformance_knobs() {
   return KnobSettings{{
       {"map.resolution_m", "m", "mapper", {0.15, 0.30, 0.60, 0.80, 1.20}, 0.15, 1.20, 0.15, ""},
-      {"map.range_m", "m", "mapper", {}, 2.0, 25.0, 7.0, ""},
+      {"map.range_m", "m", "mapper", {}, 2.0, 25.0, 7.0, "", std::nullopt, {}, "map.resolution_m"},
       {"map.rate_hz", "Hz", "mapper", {}, 1.0, 30.0, 20.0, ""},
       {"planner.budget", "iterations", "plan", {}, 100.0, 1e6, 40000.0, ""},
       {"explore.iterations", "nodes", "explore", {}, 1.0, 10000.0, 15.0, ""},

@@ -56,7 +56,8 @@ class PolicyGovernor final : public Governor {
                  HostClock clock);
 
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
-  /// soon after a change is answered with the value in force. Allocates nothing.
+  /// soon after a change is answered with the value in force, and so is that of a knob that follows
+  /// it. Allocates nothing.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
   /// Settings of which the policy wants to be told how long a frame will take; empty: it does not.
   [[nodiscard]] std::vector<MapSetting> foresees() const;
@@ -99,6 +100,9 @@ class PolicyGovernor final : public Governor {
                                           const std::vector<double>& values) noexcept;
   [[nodiscard]] FallbackLadder::Request requested() const noexcept;
   [[nodiscard]] bool may_change(std::size_t knob, MissionTime now) const noexcept;
+  [[nodiscard]] std::optional<bool> leader_changes(std::string_view leader,
+                                                   const Decision& wished,
+                                                   MissionTime now) const noexcept;
   void put_in_force(std::size_t knob, double value, MissionTime now) noexcept;
 
   std::unique_ptr<Policy> policy_;

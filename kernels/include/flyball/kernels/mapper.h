@@ -61,6 +61,13 @@ struct MapContents {
   return spec;
 }
 
+/// A long range that is meant for large cells takes seconds in small ones, so both change at once.
+[[nodiscard]] inline KnobSpec range_knob() {
+  KnobSpec spec{"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, "how far depth is integrated"};
+  spec.follows = "map.resolution_m";
+  return spec;
+}
+
 /// Insertion is split in two, because on the modeled computer a map is computed when its job starts
 /// and becomes visible when the job ends.
 class Mapper : public Kernel {
@@ -70,7 +77,7 @@ class Mapper : public Kernel {
   /// At which resolution, how far and how often depth is integrated.
   [[nodiscard]] std::vector<KnobSpec> knobs() const override {
     return {resolution_knob(resolutions_m()),
-            {"map.range_m", "m", "points", {}, 2.0, 25.0, 7.0, "how far depth is integrated"},
+            range_knob(),
             {"map.rate_hz",
              "Hz",
              "points",

@@ -28,6 +28,9 @@ struct KnobSpec {
   std::optional<Duration> min_dwell{};
   /// What each of `legal` stands for, where values are numbers of things: `hog`, `haar`.
   std::vector<std::string> labels{};
+  /// The knob that this one makes one setting with: where a change of that one is wished for, both
+  /// change at once or both wait. Empty: it stands alone.
+  std::string follows{};
 
   /// The legal value nearest to `wish`, the smaller of two equally near. @pre `wish` is finite.
   [[nodiscard]] double nearest(double wish) const;
@@ -36,7 +39,7 @@ struct KnobSpec {
 
 /// Whether a knob is declared as it must be: a name with a dot, unit, owner and description; finite
 /// limits, legal values in ascending order within them, a legal default, a label for each legal
-/// value or none.
+/// value or none; it does not follow itself.
 ///
 /// @error `invalid_input`, with the first thing that is wrong.
 [[nodiscard]] Status check_declaration(const KnobSpec& spec);
