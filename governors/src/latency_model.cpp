@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/assert.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,9 @@ namespace {
 
 // Of each sample the next 200 or so still know something: 10 s of frames at 20 Hz.
 constexpr double latency_forgetting = 0.995;
+// Standard deviation of log latency from map to map of one setting: .07 to .25 in forests, rooms
+// and congestion. Its square is the unit of the solver's covariance.
+constexpr double noise = 0.15;
 // How much less than the level the slopes are expected to be wrong: a level is off by a factor, a
 // slope by some tenths.
 constexpr double slope_share = 0.3;
@@ -27,7 +31,7 @@ LatencyModel::LatencyModel(const LatencyPrior& prior)
                prior.slope_points,
                1.0)
                   .finished(),
-              prior.sigma *
+              prior.sigma / noise *
                   (Solver::Vector() << 1.0, slope_share, slope_share, slope_share, clock_share)
                       .finished(),
               latency_forgetting} {}
@@ -81,8 +85,22 @@ void LatencyModels::learn(std::size_t kernel, const LatencyFeatures& features, D
                  kernel, size(), to_seconds(measured));
   LatencyModel& model = kernels_[kernel].model;
   const double log_s = std::log(to_seconds(measured));
-  log_slowdown_ += slowdown_gain * (log_s - model.predict_log_s(features) - log_slowdown_);
+  if (kernels_[kernel].samples >= first_samples) {
+    log_slowdown_ += slowdown_step(log_s - model.predict_log_s(features) - log_slowdown_);
+  }
+  ++kernels_[kernel].samples;
   model.learn_log_s(features, log_s - log_slowdown_);
+}
+
+/// What both of the last two samples show is no chance if it is large.
+double LatencyModels::slowdown_step(double residual) {
+  const double before = std::exchange(residual_, residual);
+  const double both = residual > 0.0 ? std::min(residual, before) : std::max(residual, before);
+  const bool is_sudden = both * residual > 0.0 && std::abs(both) > surprise;
+  if (is_sudden) {
+    residual_ = 0.0;  // It is explained.
+  }
+  return is_sudden ? both : slowdown_gain * residual;
 }
 
 double LatencyModels::slowdown() const {

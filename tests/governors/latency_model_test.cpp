@@ -145,6 +145,52 @@ TEST(LatencyModels, one_kernel_shows_the_others_that_the_computer_is_slow) {
   EXPECT_LE(models.predict_s(plan, at) / before_s, 3.1);
 }
 
+TEST(LatencyModel, learns_most_of_a_wrong_level_from_one_sample) {
+  LatencyPrior wrong;
+  wrong.sigma = 0.5;
+  LatencyModel model{wrong};
+  const LatencyFeatures at{0.3, 1.0, Hertz{2e9}};
+  const double measured_s = 3.0 * to_seconds(model.predict(at));
+  model.learn(at, from_seconds(measured_s));
+  EXPECT_NEAR(to_seconds(model.predict(at)) / measured_s, 1.0, 0.1);
+}
+
+/// Two kernels with the same prior; the first has run often.
+struct MapAndPlan {
+  LatencyModels models{};
+  LatencyFeatures at{0.3, 1.0, Hertz{2e9}};
+  double usual_s{};
+
+  MapAndPlan() {
+    models.add("map", {});
+    models.add("plan", {});
+    usual_s = models.predict_s(map, at);
+    for (int i = 0; i < 20; ++i) {
+      models.learn(map, at, from_seconds(usual_s));
+    }
+  }
+  static constexpr std::size_t map = 0;
+  static constexpr std::size_t plan = 1;
+};
+
+TEST(LatencyModels, two_samples_show_all_kernels_a_sudden_change) {
+  MapAndPlan both;
+  both.models.learn(MapAndPlan::map, both.at, from_seconds(3.0 * both.usual_s));
+  EXPECT_LT(both.models.slowdown(), 1.2) << "one may be chance";
+  both.models.learn(MapAndPlan::map, both.at, from_seconds(3.0 * both.usual_s));
+  EXPECT_NEAR(both.models.predict_s(MapAndPlan::map, both.at) / both.usual_s, 3.0, 0.3);
+  EXPECT_NEAR(both.models.predict_s(MapAndPlan::plan, both.at) / both.usual_s, 3.0, 0.3);
+}
+
+TEST(LatencyModels, the_wrong_prior_of_one_kernel_is_no_slowdown_of_the_others) {
+  MapAndPlan both;
+  for (int i = 0; i < 20; ++i) {
+    both.models.learn(MapAndPlan::plan, both.at, from_seconds(3.0 * both.usual_s));
+  }
+  EXPECT_NEAR(both.models.predict_s(MapAndPlan::plan, both.at) / both.usual_s, 3.0, 0.1);
+  EXPECT_NEAR(both.models.predict_s(MapAndPlan::map, both.at) / both.usual_s, 1.0, 0.1);
+}
+
 TEST(LatencyModels, know_their_kernels_by_name) {
   LatencyModels models;
   models.add("map", {});

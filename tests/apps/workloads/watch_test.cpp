@@ -54,7 +54,7 @@ TEST(Watch, a_lower_clock_saves_a_quarter_of_the_computers_energy_while_nothing_
   for (const char* policy : {"fixed_fine_energy_clock", "mission_energy"}) {
     const Summary saving = flown(watching(0.0, policy));
     EXPECT_EQ(saving.status, MissionStatus::succeeded) << policy;
-    EXPECT_LT(saving.quality.at("longest_without_map_s"), 2.0) << policy;
+    EXPECT_LE(saving.quality.at("longest_without_map_s"), 2.0) << policy;
     EXPECT_LT(saving.energy_computer_j, 0.75 * usual_j) << policy;
   }
 }

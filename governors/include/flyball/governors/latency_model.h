@@ -71,10 +71,14 @@ class LatencyModel {
 /// The kernels of a pipeline, and one slowdown factor for all of them: a hot computer, or a
 /// neighbour that takes the memory, slows everything, and what one kernel shows the others need not
 /// learn again. The factor follows the residual quickly, g <- g + gain (residual), the weights
-/// slowly, with what g explains taken off.
+/// slowly, with what g explains taken off. Two residuals in a row above `surprise` on the same side
+/// are no chance: g takes at once what both of them show. A kernel moves g only after its first
+/// samples, because until then its residual is the error of its own prior.
 class LatencyModels {
  public:
   static constexpr double slowdown_gain = 0.1;
+  static constexpr double surprise = 0.4;  ///< Chosen: nearly three times the noise of a sample.
+  static constexpr int first_samples = 3;  ///< Chosen.
 
   /// @pre Names differ.
   void add(std::string name, const LatencyPrior& prior);
@@ -91,9 +95,13 @@ class LatencyModels {
   struct Kernel {
     std::string name;
     LatencyModel model;
+    int samples{};
   };
+  [[nodiscard]] double slowdown_step(double residual);
+
   std::vector<Kernel> kernels_;
   double log_slowdown_{};
+  double residual_{};  ///< Of the last sample, in log seconds.
 };
 
 }  // namespace flyball
