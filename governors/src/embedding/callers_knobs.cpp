@@ -32,6 +32,7 @@ KnobSpec spec_of(const FlyballGovernorKnob& given) {
   if (given.min_dwell_s > 0.0) {
     spec.min_dwell = from_seconds(given.min_dwell_s);
   }
+  spec.follows = given.follows != nullptr ? given.follows : "";
   return spec;
 }
 
@@ -82,6 +83,9 @@ Status CallersKnobs::add(const FlyballGovernorKnob& given) {
   }
   if (index(given.name)) {
     return wrong(knob + "was added already");
+  }
+  if (given.follows != nullptr && !index(given.follows)) {
+    return wrong(knob + "follows \"" + given.follows + "\", which was not added before it");
   }
   if (knobs_.size() == flyball_governor_capacity) {
     return wrong(knob + "is one too many: a governor has at most " +

@@ -89,6 +89,7 @@ TEST(BadInput, values_of_a_knob_that_cannot_be) {
   EXPECT_NE("", refused_knob([](auto& knob) { knob.start = nan; }));
   EXPECT_NE("", refused_knob([](auto& knob) { knob.min_dwell_s = -1.0; }));
   EXPECT_NE("", refused_knob([](auto& knob) { knob.min_dwell_s = nan; }));
+  EXPECT_NE("", refused_knob([](auto& knob) { knob.follows = "map.unknown"; }));
   const auto limits = [](double min, double max) {
     return refused_knob([=](auto& knob) {
       knob.legal_count = 0;

@@ -98,6 +98,9 @@ typedef struct FlyballGovernorKnob {
   /* The first version may end here. */
 
   double min_dwell_s; /* It keeps a value at least this long; 0: `min_dwell_s` of the settings. */
+  /** A knob added before, with which this one makes one setting: where both are to change, they do
+   * so at once or wait together, as map.range_m with map.resolution_m. NULL: it stands alone. */
+  const char* follows;
 } FlyballGovernorKnob;
 
 /** A part of the caller's loop that takes time. Stages are numbered from 0 as they are added, in
