@@ -118,7 +118,7 @@ class MappingNode : public Node {
     };
     const FlyballGovernorKnob knob{
         sizeof knob, 4,       "cpu.frequency_hz", "Hz",     "Clock", clocks_hz, 0.0,
-        0.0,         set_hz_, set_clock,          &set_hz_, 0.0};
+        0.0,         set_hz_, set_clock,          &set_hz_, 0.0,     nullptr};
     const FlyballGovernorStage mapping{sizeof mapping, 0, "mapping", nullptr, 0.1, 0, 0};
     const FlyballGovernorStage planning{sizeof planning, 0, "planning", nullptr, 0.0, 0, 0};
     FlyballGovernorSettings settings{};
