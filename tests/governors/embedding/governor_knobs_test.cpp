@@ -69,6 +69,32 @@ TEST(CallersKnobs, keep_a_value_as_long_as_they_ask_for) {
   EXPECT_EQ((std::vector<double>{0.80, 0.15}), loop.applied);
 }
 
+TEST(CallersKnobs, wait_together_with_the_one_that_they_follow) {
+  GovernedLoop loop;
+  FlyballGovernorKnob cells = loop.cell_knob();
+  cells.min_dwell_s = 30.0;
+  loop.add(cells);
+  FlyballGovernorKnob range = cells;
+  range.name = "map.range_m";
+  range.legal_count = 0;
+  range.min = 2.0;
+  range.max = 25.0;
+  range.start = 7.0;
+  range.min_dwell_s = 0.1;
+  range.apply = nullptr;
+  range.follows = "map.resolution_m";
+  loop.add(range);
+  FlyballGovernorSettings settings = loop.settings("density");
+  settings.parameters = "coarse_range_m = 20";
+  loop.open(settings);
+  loop.observe("phase", flyball_governor_cruise);
+  decide_twice(loop);
+  EXPECT_EQ(20.0, loop.decide(29.0).in_force[1]) << "with the cells";
+  const FlyballGovernorDecision fine = loop.decide(31.0);
+  EXPECT_EQ(0.15, fine.in_force[0]);
+  EXPECT_EQ(7.0, fine.in_force[1]);
+}
+
 TEST(CallersKnobs, survive_a_callback_that_throws) {
   GovernedLoop loop;
   FlyballGovernorKnob knob = loop.cell_knob();
