@@ -68,10 +68,8 @@ Result<Findings> evaluate(const Evidence& evidence) {
       claim.ours = ratio(without, all, flight_figure("energy_total_kj"));
       plot.values.push_back({part.name, claim.ours.value});
       findings.claims.push_back(claim);
-      Claim flown{std::string{place.title} + ", without " + part.name + ": flights that succeed",
-                  "%"};
-      flown.ours = success_percent(without);
-      findings.claims.push_back(flown);
+      findings.claims.push_back(
+          success_claim(std::string{place.title} + ", without " + part.name, without));
     }
     findings.claims.push_back(success);
     findings.figures.push_back(

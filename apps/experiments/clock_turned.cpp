@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <utility>
 
 namespace flyball::experiments {
 namespace {
@@ -65,13 +64,9 @@ Result<Findings> evaluate(const Evidence& evidence) {
                 ghz(best_hz)};
     least.ours = over(best_hz);
     findings.claims.push_back(least);
-    for (const auto& [name, point] : {std::pair{std::string{pair.turned}, turned},
-                                      std::pair{pair.fixed + (" at " + ghz(best_hz)),
-                                                evidence.at("fixed", {best_hz}, pair.fixed)}}) {
-      Claim success{name + ": flights that succeed", "%"};
-      success.ours = success_percent(point);
-      findings.claims.push_back(success);
-    }
+    findings.claims.push_back(success_claim(pair.turned, turned));
+    findings.claims.push_back(success_claim(pair.fixed + (" at " + ghz(best_hz)),
+                                            evidence.at("fixed", {best_hz}, pair.fixed)));
     DotPlot plot{std::string{pair.turned} + ": energy over that at a fixed clock", {}};
     for (const std::string& clock_hz : clocks_hz()) {
       plot.values.push_back({ghz(clock_hz), over(clock_hz).value});
@@ -92,8 +87,7 @@ Experiment clock_turned() {
       "A vehicle of 67 W of hover power flies 150 m through a forest, watches for five minutes "
       "with its rotors off, and flies home (watch_post). Two policies turn the clock; the same "
       "policies fly with each of the TX2's twelve clocks. The best fixed clock is the one that "
-      "takes least "
-      "among those with the most successes. Physics in steps of 4 ms.",
+      "takes least among those with the most successes. Physics in steps of 4 ms.",
       {},
       {},
       evaluate};

@@ -23,24 +23,18 @@ Claim search_claim(const Evidence& evidence, const char* price, const std::strin
   return claim;
 }
 
-Claim success_claim(const Evidence& evidence, const char* mission) {
-  Claim claim{std::string{mission} + ": flights that succeed", "%"};
-  claim.ours = success_percent(evidence.at(mission, {}));
-  return claim;
-}
-
 Result<Findings> evaluate(const Evidence& evidence) {
   Findings findings;
   findings.claims = {search_claim(evidence, tenth_of_price, "a tenth of"),
                      search_claim(evidence, five_prices, "five times"),
-                     success_claim(evidence, usual_price)};
+                     success_claim("search", evidence.at(usual_price, {}))};
   Claim share{"photography: the whole computer's share of the energy", "%"};
   share.ours = median(evidence.at(photography, {}), [](const Summary& flight) {
     return std::optional{100.0 * flight.energy_computer_j /
                          (flight.energy_computer_j + flight.energy_rotor_j)};
   });
   findings.claims.push_back(share);
-  findings.claims.push_back(success_claim(evidence, photography));
+  findings.claims.push_back(success_claim("photography", evidence.at(photography, {})));
   return findings;
 }
 

@@ -21,8 +21,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
             std::string{doors == std::string{"fine"} ? "doors on the grid" : "doors anywhere"} +
             (noise == std::string{"true"} ? ", noise" : ", no noise");
         plot.values.push_back({name, median(point, flight_figure("battery_used_percent")).value});
-        Claim success{policy + ", " + name + ": flights that succeed", "%"};
-        success.ours = success_percent(point);
+        const Claim success = success_claim(policy + ", " + name, point);
         findings.claims.push_back(success);
       }
     }

@@ -71,15 +71,13 @@ void compare(const Place& place, const Evidence& evidence, Findings& findings) {
     energy.neutral = 1.0;
     energy.ours = ratio(theirs, ours, flight_figure("energy_total_kj"));
     plot.values.push_back({opponent, energy.ours.value});
-    Claim success{title + ", " + opponent + ": flights that succeed", "%"};
-    success.ours = success_percent(theirs);
-    findings.claims.insert(findings.claims.end(), {energy, success});
+    findings.claims.insert(findings.claims.end(),
+                           {energy, success_claim(title + ", " + opponent, theirs)});
   }
-  Claim success{title + ", mission_energy: flights that succeed", "%"};
-  success.ours = success_percent(ours);
   Claim late{title + ", mission_energy: maps later than their bound (it aims at 5 %)", "%"};
   late.ours = late_percent(ours);
-  findings.claims.insert(findings.claims.end(), {success, late});
+  findings.claims.insert(findings.claims.end(),
+                         {success_claim(title + ", mission_energy", ours), late});
   findings.figures.push_back(
       {place.sweep,
        "Median ratio over pairs of flights with the same seed where both succeed; above 1 "

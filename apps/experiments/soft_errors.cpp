@@ -63,8 +63,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
       const auto is_late = [faultless_s](const Summary& flight) {
         return has_succeeded(flight) && flight.mission_time_s > lengthened * faultless_s;
       };
-      Claim succeed{fault + ": flights that succeed", "%"};
-      succeed.ours = success_percent(flown);
+      const Claim succeed = success_claim(fault, flown);
       Claim lengthen{fault + ": flights that take 2 % longer than without", "%"};
       lengthen.ours = share_percent(flown, is_late);
       Claim most{fault + ": longest time of a flight over that without"};

@@ -139,4 +139,10 @@ Measured success_percent(const Point& point) {
   return share_percent(point, has_succeeded);
 }
 
+Claim success_claim(const std::string& whose, const Point& point) {
+  Claim claim{whose + ": flights that succeed", "%"};
+  claim.ours = success_percent(point);
+  return claim;
+}
+
 }  // namespace flyball

@@ -67,5 +67,8 @@ class Evidence {
                                      const std::function<bool(const Summary&)>& is_so);
 /// How many of the flights succeed [%].
 [[nodiscard]] Measured success_percent(const Point& point);
+/// The same as a claim.
+/// @param whose  What flies there: `forest, mission_energy`.
+[[nodiscard]] Claim success_claim(const std::string& whose, const Point& point);
 
 }  // namespace flyball
