@@ -212,6 +212,32 @@ TEST(MinimumSnap, begins_in_the_direction_of_the_start_velocity) {
   EXPECT_LT(smoothed(back).trajectory.derivative(1, 0.0).norm(), 1e-9);
 }
 
+double tightest_1_m(const SmoothPath& smooth, double to_m) {
+  double most = 0.0;
+  const Path path{smooth.trajectory};
+  for (const auto& sample : path.samples()) {
+    most = std::max(most, sample.s_m < to_m ? sample.curvature_1_m : 0.0);
+  }
+  return most;
+}
+
+// A bend that begins at once has a radius of 6 m here, and .6 m where only .6 m are free ahead.
+TEST(MinimumSnap, turns_once_where_it_comes_from_another_direction) {
+  auto request = request_along({{2, 0, 1.5}, {22, 0, 1.5}});
+  request.start_velocity_W = {std::cos(0.2), std::sin(0.2), 0.0};
+  GridMap map{{{0, -6, 0}, {30, 6, 3}}, 0.15};
+  const auto wide = smoother()->smooth(request, map);
+  ASSERT_TRUE(wide.ok());
+  expect_sound(wide->trajectory, request);
+  EXPECT_LT(tightest_1_m(*wide, 10.0), 1.0 / 20.0);
+  map.fill({{5.0, 0.6, 0}, {9.0, 2.0, 3}}, flyball::CellState::occupied);
+  const auto beside = smoother()->smooth(request, map);
+  ASSERT_TRUE(beside.ok());
+  expect_sound(beside->trajectory, request);
+  EXPECT_GT(tightest_1_m(*beside, 10.0), tightest_1_m(*wide, 10.0));
+  EXPECT_EQ(stops(Path{beside->trajectory}), 0);
+}
+
 TEST(MinimumSnap, cuts_a_corner_less_where_something_stands_inside_it) {
   GridMap map{{{0, -3, 0}, {24, 24, 3}}, 0.15};
   const auto request = request_along({{2, 0, 1.5}, {20, 0, 1.5}, {20, 20, 1.5}});

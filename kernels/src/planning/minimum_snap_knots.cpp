@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace flyball {
 namespace {
 
 constexpr double edge_share = 0.45;        // Of an edge for the cut at each of its ends.
+constexpr double whole_share = 0.9;        // Of the first edge, where the path comes in motion.
 constexpr double largest_cut_m = 6.0;      // Longer curves leave the planned polygon by metres.
 constexpr double smallest_cut_m = 0.02;    // Chosen: on less, the vehicle stops as quickly.
 constexpr double shrink = 0.6;             // Chosen: six rounds make a cut 20 times smaller.
@@ -22,6 +24,8 @@ constexpr double straight_rad = 1e-3;
 // up from one speed to another peaks at 1.9 times its mean (a quintic step in speed).
 constexpr double curve_share = 0.55;
 constexpr double speed_up_share = 0.5;
+constexpr double shortest_lead_in_m = 0.5;  // Chosen: a shorter one is a bend.
+constexpr double lead_in_ratio = 1.5;       // Chosen: seven places up to the largest cut.
 constexpr double bend_reach = 0.84;     // v T / cut of a bend: its control points stay in order.
 constexpr double bend_sharpness = 5.0;  // Its peak curvature is up to this much times turn / cut.
 
@@ -47,26 +51,42 @@ double radius_m(double cut_m, double turn) {
   return cut_m / std::tan(0.5 * std::max(turn, 1e-6));
 }
 
-double largest_cut(const RoundedPolygon& polygon, std::size_t point) {
+/// So wide a curve is flown at the largest speed.
+double useful_radius_m(const RoundedPolygon& polygon) {
+  const double v = polygon.limits.max_speed_m_s;
+  return v * v / (curve_share * polygon.limits.max_acceleration_m_s2);
+}
+
+double largest_bend_m(const RoundedPolygon& polygon) {
+  const double turn = turn_rad(polygon, 0);
+  const bool bends = starts_moving(polygon) && turn > straight_rad && turn < widest_bend_rad;
+  const double useful_m = bend_sharpness * turn * useful_radius_m(polygon);
+  return bends ? std::min({edge_share * edge(polygon, 0).norm(), useful_m, largest_cut_m}) : 0.0;
+}
+
+/// What the start leaves of the edge before a point.
+double room_before_m(const RoundedPolygon& polygon, std::size_t point, double bend_m) {
+  const double edge_m = edge(polygon, point - 1).norm();
+  return point == 1 && starts_moving(polygon) ? whole_share * edge_m - bend_m : edge_share * edge_m;
+}
+
+double largest_cut(const RoundedPolygon& polygon, std::size_t point, double bend_m) {
   const double turn = turn_rad(polygon, point);
-  const double after_m = edge_share * edge(polygon, point).norm();
-  if (point == 0) {
-    const bool bends = starts_moving(polygon) && turn > straight_rad && turn < widest_bend_rad;
-    return bends ? std::min(after_m, largest_cut_m) : 0.0;
-  }
   if (turn > sharpest_turn_rad) {
     return 0.0;
   }
-  const double v = polygon.limits.max_speed_m_s;
-  const double useful_m =
-      v * v / (curve_share * polygon.limits.max_acceleration_m_s2) * std::tan(0.5 * turn);
-  return std::min({edge_share * edge(polygon, point - 1).norm(), after_m,
+  const double useful_m = useful_radius_m(polygon) * std::tan(0.5 * turn);
+  return std::min({room_before_m(polygon, point, bend_m), edge_share * edge(polygon, point).norm(),
                    std::clamp(useful_m, 0.5, largest_cut_m)});
 }
 
-double without_tight_curves(const RoundedPolygon& polygon, std::size_t point, double cut_m) {
+double radius_with_m(const RoundedPolygon& polygon, std::size_t point, double cut_m) {
   const double turn = turn_rad(polygon, point);
-  const double radius = point == 0 ? cut_m / (bend_sharpness * turn) : radius_m(cut_m, turn);
+  return point == 0 ? cut_m / (bend_sharpness * std::max(turn, 1e-6)) : radius_m(cut_m, turn);
+}
+
+double without_tight_curves(const RoundedPolygon& polygon, std::size_t point, double cut_m) {
+  const double radius = radius_with_m(polygon, point, cut_m);
   const bool tight = radius < (point == 0 ? smallest_radius_m / 2.0 : smallest_radius_m);
   return cut_m < smallest_cut_m || tight ? 0.0 : cut_m;
 }
@@ -110,15 +130,12 @@ class KnotWriter {
     speed_m_s_.assign(points, 0.0);
     for (std::size_t i = 1; i + 1 < points; ++i) {
       if (polygon_.cut_m[i] > 0.0) {
-        const double radius = radius_m(polygon_.cut_m[i], turn_rad(polygon_, i));
-        speed_m_s_[i] = std::min(top, std::sqrt(curve_share * a * radius));
+        speed_m_s_[i] = std::min(top, std::sqrt(curve_share * a * curve_radius_m(polygon_, i)));
       }
     }
-    const double turn = turn_rad(polygon_, 0);
     if (polygon_.cut_m[0] > 0.0) {
-      speed_m_s_[0] =
-          std::min(top, std::sqrt(curve_share * a * polygon_.cut_m[0] / (bend_sharpness * turn)));
-    } else if (starts_moving(polygon_) && turn <= straight_rad) {
+      speed_m_s_[0] = std::min(top, std::sqrt(curve_share * a * curve_radius_m(polygon_, 0)));
+    } else if (starts_moving(polygon_) && turn_rad(polygon_, 0) <= straight_rad) {
       speed_m_s_[0] = std::min(top, polygon_.start_velocity_W.norm());
     }
     for (std::size_t i = 1; i < points; ++i) {
@@ -206,10 +223,44 @@ class KnotWriter {
 
 std::vector<double> largest_cuts(const RoundedPolygon& polygon) {
   std::vector<double> cuts(polygon.points_W.size(), 0.0);
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    cuts[i] = without_tight_curves(polygon, i, largest_cut(polygon, i));
+  cuts[0] = without_tight_curves(polygon, 0, largest_bend_m(polygon));
+  for (std::size_t i = 1; i + 1 < cuts.size(); ++i) {
+    cuts[i] = without_tight_curves(polygon, i, largest_cut(polygon, i, cuts[0]));
   }
   return cuts;
+}
+
+std::vector<Vec3> lead_ins_W(const RoundedPolygon& polygon) {
+  const double bend_radius_m = widest_bend_m(polygon);
+  if (bend_radius_m == 0.0) {
+    return {};
+  }
+  const Vec3 ahead = polygon.start_velocity_W.normalized();
+  std::vector<std::pair<double, Vec3>> places;
+  for (double on_m = shortest_lead_in_m; on_m * whole_share < largest_cut_m;
+       on_m *= lead_in_ratio) {
+    RoundedPolygon with = polygon;
+    with.points_W.insert(with.points_W.begin() + 1, polygon.points_W[0] + on_m * ahead);
+    const double radius = radius_with_m(with, 1, largest_cut(with, 1, 0.0));
+    if (radius > bend_radius_m) {
+      places.emplace_back(std::min(radius, useful_radius_m(polygon)), with.points_W[1]);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Vec3> places_W;
+  for (const auto& place : places) {
+    places_W.push_back(place.second);
+  }
+  return places_W;
+}
+
+double widest_bend_m(const RoundedPolygon& polygon) {
+  return radius_with_m(polygon, 0, largest_bend_m(polygon));
+}
+
+double curve_radius_m(const RoundedPolygon& polygon, std::size_t point) {
+  return radius_with_m(polygon, point, polygon.cut_m[point]);
 }
 
 double smaller_cut(const RoundedPolygon& polygon, std::size_t point) {

@@ -5,6 +5,7 @@
 /// A polygon as knots of a minimum-snap curve: its edges stay straight, its corners are rounded.
 
 #include "planning/minimum_snap_solver.h"
+#include <cstddef>
 #include <vector>
 
 namespace flyball {
@@ -32,8 +33,19 @@ struct SnapKnots {
 };
 
 /// Largest useful cuts: as much as the fastest round needs, at most nearly half of an edge, so that
-/// curves stay local. Zero where the polygon turns back too sharply to be rounded.
+/// curves stay local; nearly all of the first one, where the path comes straight on.
+/// Zero where the polygon turns back too sharply to be rounded.
 [[nodiscard]] std::vector<double> largest_cuts(const RoundedPolygon& polygon);
+/// Where the curve may turn from the direction of the start velocity towards the second point:
+/// places straight ahead of the start, the one with the widest curve first. A curve that bends in
+/// from the start has to turn back onto the edge, and does so within its cut; with such a corner it
+/// turns once only. Empty where bending in is no tighter.
+[[nodiscard]] std::vector<Vec3> lead_ins_W(const RoundedPolygon& polygon);
+/// Of the widest curve that bends in from the start velocity at once; 0: there is none.
+[[nodiscard]] double widest_bend_m(const RoundedPolygon& polygon);
+/// Of the curve at a point with the cut that it has; at the first one, of its bend.
+[[nodiscard]] double curve_radius_m(const RoundedPolygon& polygon, std::size_t point);
+
 /// A cut that is next smaller, zero when it would be a very tight curve.
 [[nodiscard]] double smaller_cut(const RoundedPolygon& polygon, std::size_t point);
 

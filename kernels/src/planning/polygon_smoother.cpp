@@ -75,10 +75,8 @@ class Smoothing {
                                             " of the polygon hits an occupied cell; plan again"};
       }
     }
-    polygon_.cut_m = largest_cuts(polygon_);
-    solve();
-    for (int round = 1; cut_less(round >= rounds); ++round) {
-      solve();
+    if (!leads_in()) {
+      round_corners();
     }
     keep_limits();
     SmoothPath path;
@@ -90,6 +88,33 @@ class Smoothing {
   }
 
  private:
+  /// With one more corner straight ahead, where that makes a wider curve than bending in at once.
+  bool leads_in() {
+    const RoundedPolygon planned = polygon_;
+    const std::vector<Vec3> places_W = lead_ins_W(planned);
+    const auto place = std::find_if(places_W.begin(), places_W.end(), [&](const Vec3& p_W) {
+      return !hits(planned.points_W[0], p_W, body_) && !hits(p_W, planned.points_W[1], body_);
+    });
+    if (place == places_W.end()) {
+      return false;
+    }
+    polygon_.points_W.insert(polygon_.points_W.begin() + 1, *place);
+    round_corners();
+    const bool is_wider = curve_radius_m(polygon_, 1) > widest_bend_m(planned);
+    if (!is_wider) {
+      polygon_ = planned;
+    }
+    return is_wider;
+  }
+
+  void round_corners() {
+    polygon_.cut_m = largest_cuts(polygon_);
+    solve();
+    for (int round = 1; cut_less(round >= rounds); ++round) {
+      solve();
+    }
+  }
+
   void solve() {
     curve_ = knots_of(polygon_);
     do {

@@ -2,6 +2,8 @@
 #include "planning/minimum_snap_knots.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -25,6 +27,12 @@ TEST(MinimumSnapKnots, cut_corners_as_far_as_the_shorter_edge_allows) {
   EXPECT_DOUBLE_EQ(corner(4, 100).cut_m[1], 1.8);
   EXPECT_EQ(corner(100, 100).cut_m.front(), 0.0);
   EXPECT_EQ(corner(100, 100).cut_m.back(), 0.0);
+}
+
+TEST(MinimumSnapKnots, cut_into_all_of_the_first_edge_where_the_path_comes_straight_on) {
+  auto polygon = corner(4, 100);
+  polygon.start_velocity_W = {1, 0, 0};
+  EXPECT_DOUBLE_EQ(flyball::largest_cuts(polygon)[1], 3.6);
 }
 
 TEST(MinimumSnapKnots, stop_where_a_curve_would_be_too_tight_or_turn_back) {
@@ -84,6 +92,32 @@ TEST(MinimumSnapKnots, bend_in_from_the_start_velocity) {
   EXPECT_LT((result.knots[0].direction_W - Vec3{1, 1, 0}.normalized()).norm(), 1e-12);
   EXPECT_GT(result.knots[0].along[0], 0.5);
   EXPECT_EQ(result.knots[1].direction_W, Vec3::UnitX());
+}
+
+TEST(MinimumSnapKnots, turn_more_widely_behind_a_piece_straight_ahead) {
+  for (const double turn : {0.05, 0.2, 0.5, 1.0}) {
+    auto polygon = corner(20, 20);
+    polygon.start_velocity_W = {std::cos(turn), std::sin(turn), 0.0};
+    const auto places_W = flyball::lead_ins_W(polygon);
+    ASSERT_FALSE(places_W.empty()) << turn;
+    double last_m = std::numeric_limits<double>::infinity();
+    for (const Vec3& place : places_W) {
+      auto with = polygon;
+      with.points_W.insert(with.points_W.begin() + 1, place);
+      with.cut_m = flyball::largest_cuts(with);
+      EXPECT_EQ(with.cut_m[0], 0.0);
+      const double radius_m = flyball::curve_radius_m(with, 1);
+      EXPECT_GT(radius_m, flyball::widest_bend_m(polygon)) << turn;
+      const double useful_m = std::min(radius_m, 10.0 * 10.0 / (0.55 * 3.0));
+      EXPECT_LE(useful_m, last_m) << turn;
+      last_m = useful_m;
+    }
+  }
+  auto straight = corner(20, 20);
+  straight.start_velocity_W = {1.0, 0.0, 0.0};
+  EXPECT_TRUE(flyball::lead_ins_W(straight).empty());
+  straight.start_velocity_W = {-1.0, 0.1, 0.0};  // It would have to turn back.
+  EXPECT_TRUE(flyball::lead_ins_W(straight).empty());
 }
 
 }  // namespace
