@@ -79,8 +79,8 @@ class MissionLimits {
   [[nodiscard]] double noise_free_m(double resolution_m) const;
   /// The range up to which the camera's noise is at most this. @pre The camera is known.
   [[nodiscard]] double range_with_m(double noise_m) const;
-  /// The range up to which noise leaves the gaps open that are seen ahead; 0: none is seen.
-  [[nodiscard]] double clear_range_m(const Observation& seen, bool near) const;
+  /// The range up to which noise leaves gaps open like those that were seen; 0: none was.
+  [[nodiscard]] double clear_range_m(const Observation& seen, bool near);
   /// For where noise may be larger than a level allows.
   void add_ranges_beyond(double most_m);
   /// For where the mission is slow: small cells take long, and the vehicle stops within a metre.
@@ -104,7 +104,8 @@ class MissionLimits {
   Passability passability_;
   Visibility visibility_;
   FailedPlans failed_;
-  bool seeks_door_{};  ///< A plan has failed near a narrow place.
+  std::optional<double> last_gap_m_{};  ///< Since narrow places were declared, or the leg began.
+  bool seeks_door_{};                   ///< A plan has failed near a narrow place.
 };
 
 }  // namespace flyball

@@ -12,15 +12,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Result<MissionLimits> made(const std::map<std::string, ParameterValue>& given = {},
+using Given = std::map<std::string, ParameterValue>;
+
+Result<MissionLimits> made(const Given& given = {},
                            const KnobSettings& knobs = conformance_knobs(),
                            const VehicleModel& vehicle = {}) {
   const auto resolved = Parameters::resolve("policy", MissionLimits::parameters(), given);
   return MissionLimits::make("policy \"mine\"", std::get<Parameters>(resolved), knobs, vehicle);
 }
 
-std::string refusal(const std::map<std::string, ParameterValue>& given,
-                    const KnobSettings& knobs = conformance_knobs()) {
+std::string refusal(const Given& given, const KnobSettings& knobs = conformance_knobs()) {
   auto limits = made(given, knobs);
   return limits ? "" : limits.error().message;
 }
@@ -48,7 +49,7 @@ TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
 
 // By hand: sqrt(.15 * .8) = .3464.
 TEST(MissionLimits, has_cells_with_equal_ratios_near_two_where_the_mapper_takes_any) {
-  const auto cells = cells_of(*made({}, any_resolution()));
+  const auto cells = cells_of(*made({{"coarse_m", 0.8}}, any_resolution()));
   ASSERT_EQ(cells.size(), 3U);
   EXPECT_EQ(cells.front(), 0.15);
   EXPECT_NEAR(cells[1], 0.3464, 1e-4);
@@ -82,18 +83,18 @@ std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
 // By hand: (r / 2 + .4193) / .0657 is 7.5 and 8.7 m; (.71 / 4 + .4193) / .0657 is 9.1 m.
 TEST(MissionLimits, looks_no_farther_than_noise_leaves_gaps_in_a_lattice) {
   const auto ranges_m = longest_ranges_m(DepthCameraSpec{});
-  const std::vector<double> expected_m{7.52, 8.67, 9.08, 9.08, 9.08};
+  const std::vector<double> expected_m{7.52, 8.67, 9.08};
   ASSERT_EQ(ranges_m.size(), expected_m.size());
   for (std::size_t i = 0; i < expected_m.size(); ++i) {
     EXPECT_NEAR(ranges_m[i], expected_m[i], 0.051) << "found in steps of .05 m";
   }
 }
 
-// By hand: (.8 / 2 + .4193) / .0657 is 12.5 m.
+// By hand: (.6 / 2 + .4193) / .0657 is 10.9 m.
 TEST(MissionLimits, looks_as_far_as_noise_is_half_a_cell_without_a_lattice) {
   const auto ranges_m = longest_ranges_m(DepthCameraSpec{}, any_resolution());
   EXPECT_NEAR(ranges_m.front(), 7.52, 0.051);
-  EXPECT_NEAR(ranges_m.back(), 12.47, 0.051);
+  EXPECT_NEAR(ranges_m.back(), 10.95, 0.051);
 }
 
 Observation between_trees(double gap_m) {
@@ -113,14 +114,16 @@ TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
     return limits->look(seen, {0.60, 7.0, 2e9}).clear_range_m;
   };
   EXPECT_NEAR(clear_m(between_trees(3.0)), 15.1, 0.051);
+  EXPECT_NEAR(clear_m(between_trees(6.0)), 15.1, 0.051) << "nothing is seen; as the last one";
   EXPECT_LT(clear_m(between_trees(0.8)), 7.0) << "a door";
-  EXPECT_EQ(clear_m(between_trees(6.0)), 0.0) << "nothing is seen";
+  EXPECT_LT(clear_m(between_trees(6.0)), 7.0) << "the next may be a door, too";
   Observation fast = between_trees(3.0);
   fast.speed_m_s = 12.0;
   EXPECT_NEAR(clear_m(fast), 14.0, 0.051) << "what is declared narrow 20 m ahead comes nearer";
   Observation slow = between_trees(3.0);
   slow.speed_limit_m_s = 1.0;
   EXPECT_EQ(clear_m(slow), 0.0) << "narrow places are declared";
+  EXPECT_EQ(clear_m(between_trees(6.0)), 0.0) << "none was seen since then";
   EXPECT_EQ(limits->ranges_m().back(), 20.0);
   EXPECT_EQ(made({})->look(between_trees(3.0), {0.60, 7.0, 2e9}).clear_range_m, 0.0);
 }
@@ -163,14 +166,18 @@ TEST(MissionLimits, keeps_the_shortest_range_with_a_camera_that_cannot_tell_a_ce
 }
 
 TEST(MissionLimits, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) {
-  VehicleModel low;
-  low.ground_clearance_m = 1.0;
-  EXPECT_EQ(made({}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m, 0.80);
-  low.ground_clearance_m = 1.2;
-  EXPECT_EQ(made({}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m, 1.20);
-  EXPECT_EQ(
-      made({{"coarse_m", 0.6}}, conformance_knobs(), low)->levels(0.5, 0.1).back().resolution_m,
-      0.60);
+  const auto coarsest_m = [](double clearance_m, const KnobSettings& knobs, const Given& given) {
+    VehicleModel vehicle;
+    vehicle.ground_clearance_m = clearance_m;
+    return made(given, knobs, vehicle)->levels(0.5, 0.1).back().resolution_m;
+  };
+  EXPECT_EQ(coarsest_m(0.5, conformance_knobs(), {}), 0.30);
+  EXPECT_EQ(coarsest_m(0.5, any_resolution(), {}), 0.50);
+  for (const KnobSettings& knobs : {conformance_knobs(), any_resolution()}) {
+    EXPECT_EQ(coarsest_m(0.6, knobs, {}), 0.60);
+    EXPECT_EQ(coarsest_m(5.0, knobs, {}), 0.60) << "larger ones gain nothing";
+    EXPECT_EQ(coarsest_m(0.5, knobs, {{"coarse_m", 0.8}}), 0.80) << "as given";
+  }
 }
 
 TEST(MissionLimits, has_no_cells_which_the_ceiling_fills_down_to_the_vehicle) {
@@ -179,7 +186,7 @@ TEST(MissionLimits, has_no_cells_which_the_ceiling_fills_down_to_the_vehicle) {
   Observation seen = kit::cruising();
   seen.map_resolution_m = 0.15;
   for (const auto& [headroom_m, coarsest_m] :
-       {std::pair{0.0, 1.2}, std::pair{1.1, 1.2}, std::pair{1.0, 0.8}, std::pair{0.3, 0.3}}) {
+       {std::pair{0.0, 0.6}, std::pair{0.5, 0.6}, std::pair{0.4, 0.3}, std::pair{0.1, 0.15}}) {
     seen.now += 10s;
     seen.headroom_m = headroom_m;
     EXPECT_EQ(limits->look(seen, fine).coarsest_m, coarsest_m) << headroom_m;
@@ -206,7 +213,7 @@ TEST(MissionLimits, says_what_contradicts_what) {
 TEST(MissionLimits, needs_the_top_clock_where_a_gap_holds_the_vehicle_up) {
   auto limits = made();
   ASSERT_TRUE(limits.ok());
-  const MapSetting coarse{0.80, 7.0, 2e9};
+  const MapSetting coarse{0.60, 7.0, 2e9};
   Observation seen = kit::cruising();
   EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
   seen.now += 250ms;
@@ -221,7 +228,7 @@ TEST(MissionLimits, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) 
   auto limits = made();
   ASSERT_TRUE(limits.ok());
   Observation seen = kit::cruising();
-  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 1.20);
+  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.60);
   seen.speed_m_s = 0.0;
   EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
 }

@@ -67,8 +67,8 @@ MissionRecord flown_with(const std::string& policy, const DriftCase& drift) {
       "world.generator=empty",    "world.goal_distance_m=900",
       "mission.max_speed_m_s=6",  "mission.time_limit_s=150",
       "kernels.mapper=flyball",   "kernels.mapper_parameters.cost_of=octomap",
-      "planner.horizon_m=50",     "map.range_m=25",
-      "camera.max_range_m=25",    "camera.rgbd_noise=false",
+      "planner.horizon_m=50",     "map.range_m=10",
+      "camera.max_range_m=10",    "camera.rgbd_noise=false",
       "camera.width_px=64",       "camera.height_px=36",
       "governor.policy=" + policy};
   settings.insert(settings.end(), drift.settings.begin(), drift.settings.end());
