@@ -21,4 +21,9 @@ std::vector<Vec3> joined_to(const Vec3& start_W, const KnownPath& path, const Oc
   return joined;
 }
 
+bool turns_back(const std::vector<Vec3>& path_W, const Vec3& direction_W) {
+  FLYBALL_ASSERT(path_W.size() >= 2, "%zu waypoints", path_W.size());
+  return (path_W[1] - path_W[0]).dot(direction_W) < 0.0;
+}
+
 }  // namespace flyball

@@ -69,6 +69,9 @@ PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery q
     answer.body = query.known->body;
     answer.waypoints_W = joined_to(query.start_W, *query.known, map);
     map.add_to(work);
+    if (!query.may_turn_back && turns_back(answer.waypoints_W, query.start_direction_W)) {
+      answer.failure = "it would turn back";
+    }
     return answer;
   }
   query.goal_W = sub_goal_W({situation.brief, situation.knobs, map}, query.start_W, query.goal_W,

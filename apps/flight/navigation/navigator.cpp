@@ -22,6 +22,7 @@ constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unk
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double least_lead_in_m = 0.3;    // On less of a straight line a bend gains nothing.
 constexpr double straight = 0.999;         // Chord over arc: a turn by 9 degrees.
+constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
 constexpr double rounding_m = 1e-6;
 
 }  // namespace
@@ -185,6 +186,7 @@ PlanQuery Navigator::query() {
     planned_in_m_ = map_->resolution_m();
   }
   query.known = std::exchange(known_, std::nullopt);
+  query.may_turn_back = lead_.lead_s() > 2.0 * follower_.speed_m_s() / turning_m_s2;
   query.goal_W = *goal_W_;
   query.failures = failures_;
   // When no path was found twice with the narrow tube, none will be found with a wide one.

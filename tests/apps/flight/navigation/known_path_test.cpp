@@ -42,6 +42,12 @@ TEST(KnownPath, goes_back_to_a_corner_that_something_stands_behind) {
   EXPECT_EQ(joined, expected);
 }
 
+TEST(KnownPath, turns_back_where_it_begins_against_the_flight) {
+  EXPECT_FALSE(turns_back(right_turn_W, Vec3::UnitX()));
+  EXPECT_TRUE(turns_back(right_turn_W, Vec3{-1, 3, 0}));
+  EXPECT_FALSE(turns_back(right_turn_W, Vec3::Zero())) << "from a standstill";
+}
+
 TEST(KnownPath, keeps_its_end) {
   const KnownPath straight{{{0, 0, 1}, {10, 0, 1}}, body};
   const std::vector<Vec3> expected{{12, 0, 1}, {10, 0, 1}};

@@ -181,6 +181,7 @@ TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for
   const auto second = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(second.has_value());
   ASSERT_TRUE(second->lead_in_W.has_value());
+  EXPECT_FALSE(second->may_turn_back) << "another search takes less time than turning";
   EXPECT_GT(second->start_W.x(), second->lead_in_W->x() + 0.3);
   trip.navigator.path_planned(
       trip.now, {second->id, along({*second->lead_in_W, aside_W, second->goal_W}), ""});
@@ -188,6 +189,14 @@ TEST(Navigator, lets_the_next_path_bend_before_its_stop_when_it_was_too_fast_for
   ASSERT_TRUE(third.has_value());
   EXPECT_FALSE(third->lead_in_W.has_value());  // From rest.
   EXPECT_NEAR(third->start_W.x(), second->start_W.x(), 0.1);
+}
+
+TEST(Navigator, may_turn_back_to_a_known_path_where_it_is_slow) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  EXPECT_TRUE(query->may_turn_back);
 }
 
 TEST(Navigator, calls_the_place_clear_where_it_rests_when_a_plan_cannot_begin_there) {

@@ -29,5 +29,7 @@ constexpr double least_detour_m = 3.0;
 [[nodiscard]] std::vector<Vec3> joined_to(const Vec3& start_W,
                                           const KnownPath& path,
                                           const OccupancyView& map);
+/// Whether it begins backwards for a vehicle that comes in this direction. @pre As above.
+[[nodiscard]] bool turns_back(const std::vector<Vec3>& path_W, const Vec3& direction_W);
 
 }  // namespace flyball

@@ -28,6 +28,7 @@ struct PlanQuery {
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
   std::optional<KnownPath> known{};
+  bool may_turn_back{true};  ///< To join it; else a path that would have to is refused.
 };
 
 struct PlanAnswer {
