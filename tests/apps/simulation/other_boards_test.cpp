@@ -78,7 +78,7 @@ class Truth {
   }
   [[nodiscard]] double joules_per_m(const MapSetting& setting) const {
     EnergySearchSettings price;
-    price.spacing_m = 20.0;  // As mission_energy has it with a lattice of cells.
+    price.spacing_m = 10.0;  // As mission_energy has it.
     const double ahead_m = free_ahead_m(price, setting, 1e9);
     const double response = response_s(setting.clock_hz);
     const double speed_m_s =
