@@ -10,11 +10,36 @@
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_check.h"
 #include "scenario/scenario_edge.h"
+#include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/seeing_setup.h"
+#include <cmath>
 
 namespace flyball {
 namespace {
+
+Result<Airframe> make_airframe(const Scenario& scenario) {
+  const auto file = find_shipped("airframes", scenario.vehicle.airframe);
+  auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
+  if (!airframe) {
+    return airframe;
+  }
+  const std::string name = "airframe \"" + scenario.vehicle.airframe + "\"";
+  if (scenario.vehicle.rotor_power == "regression" && !airframe->has_regression()) {
+    return Error{ErrorCode::invalid_input,
+                 "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and " +
+                     name + " has none; set vehicle.rotor_power to \"thrust\""};
+  }
+  const double most_kg = airframe->most_payload_kg();
+  if (scenario.vehicle.payload_kg > most_kg) {
+    return Error{ErrorCode::invalid_input,
+                 "vehicle.payload_kg = " + toml_number(scenario.vehicle.payload_kg) +
+                     " is too heavy for " + name + ", which lifts " +
+                     toml_number(std::floor(1e3 * most_kg) * 1e-3) +
+                     " with a fifth of its thrust to spare; carry less"};
+  }
+  return airframe;
+}
 
 Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario) {
   const auto file = find_shipped("platforms", scenario.platform.name);
@@ -150,16 +175,9 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
     return edge.error();
   }
   setup.edge = std::move(*edge);
-  const auto file = find_shipped("airframes", scenario.vehicle.airframe);
-  auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
+  auto airframe = make_airframe(scenario);
   if (!airframe) {
     return airframe.error();
-  }
-  if (scenario.vehicle.rotor_power == "regression" && !airframe->has_regression()) {
-    return Error{
-        ErrorCode::invalid_input,
-        "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and airframe \"" +
-            scenario.vehicle.airframe + "\" has none; set vehicle.rotor_power to \"thrust\""};
   }
   setup.things.airframe = std::move(*airframe);
   setup.equipment.body = setup.things.airframe.body();

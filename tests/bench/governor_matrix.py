@@ -215,7 +215,7 @@ def parsed():
     parser.add_argument("--no-hindsight", dest="hindsight", action="store_false",
                         help="without fixed_best, which takes most of the time")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
-                        help="as flyball's, in every cell (vehicle.airframe=spark)")
+                        help="as flyball's, in every cell (vehicle.airframe=spark, vehicle.payload_kg=0)")
     parser.add_argument("--jobs", type=int, default=1, help="flights at a time")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("flights/matrix"))
     parser.add_argument("--list", action="store_true", help="prints the cells' commands and ends")

@@ -249,6 +249,7 @@ std::vector<Vec3> lead_ins_W(const RoundedPolygon& polygon) {
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Vec3> places_W;
+  places_W.reserve(places.size());
   for (const auto& place : places) {
     places_W.push_back(place.second);
   }

@@ -124,9 +124,23 @@ TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
 TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
   Scenario scenario;
   scenario.vehicle.airframe = "f450";
+  scenario.vehicle.payload_kg = 0.0;
   EXPECT_NE(refusal(scenario).find("thrust"), std::string::npos);
   scenario.vehicle.rotor_power = "thrust";
   EXPECT_EQ(refusal(scenario), "");
+}
+
+// By hand: .3 kg at a thrust to weight of 2.194 lift .548 kg at 1.2.
+TEST(MissionSetup, refuses_a_payload_that_the_vehicle_cannot_lift) {
+  Scenario scenario;
+  scenario.vehicle.airframe = "spark";
+  scenario.vehicle.payload_kg = 0.24;
+  EXPECT_EQ(refusal(scenario), "");
+  scenario.vehicle.payload_kg = 0.5;
+  EXPECT_EQ(
+      refusal(scenario),
+      "vehicle.payload_kg = 0.5 is too heavy for airframe \"spark\", which lifts 0.248 with a "
+      "fifth of its thrust to spare; carry less");
 }
 
 }  // namespace

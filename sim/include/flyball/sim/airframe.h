@@ -53,6 +53,8 @@ struct Airframe {
   /// Shaft power of one rotor over n^3 [W s^3].
   [[nodiscard]] double power_per_n3() const;
   [[nodiscard]] double max_rotor_rev_s() const { return max_rotor_rpm / 60.0; }
+  /// So much its rotors lift with a fifth to spare, beside the vehicle itself.
+  [[nodiscard]] double most_payload_kg() const;
 
   /// Every violation, with both sides of the inequality; empty when it can fly.
   [[nodiscard]] std::vector<Error> validate() const;
