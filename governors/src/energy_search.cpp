@@ -16,6 +16,8 @@ constexpr double least_speed_m_s = 0.05;  // Chosen: near zero, energy per metre
 constexpr double smoothing = 0.1;  // Chosen: the load beside the map is a mean over some seconds.
 constexpr double too_slow = 1e3;   // A factor on the price of settings that respond too late: any
                                    // other is cheaper, but one of them is better than none.
+constexpr double open_over_room = 10.0;  // Chosen: so much longer a map may take, at most, where no
+                                         // walls end its rays.
 enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own speed limit many settings differ by milliwatts only. Among them the search
@@ -242,6 +244,11 @@ bool EnergySearch::is_allowed(const MapSetting& candidate,
          (!around.needs_top_clock || candidate.clock_hz == most_clock_hz_);
 }
 
+double EnergySearch::feared_s(std::size_t point, const Surroundings& around) const {
+  const double in_open_s = response_s(open_over_room * predicted_s(setting(point)));
+  return around.is_enclosed ? expected_s_[point] : std::min(expected_s_[point], in_open_s);
+}
+
 EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_range_m) {
   double least_j = std::numeric_limits<double>::infinity();
   for (std::size_t point = 0; point < points_.size(); ++point) {
@@ -253,7 +260,7 @@ EnergyEstimate EnergySearch::best_of(const Surroundings& around, double least_ra
     }
     estimated = estimate(candidate, around);
     estimated.joules_per_m *= around.waits.delay(candidate.clock_hz, most_clock_hz_);
-    if (std::max(estimated.response_s, expected_s_[point]) > around.most_response_s) {
+    if (std::max(estimated.response_s, feared_s(point, around)) > around.most_response_s) {
       estimated.joules_per_m *= too_slow;
     }
     least_j = std::min(least_j, estimated.joules_per_m);

@@ -234,6 +234,7 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();
   around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
+  around.is_enclosed = near;
   around.needs_top_clock =
       gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise || is_held_up(seen);
   return around;

@@ -67,6 +67,7 @@ TEST(EnergySearchDetour, where_the_mission_is_slow_sees_far_in_the_finest_cells)
 TEST(EnergySearchDetour, takes_nothing_that_responds_too_late_if_anything_is_sooner) {
   EnergySearch one = search_with(among_obstacles());
   Surroundings room = slow_place();
+  room.is_enclosed = true;
   room.coarsest_m = 0.15;
   EXPECT_EQ(one.choose(room, {}).setting.range_m, 12.0);
   room.most_response_s = 2.0;  // .5 s at 7 m, 1.6 at 12.
@@ -83,6 +84,16 @@ TEST(EnergySearchDetour, takes_nothing_that_responds_too_late_if_anything_is_soo
     one.learn(quick);
     EXPECT_EQ(one.choose(room, quick.now).setting.range_m, 7.0);
   }
+  quick.latency = from_seconds(0.01);
+  for (; quick.map_revision <= 120; ++quick.map_revision) {
+    quick.now = at(3.0 + static_cast<double>(quick.map_revision));
+    one.learn(quick);
+    EXPECT_EQ(one.choose(room, quick.now).setting.range_m, 7.0);
+  }
+  room.is_enclosed = false;  // Here ten times as long is expected, .33 s.
+  EXPECT_EQ(one.choose(room, quick.now).setting.range_m, 12.0);
+  room.most_response_s = 0.4;
+  EXPECT_EQ(one.choose(room, quick.now).setting.range_m, 7.0);
 }
 
 TEST(EnergySearchDetour, large_cells_pay_for_the_plans_that_fail_in_them) {

@@ -62,8 +62,10 @@ struct Surroundings {
   double visibility_m{};
   /// No setting whose response is longer may be chosen if there is one with a shorter response.
   /// Both the learned response and the one that was expected before the flight count, because walls
-  /// end most rays in a room, but not in the open space behind the next door.
+  /// end most rays in a room, but not in the open space behind the next door. Outside of rooms, at
+  /// most ten times the learned one is expected.
   double most_response_s{1e9};
+  bool is_enclosed{};   ///< By walls, as in rooms.
   double coarsest_m{};  ///< The largest cells with which the path ahead is passable.
   /// For each level, finest first: how many plans fail in its cells per metre of path, because they
   /// close gaps that nobody has seen yet; null: none. It stays the owner's.
@@ -166,6 +168,8 @@ class EnergySearch {
   [[nodiscard]] bool is_allowed(const MapSetting& candidate,
                                 const Surroundings& around,
                                 double least_range_m) const;
+  /// The response that must be reckoned with, whatever was learned where the vehicle is.
+  [[nodiscard]] double feared_s(std::size_t point, const Surroundings& around) const;
   [[nodiscard]] EnergyEstimate best_of(const Surroundings& around, double least_range_m);
 
   EnergySearchSettings settings_;
