@@ -12,8 +12,8 @@
 namespace flyball {
 namespace {
 
-constexpr double declared_ahead_m = 20.0;  // Observation::speed_limit_m_s looks so far.
-constexpr double next_maps_s = 0.5;        // Chosen: for two decisions a range stays in force.
+constexpr double limit_ahead_m = 20.0;  // Observation::speed_limit_m_s looks so far.
+constexpr double next_maps_s = 0.5;     // Chosen: for two decisions a range stays in force.
 
 /// The largest cells that are worth having, of a lattice if there is one. The ground's must not
 /// reach up to the vehicle: there every plan would begin in an occupied cell.
@@ -164,8 +164,8 @@ double MissionLimits::range_with_m(double noise_m) const {
 
 // Hits that noise has moved narrow a gap from both sides. Where no narrow ones are declared, noise
 // may be a quarter of what the narrowest gap ahead leaves beside the body. Where none is seen, the
-// next one is taken to be as wide as the last one was. The range ends before the place up to which
-// the mission declares narrow gaps: noise of that distance would close the doors of a house.
+// next one is taken to be as wide as the last one was. The range ends before a zone where the
+// vehicle must be slower, because noise of that distance would close the doors of a house.
 double MissionLimits::clear_range_m(const Observation& seen, bool near) {
   if (!camera_ || near || seen.phase != MissionPhase::cruise) {
     last_gap_m_.reset();
@@ -175,9 +175,9 @@ double MissionLimits::clear_range_m(const Observation& seen, bool near) {
     last_gap_m_ = seen.narrowest_gap_m;
   }
   const double flown_m = next_maps_s * std::max(0.0, seen.speed_m_s);
-  return last_gap_m_
-             ? std::min(declared_ahead_m - flown_m, range_with_m(0.25 * (*last_gap_m_ - body_m_)))
-             : 0.0;
+  const double zone_m = seen.slower_zone_m > 0.0 ? seen.slower_zone_m : limit_ahead_m;
+  return last_gap_m_ ? std::min(zone_m - flown_m, range_with_m(0.25 * (*last_gap_m_ - body_m_)))
+                     : 0.0;
 }
 
 void MissionLimits::add_ranges_beyond(double most_m) {

@@ -119,7 +119,11 @@ TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
   EXPECT_LT(clear_m(between_trees(6.0)), 7.0) << "the next may be a door, too";
   Observation fast = between_trees(3.0);
   fast.speed_m_s = 12.0;
-  EXPECT_NEAR(clear_m(fast), 14.0, 0.051) << "what is declared narrow 20 m ahead comes nearer";
+  EXPECT_NEAR(clear_m(fast), 14.0, 0.051) << "nobody says what lies beyond 20 m";
+  fast.slower_zone_m = 40.0;
+  EXPECT_NEAR(clear_m(fast), 15.1, 0.051);
+  fast.slower_zone_m = 17.0;
+  EXPECT_NEAR(clear_m(fast), 11.0, 0.051) << "half a second before the zone's doors";
   Observation slow = between_trees(3.0);
   slow.speed_limit_m_s = 1.0;
   EXPECT_EQ(clear_m(slow), 0.0) << "narrow places are declared";

@@ -188,6 +188,7 @@ void GovernorLoop::observe_flight(const NavigatorState& navigator) {
   seen_.planner_failures = static_cast<std::uint32_t>(navigator.planner_failures);
   seen_.speed_m_s = navigator.speed_m_s;
   seen_.speed_limit_m_s = speed_limit_ahead(navigator, knobs_, parts_.brief->site);
+  seen_.slower_zone_m = slower_zone_m(navigator, knobs_, parts_.brief->site);
   seen_.max_deceleration_m_s2 = parts_.brief->settings.mission.max_acceleration_m_s2;
   seen_.known_free_m = navigator.known_free_m;
   seen_.tracking_error_m = navigator.tracking_error.size_m;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: governor_loop
 #include "flyball/flight/governing/surroundings.h"
 
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Geometry>
+
 namespace flyball {
 namespace {
 
 constexpr double headroom_limit_m = 5.0;  // Chosen: four times the largest cells.
+constexpr double zone_limit_m = 40.0;     // Twice the range of the shipped cameras.
 constexpr double headroom_step_m = 0.05;  // A third of the finest cells.
 // Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
 // wide.
@@ -33,6 +35,18 @@ double speed_limit_ahead(const NavigatorState& navigator,
     }
   }
   return least;
+}
+
+double slower_zone_m(const NavigatorState& navigator, const KnobsInForce& knobs, const Site& site) {
+  const double here_m_s = knobs.speed_limit_m_s(site, navigator.position_W);
+  double nearest_m = zone_limit_m;
+  for (const SpeedZone& zone : site.zones) {
+    if (zone.max_speed_m_s < here_m_s) {
+      const Eigen::AlignedBox3d box_W{zone.box_W.min, zone.box_W.max};
+      nearest_m = std::min(nearest_m, box_W.exteriorDistance(navigator.position_W));
+    }
+  }
+  return nearest_m;
 }
 
 double density_ahead(const NavigatorState& navigator, const OccupancyView& map) {

@@ -204,6 +204,7 @@ typedef struct FlyballObservation {
   /* Version 5 ends here. */
 
   int64_t map_within_ns;
+  double slower_zone_m;
 } FlyballObservation;
 
 typedef struct FlyballWish {

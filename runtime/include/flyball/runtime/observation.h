@@ -77,9 +77,11 @@ struct Observation {
   Watts cpu_power{};  ///< Of the processors' rail; these four are 0 where the board has no such
   Watts gpu_power{};  ///< meter, and they are in `computer_power` too.
   Watts memory_power{};
-  Watts soc_power{};      ///< Of the rest of the chip.
-  Duration map_within{};  ///< While the vehicle waits: how soon after a map the mission needs the
-                          ///< next one; 0: nobody says.
+  Watts soc_power{};       ///< Of the rest of the chip.
+  Duration map_within{};   ///< While the vehicle waits: how soon after a map the mission needs the
+                           ///< next one; 0: nobody says.
+  double slower_zone_m{};  ///< To the nearest zone where the mission's speed limit is lower than
+                           ///< here, at most 40; 0: nobody says.
   std::array<StageUse, stage_count> stages{};
 
   [[nodiscard]] const StageUse& stage(Stage one) const {

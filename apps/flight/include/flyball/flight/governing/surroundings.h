@@ -21,6 +21,11 @@ inline constexpr double density_half_band_m = 0.3;
                                        const KnobsInForce& knobs,
                                        const Site& site);
 
+/// From the vehicle to the nearest zone with a lower speed limit than where it is, at most 40 m.
+[[nodiscard]] double slower_zone_m(const NavigatorState& navigator,
+                                   const KnobsInForce& knobs,
+                                   const Site& site);
+
 /// The largest density around places ahead on the path; 0 without a path.
 [[nodiscard]] double density_ahead(const NavigatorState& navigator, const OccupancyView& map);
 
