@@ -74,21 +74,16 @@ Passability::Standing Passability::standing(const Observation& seen) {
 }
 
 // The finest cells have a short range. So while a gap is still far away, and after a first failed
-// plan without an obstacle nearby, the next coarser level is used.
+// plan, the next coarser level is used.
 std::size_t Passability::needed_level(const Observation& seen, Standing standing) const {
   const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
-  const bool may_be_far = seen.planner_failures < 2 && standing != Standing::for_good;
-  if (has_failed && !(may_be_far && is_far_off(seen))) {
+  if (seen.planner_failures > 1 || standing == Standing::for_good) {
     return 0;
   }
   const std::size_t coarsest = has_failed ? retry_level_ : levels_m_.size() - 1;
   const std::size_t open = open_level(seen);
   const bool is_far = seen.gap_distance_m > settings_.near_m;
   return std::min(coarsest, is_far ? std::max(open, std::min(std::size_t{1}, retry_level_)) : open);
-}
-
-bool Passability::is_far_off(const Observation& seen) const {
-  return seen.nearest_obstacle_m > settings_.near_m;
 }
 
 void Passability::count_path(const Observation& seen) {

@@ -60,7 +60,6 @@ class Passability {
   [[nodiscard]] std::size_t clear_level(const Observation& seen, std::size_t open) const;
   void need_until_past(const Observation& seen, Standing standing);
   [[nodiscard]] std::size_t needed_level(const Observation& seen, Standing standing) const;
-  [[nodiscard]] bool is_far_off(const Observation& seen) const;
   [[nodiscard]] bool is_gone(const Observation& seen);
   void count_path(const Observation& seen);
   [[nodiscard]] Standing standing(const Observation& seen);
