@@ -241,14 +241,15 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
 }
 
 // Cells are limited where the mission's speed limit tells of narrow gaps, before any of them can be
-// seen, and outside of cruise, because a new goal asks for a plan. A vehicle that stands waits for
-// a plan, and the map must keep its cells until that plan is there.
+// seen. A vehicle that stands waits for a plan, and the map must keep its cells until that plan is
+// there. On the ground, cells are those of the flight, because a path that was planned in smaller
+// ones is blocked as soon as larger ones come.
 double MissionLimits::coarsest_m(const Observation& seen, bool near, const MapSetting& in_force) {
   if (needs_finest(seen, near, in_force)) {
     return levels_m_.front();
   }
   double coarsest_m = under_ceiling_m(seen);
-  if (near || seen.phase != MissionPhase::cruise) {
+  if (near) {
     coarsest_m = std::min(coarsest_m, large_m_);
   }
   if (stands_in_cruise(seen)) {
