@@ -64,7 +64,6 @@ PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery q
   PlanAnswer answer;
   answer.id = query.id;
   answer.start_direction_W = query.start_direction_W;
-  answer.lead_in_W = query.lead_in_W;
   if (query.known) {
     answer.body = query.known->body;
     answer.waypoints_W = joined_to(query.start_W, *query.known, map);
@@ -128,9 +127,6 @@ PlannedPath smoothed(const PlanAnswer& answer,
   }
   SmoothRequest request;
   request.waypoints_W = answer.waypoints_W;
-  if (answer.lead_in_W) {
-    request.waypoints_W.insert(request.waypoints_W.begin(), *answer.lead_in_W);
-  }
   request.start_velocity_W = answer.start_direction_W;
   request.max_speed_m_s = situation.knobs.value("mission.max_speed_m_s");
   request.max_acceleration_m_s2 = 0.5 * situation.brief.settings.mission.max_acceleration_m_s2;

@@ -20,8 +20,6 @@ constexpr double room_to_turn_m = 3;      // Left before an obstacle: the radius
 constexpr double rests_below_m_s = 0.02;  // The speed of PathFollower's standstill.
 constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unknown space.
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
-constexpr double least_lead_in_m = 0.3;    // On less of a straight line a bend gains nothing.
-constexpr double straight = 0.999;         // Chord over arc: a turn by 9 degrees.
 constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
 constexpr double rounding_m = 1e-6;
 
@@ -217,26 +215,19 @@ double Navigator::last_stop_m() const {
 }
 
 // The first attempt lets the new path leave the old one ahead of the moving vehicle. If that path
-// bends too sharply for the vehicle's speed, or comes too late, the second attempt leaves from the
-// place where the vehicle will soon come to rest, so that the bend can begin before that place. The
-// third attempt starts from rest. A vehicle that stands already uses that one at once: it creeps
-// forward with each cell that becomes known, and would have passed a splice at its present place
-// before the plan is ready.
+// bends too sharply for the vehicle's speed, or comes too late, the next attempts leave from the
+// place where the vehicle will soon come to rest. So do those of a vehicle that stands already: it
+// creeps forward with each cell that becomes known, and would have passed a splice at its present
+// place before the plan is ready.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
   const bool leaves_moving = refusals_ == 0 && follower_.speed_m_s() >= creeps_below_m_s;
   const double stop_m = leaves_moving ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
-  const Vec3 moving_W = path.at(moving_m).p_W;
-  const Vec3 stop_W = path.at(stop_m).p_W;
-  const double chord_m = (stop_W - moving_W).norm();
-  if (refusals_ == 1 && chord_m > std::max(least_lead_in_m, straight * (stop_m - moving_m))) {
-    query.lead_in_W = moving_W;
-  }
   follower_.commit_stop(stop_m);
-  splice_m_ = leaves_moving || query.lead_in_W ? moving_m : stop_m;
-  query.start_W = leaves_moving ? moving_W : stop_W;
+  splice_m_ = leaves_moving ? moving_m : stop_m;
+  query.start_W = path.at(splice_m_).p_W;
   query.start_direction_W =
       follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
 }

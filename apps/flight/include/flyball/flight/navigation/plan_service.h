@@ -19,9 +19,6 @@ struct PlanQuery {
   std::uint64_t id{};
   Vec3 start_W{Vec3::Zero()};
   Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
-  /// The trajectory begins here instead, leads straight to `start_W`, and turns there as sharply as
-  /// the room allows.
-  std::optional<Vec3> lead_in_W{};
   Vec3 goal_W{Vec3::Zero()};
   int failures{};        ///< Plans in a row that have failed.
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
@@ -35,7 +32,6 @@ struct PlanAnswer {
   std::uint64_t id{};
   std::vector<Vec3> waypoints_W{};  ///< Empty: `failure` says why.
   Vec3 start_direction_W{Vec3::Zero()};
-  std::optional<Vec3> lead_in_W{};
   Cylinder body{};  ///< The body, with its tube, that the path was planned for.
   std::string failure{};
   double iterations{};
