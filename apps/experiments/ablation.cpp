@@ -3,6 +3,7 @@
 // What each part of mission_energy earns: the policy without it beside the whole one.
 
 #include "experiments/framework/papers.h"
+#include <array>
 #include <vector>
 
 namespace flyball::experiments {
@@ -15,41 +16,29 @@ struct Part {
   const char* name;
 };
 
-/// What may matter anywhere.
-std::vector<Part> main_parts() {
-  return {
-      {"mission_energy_without_resolution", "resolution"},
-      {"mission_energy_without_range", "range"},
-      {"mission_energy_without_clock", "clock"},
-      {"mission_energy_without_gaps", "sight of narrow places"},
-      {"mission_energy_without_declared_zones", "declared zones"},
-  };
-}
+constexpr std::array parts{
+    Part{"mission_energy_without_resolution", "resolution"},
+    Part{"mission_energy_without_range", "range"},
+    Part{"mission_energy_without_clock", "clock"},
+    Part{"mission_energy_without_gaps", "sight of narrow places"},
+    Part{"mission_energy_without_declared_zones", "declared zones"},
+};
 
 struct Place {
   const char* sweep;
   const char* scenario;
   const char* title;
   std::vector<std::string> settings;
-  std::vector<Part> parts;
 };
 
-// OctoMap begins a new map with each change of the cells, so only there a change has a price worth
-// a part of its own.
 std::vector<Place> places() {
   const std::vector<std::string> mixed{"world.length_m=260", "world.buildings=1", "world.crowds=1",
                                        "world.slits=1"};
   return {
-      {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building", quick_map(),
-       main_parts()},
-      {"forest", "delivery_forest", "forest", quick_map(), main_parts()},
-      {"mixed", "delivery_mixed", "building, crowd and slit", joined(quick_map(), mixed),
-       main_parts()},
-      {"with_octomap",
-       "delivery_outdoor_to_indoor",
-       "into a building with OctoMap",
-       {"kernels.mapper=octomap"},
-       {{"mission_energy_without_switching_price", "price of a change of cells"}}},
+      {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building",
+       quick_map()},
+      {"forest", "delivery_forest", "forest", quick_map()},
+      {"mixed", "delivery_mixed", "building, crowd and slit", joined(quick_map(), mixed)},
   };
 }
 
@@ -60,7 +49,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
     Claim success{std::string{place.title} + ": flights with all parts that succeed", "%"};
     success.ours = success_percent(all);
     DotPlot plot{place.title, {}};
-    for (const Part& part : place.parts) {
+    for (const Part& part : parts) {
       const Point without = evidence.at(place.sweep, {}, part.preset);
       Claim claim{std::string{place.title} + ", without " + part.name +
                   ": energy over that with all parts"};
@@ -83,7 +72,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
 
 ExperimentSweep sweep_of(const Place& place) {
   ExperimentSweep sweep{place.sweep, place.scenario, place.settings, {}, {whole}};
-  for (const Part& part : place.parts) {
+  for (const Part& part : parts) {
     sweep.policies.emplace_back(part.preset);
   }
   return sweep;

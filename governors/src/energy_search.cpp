@@ -213,13 +213,10 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   best.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
   const Watts rotor_w = rotors_.power(best.speed_m_s);
   const Watts computer_w = computer_power(setting, latency_s);
-  const bool switches = setting.resolution_m != in_force_.resolution_m;
   const double shows_m = distance_m - best.speed_m_s * best.response_s;
   best.joules_per_m =
       path_over_line(settings_, setting.resolution_m, shows_m) *
           joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-      (switches ? settings_.switching_s * hover_w / std::max(settings_.horizon_m, distance_m)
-                : 0.0) +
       (around.failed_plans_per_m != nullptr
            ? (*around.failed_plans_per_m)[at_level] * settings_.failed_plan_s * hover_w
            : 0.0);

@@ -39,7 +39,6 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"detour_prices", Part::detour_prices},
-      {"switching_price", Part::switching_price},
       {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"view_budgets", Part::view_budgets, "half_view_nodes", 0.0},
       {"noise_limit", Part::noise_limit},
@@ -89,8 +88,6 @@ BoardModel Ablation::begins_with(BoardModel board) const {
 EnergySearchSettings Ablation::begins_with(EnergySearchSettings settings) const {
   if (part_ == Part::detour_prices) {
     settings.spacing_m = std::numeric_limits<double>::infinity();  // No obstacle ever comes.
-  } else if (part_ == Part::switching_price) {
-    settings.switching_s = 0.0;
   } else if (part_ == Part::wide_first_bound) {
     settings.bound.first = 0.1;  // About what a single scene's maps differ by.
     settings.bound.eta = 0.05;

@@ -54,7 +54,6 @@ class Ablation {
     rotor_power,
     declared_zones,
     detour_prices,
-    switching_price,
     plan_budgets,
     view_budgets,
     noise_limit,

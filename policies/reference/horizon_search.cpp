@@ -132,7 +132,7 @@ void HorizonSearch::switch_where_it_pays() {
     }
     for (std::size_t level = 0; level < levels_; ++level) {
       rest_j(level, v) =
-          std::min(rest_j(level, v), least_j + price_.switching_s * rotor_w_.front());
+          std::min(rest_j(level, v), least_j + settings_.switching_s * rotor_w_.front());
     }
   }
 }
@@ -184,7 +184,7 @@ void HorizonSearch::weigh_first(const EnergySearch& search, const Stretch& here,
       estimate.joules_per_m = onward_j(point, here, v);
     }
     const bool switches = points_[point].resolution_m != search.in_force().resolution_m;
-    estimate.joules_per_m += switches ? price_.switching_s * rotor_w_.front() : 0.0;
+    estimate.joules_per_m += switches ? settings_.switching_s * rotor_w_.front() : 0.0;
   }
 }
 

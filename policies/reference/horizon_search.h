@@ -18,7 +18,10 @@ struct HorizonSettings {
   double speed_step_m_s{0.5};    ///< Of the lattice of speeds.
   double most_speed_m_s{20.0};   ///< The highest speed of the lattice.
   double accelerates_m_s2{3.0};  ///< The path follower's usual acceleration.
-  double bound_over_true{1.1};   ///< The navigator's bound over the largest latency measured.
+  /// A change of resolution costs as much as so long a hover, because the other map starts with one
+  /// frame. Chosen.
+  double switching_s{0.2};
+  double bound_over_true{1.1};  ///< The navigator's bound over the largest latency measured.
 };
 
 /// Dynamic programming over arc length s, speed v and setting c:

@@ -115,22 +115,6 @@ TEST(EnergySearch, its_speed_is_that_of_equation_2_for_its_response) {
   EXPECT_GT(best.watts_per_second, 0.0);
 }
 
-TEST(EnergySearch, a_switch_pays_over_what_is_seen_ahead_and_ten_metres_at_least) {
-  EnergySearch one = search();
-  const MapSetting coarse{0.80, 12.0, top_hz};
-  for (const auto& [visibility_m, over_m] :
-       {std::pair{1e9, 12.0 - 0.80 - 0.5}, std::pair{6.0, 10.0}}) {
-    Surroundings around = open_space();
-    around.visibility_m = visibility_m;
-    one.put_in_force({0.15, 12.0, top_hz}, {});
-    const double switching_j_m = one.estimate(coarse, around).joules_per_m;
-    one.put_in_force(coarse, {});
-    const double switching_j = 0.2 * one.rotor_power(0.0).value();
-    EXPECT_NEAR(switching_j_m - one.estimate(coarse, around).joules_per_m, switching_j / over_m,
-                1e-9);
-  }
-}
-
 TEST(EnergySearch, at_the_missions_own_limit_latency_is_worth_nothing_and_the_clock_drops) {
   EnergySearch one = search();
   Surroundings slow = open_space();
