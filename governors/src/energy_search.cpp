@@ -202,8 +202,6 @@ double EnergySearch::response_s(double latency_s) const {
 EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundings& around) const {
   const SpeedLimit limit{around.deceleration_m_s2 > 0.0 ? around.deceleration_m_s2
                                                         : settings_.deceleration_m_s2};
-  const std::size_t at_level = level(setting.resolution_m);
-  const double hover_w = rotors_.power(0.0).value();
   const double latency_s = predicted_s(setting);
   EnergyEstimate best;
   best.setting = setting;
@@ -214,12 +212,8 @@ EnergyEstimate EnergySearch::estimate(const MapSetting& setting, const Surroundi
   const Watts rotor_w = rotors_.power(best.speed_m_s);
   const Watts computer_w = computer_power(setting, latency_s);
   const double shows_m = distance_m - best.speed_m_s * best.response_s;
-  best.joules_per_m =
-      path_over_line(settings_, setting.resolution_m, shows_m) *
-          joules_per_metre(rotor_w, computer_w, best.speed_m_s) +
-      (around.failed_plans_per_m != nullptr
-           ? (*around.failed_plans_per_m)[at_level] * settings_.failed_plan_s * hover_w
-           : 0.0);
+  best.joules_per_m = path_over_line(settings_, setting.resolution_m, shows_m) *
+                      joules_per_metre(rotor_w, computer_w, best.speed_m_s);
   if (safe_m_s < around.speed_limit_m_s) {
     best.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), best.response_s,
                                                    distance_m, rotors_.slope_w_s_m(best.speed_m_s));

@@ -34,12 +34,10 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"latency_learning", Part::latency_learning, "learn_s", 1e-9},  // Over before it begins.
       {"gaps", Part::gaps},
       {"visibility", Part::visibility},
-      {"failed_plan_prices", Part::failed_plan_prices},
       {"ceiling", Part::ceiling},
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"detour_prices", Part::detour_prices},
-      {"plan_budgets", Part::plan_budgets, "coarse_budget", 1e6},  // The scenario's is less.
       {"view_budgets", Part::view_budgets, "half_view_nodes", 0.0},
       {"noise_limit", Part::noise_limit},
       {"wide_first_bound", Part::wide_first_bound},
@@ -118,8 +116,6 @@ void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) 
     around.needs_top_clock = true;
   } else if (part_ == Part::visibility) {
     around.visibility_m = no_limit;
-  } else if (part_ == Part::failed_plan_prices) {
-    around.failed_plans_per_m = nullptr;
   }
 }
 

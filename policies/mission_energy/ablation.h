@@ -49,12 +49,10 @@ class Ablation {
     latency_learning,
     gaps,
     visibility,
-    failed_plan_prices,
     ceiling,
     rotor_power,
     declared_zones,
     detour_prices,
-    plan_budgets,
     view_budgets,
     noise_limit,
     wide_first_bound

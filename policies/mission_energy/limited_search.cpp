@@ -22,8 +22,8 @@ Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
                                           const KnobSettings& knobs,
                                           const BoardModel& board,
                                           Result<EnergySearchSettings> settings) {
-  if (const Status status = require_knobs(
-          owner, knobs, {"planner.budget", "map.resolution_m", "map.range_m", "cpu.frequency_hz"});
+  if (const Status status =
+          require_knobs(owner, knobs, {"map.resolution_m", "map.range_m", "cpu.frequency_hz"});
       !status) {
     return status.error();
   }

@@ -74,7 +74,6 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
       {"min_fine_s", 2.0, 0.0, 3600.0, "Finer cells last at least this long."},
-      {"coarse_budget", 200.0, 100.0, 1e6, "Iterations of a plan in coarse cells."},
       {"rest_s", 1.0, 0.01, 3600.0,
        "While the vehicle waits, a map may take so long, unless the mission says."},
       {"patience_s", 3.0, 0.1, 3600.0, "After standing for so long, the map gets fine cells."}};
@@ -87,8 +86,7 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
   const auto refused = [&owner](const std::string& why) {
     return Error{ErrorCode::invalid_input, owner + ": " + why};
   };
-  if (const Status status =
-          require_knobs(owner, knobs, {"planner.budget", "map.resolution_m", "map.range_m"});
+  if (const Status status = require_knobs(owner, knobs, {"map.resolution_m", "map.range_m"});
       !status) {
     return status.error();
   }
@@ -121,16 +119,12 @@ MissionLimits::MissionLimits(const Parameters& given,
       patience_s_{given.number("patience_s")},
       body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
       large_m_{0.5 * body_m_},
-      full_budget_{knobs.value("planner.budget")},
-      coarse_budget_{std::min(knobs.spec("planner.budget")->nearest(given.number("coarse_budget")),
-                              full_budget_)},
       camera_{vehicle.depth_camera},
       home_{knobs.value("map.resolution_m"), knobs.value("map.range_m"), 0.0},
       levels_m_{levels_of(given, *knobs.spec("map.resolution_m"), vehicle)},
       idle_{given.number("rest_s")},
       passability_{passability(given)},
-      visibility_{least_range_m_},
-      failed_{levels_m_, large_m_} {}
+      visibility_{least_range_m_} {}
 
 Passability MissionLimits::passability(const Parameters& given) const {
   PassabilitySettings passable;
@@ -229,8 +223,6 @@ Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_f
     around.least_range_m = std::max(around.least_range_m, least_range_m_);
   }
   around.clear_range_m = clear_range_m(seen, near);
-  failed_.note(seen, in_force.resolution_m);
-  around.failed_plans_per_m = &failed_.per_m();
   visibility_.note(seen, in_force.range_m);
   around.visibility_m = visibility_.distance_m();
   around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
@@ -280,27 +272,13 @@ bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSe
   return seeks_door_ || is_within;
 }
 
-double MissionLimits::plan_budget(const Observation& seen, double resolution_m) const {
-  return resolution_m > large_m_ ? coarse_budget_ : fine_budget(seen);
-}
-
-Decision MissionLimits::wish(const Observation& seen, const MapSetting& setting) const {
+Decision MissionLimits::wish(const MapSetting& setting) {
   Decision wish;
   wish.reason = Reason::energy;
   wish.set("map.resolution_m", setting.resolution_m);
   wish.set("map.range_m", setting.range_m);
   wish.set("cpu.frequency_hz", setting.clock_hz);
-  wish.set("planner.budget", plan_budget(seen, setting.resolution_m));
   return wish;
-}
-
-/// A path that exists is mostly found soon; when none exists, the search costs its whole budget
-/// while the vehicle stands. So a search begins with a quarter of the budget and is repeated with
-/// another seed and a newer map, twice as long each time (Luby, Sinclair and Zuckerman 1993,
-/// doi:10.1016/0020-0190(93)90029-9).
-double MissionLimits::fine_budget(const Observation& seen) const {
-  const double halvings = std::max(0.0, 2.0 - static_cast<double>(seen.planner_failures));
-  return std::max(coarse_budget_, full_budget_ * std::pow(0.5, halvings));
 }
 
 }  // namespace flyball

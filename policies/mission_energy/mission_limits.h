@@ -12,7 +12,6 @@
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"
 
-#include "failed_plans.h"
 #include "passability.h"
 #include "visibility.h"
 #include <optional>
@@ -23,9 +22,6 @@ namespace flyball {
 
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
 /// - The ceiling above the vehicle, which larger cells would fill down to it.
-/// - The price of a failed plan. In coarse cells, a path that is not found soon does not exist, and
-///   a long search for it would keep the vehicle standing. So plans get a small budget there, and
-///   the rate of failures at each level is a price of its cells (`FailedPlans`).
 /// - The camera's noise: a level ends where noise is half a cell. A mapper with a lattice keeps all
 ///   hits, also those far off, so there noise stays below a quarter of the body's width, too. Where
 ///   wide gaps are seen there may be more noise.
@@ -59,10 +55,8 @@ class MissionLimits {
 
   /// @param in_force  The setting that the search has chosen last.
   [[nodiscard]] Surroundings look(const Observation& seen, const MapSetting& in_force);
-  /// Budget of the next plan, with a map of this resolution [iterations].
-  [[nodiscard]] double plan_budget(const Observation& seen, double resolution_m) const;
-  /// This setting, with its plan's budget.
-  [[nodiscard]] Decision wish(const Observation& seen, const MapSetting& setting) const;
+  /// This setting as a decision.
+  [[nodiscard]] static Decision wish(const MapSetting& setting);
 
   /// Larger cells may close openings that nobody has seen yet.
   [[nodiscard]] double large_m() const { return large_m_; }
@@ -86,7 +80,6 @@ class MissionLimits {
   /// For where the mission is slow: small cells take long, and the vehicle stops within a metre.
   void add_ranges_from(double slow_m);
   [[nodiscard]] double longest_m(const KnobSettings& knobs) const;
-  [[nodiscard]] double fine_budget(const Observation& seen) const;
 
   bool keeps_hits_;  ///< The mapper does, at its finest level. Any other starts a new map.
   double least_range_m_;
@@ -94,8 +87,6 @@ class MissionLimits {
   double patience_s_;
   double body_m_;
   double large_m_;
-  double full_budget_;
-  double coarse_budget_{};
   std::optional<DepthCameraSpec> camera_;
   MapSetting home_;
   std::vector<double> levels_m_;  ///< Finest first.
@@ -103,7 +94,6 @@ class MissionLimits {
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
-  FailedPlans failed_;
   std::optional<double> last_gap_m_{};  ///< Since narrow places were declared, or the leg began.
   bool seeks_door_{};                   ///< A plan has failed near a narrow place.
 };

@@ -91,10 +91,7 @@ double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t
   const double shows_m =
       free_ahead_m(price_, one, around.visibility_m) - v_m_s * response_s(here.frame_s[point]);
   const double ratio = path_over_line(price_, one.resolution_m, shows_m);
-  const double failed_per_m =
-      around.failed_plans_per_m != nullptr ? (*around.failed_plans_per_m)[level_of_[point]] : 0.0;
-  return here.length_m * (ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s +
-                          failed_per_m * price_.failed_plan_s * rotor_w_.front());
+  return here.length_m * ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s;
 }
 
 /// The least over all speeds at the end of the stretch; `never` where none is within reach.

@@ -27,7 +27,7 @@ struct HorizonSettings {
 /// Dynamic programming over arc length s, speed v and setting c:
 ///
 ///     V(s, v, c) = min over v', c' of E(s, (v + v') / 2, c) + switching(c, c') + V(s + ds, v', c')
-///     E = ds (P_rotor(v) + P_computer(c)) / v * l [+ price of large cells]
+///     E = ds (P_rotor(v) + P_computer(c)) / v * l
 ///
 /// v <= v_c(s), eq. 2 for the true duration of a frame at s; v' within braking and acceleration of
 /// v; c no coarser than what is passable at s. l is that of `EnergySearch`. Nothing allocates after

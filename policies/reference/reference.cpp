@@ -66,7 +66,7 @@ class Reference final : public flyball::Policy,
     search_->learn(seen);
     const MapSetting best = chosen(seen);
     truth_ = nullptr;
-    return limits_->wish(seen, best);
+    return flyball::MissionLimits::wish(best);
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {

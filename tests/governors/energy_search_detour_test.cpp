@@ -94,20 +94,5 @@ TEST(EnergySearchDetour, takes_nothing_that_responds_too_late_if_anything_is_soo
   EXPECT_EQ(one.choose(room, quick.now).setting.range_m, 7.0);
 }
 
-TEST(EnergySearchDetour, large_cells_pay_for_the_plans_that_fail_in_them) {
-  EnergySearch one = search_with({});
-  Surroundings open = slow_place();
-  open.speed_limit_m_s = 20.0;
-  EXPECT_EQ(one.choose(open, {}).setting.resolution_m, 0.80);
-  const MapSetting large = one.in_force();
-  const double before_j_m = one.estimate(large, open).joules_per_m;
-  std::vector<double> per_m{0.0, 0.02};
-  open.failed_plans_per_m = &per_m;
-  EXPECT_NEAR(one.estimate(large, open).joules_per_m,
-              before_j_m + 0.02 * 2.5 * one.rotor_power(0.0).value(), 1e-9);
-  per_m.back() = 1.0;
-  EXPECT_EQ(one.choose(open, at(1.0)).setting.resolution_m, 0.15);
-}
-
 }  // namespace
 }  // namespace flyball

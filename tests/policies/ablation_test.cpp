@@ -112,12 +112,6 @@ TEST(Ablation, without_declared_zones_does_not_keep_the_finest_cells_behind_a_do
   EXPECT_GT(behind_the_door_m("declared_zones"), 0.15);
 }
 
-TEST(Ablation, without_plan_budgets_gives_each_plan_all_that_the_scenario_allows) {
-  const double full = flyball::conformance_knobs().value("planner.budget");
-  EXPECT_LT(Rule{"nothing"}.wish(before_a_door(), "planner.budget"), full);
-  EXPECT_EQ(Rule{"plan_budgets"}.wish(before_a_door(), "planner.budget"), full);
-}
-
 TEST(Ablation, without_a_noise_limit_looks_farther_with_a_noisy_camera) {
   flyball::BoardModel board;
   board.vehicle.depth_camera = flyball::DepthCameraSpec{};

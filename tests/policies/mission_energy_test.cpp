@@ -41,20 +41,6 @@ struct EnergyRule {
   flyball::StartedPolicy started;
 };
 
-TEST(MissionEnergy, gives_each_plan_in_fine_cells_twice_the_budget_of_the_one_that_failed) {
-  flyball::Observation seen = near_a_door();
-  EnergyRule rule;
-  ASSERT_TRUE(rule.started.status.ok());
-  const double full = flyball::conformance_knobs().value("planner.budget");
-  EXPECT_EQ(rule.wish(seen, "planner.budget"), full / 4.0);
-  seen.planner_failures = 1;
-  EXPECT_EQ(rule.wish(seen, "planner.budget"), full / 2.0);
-  seen.planner_failures = 2;
-  EXPECT_EQ(rule.wish(seen, "planner.budget"), full);
-  seen.planner_failures = 9;
-  EXPECT_EQ(rule.wish(seen, "planner.budget"), full);
-}
-
 TEST(MissionEnergy, has_finest_cells_at_the_top_clock_before_a_door) {
   EnergyRule rule;
   EXPECT_EQ(rule.wish(near_a_door(), "map.resolution_m"), 0.15);

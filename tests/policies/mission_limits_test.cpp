@@ -210,8 +210,8 @@ TEST(MissionLimits, says_what_contradicts_what) {
   EXPECT_NE(refusal({{"least_range_m", 20.0}, {"most_range_m", 10.0}}).find("below most_range_m"),
             std::string::npos);
   EXPECT_EQ(refusal({}, KnobSettings{}),
-            "policy \"mine\": there is no knob planner.budget, map.resolution_m, map.range_m; try: "
-            "flyball list knobs");
+            "policy \"mine\": there is no knob map.resolution_m, map.range_m; try: flyball "
+            "list knobs");
 }
 
 TEST(MissionLimits, needs_the_top_clock_where_a_gap_holds_the_vehicle_up) {
@@ -282,18 +282,6 @@ TEST(MissionLimits, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_
   EXPECT_EQ(limits->look(seen, next_finest).coarsest_m, 0.15);
   seen.speed_limit_m_s = 6.0;
   EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30);
-}
-
-TEST(MissionLimits, gives_plans_in_large_cells_little_and_those_in_fine_ones_more_each_time) {
-  auto limits = made({{"coarse_budget", 200.0}});
-  ASSERT_TRUE(limits.ok());
-  Observation seen = kit::cruising();
-  EXPECT_EQ(limits->plan_budget(seen, 0.80), 200.0);
-  EXPECT_EQ(limits->plan_budget(seen, 0.15), 10000.0);
-  seen.planner_failures = 1;
-  EXPECT_EQ(limits->plan_budget(seen, 0.15), 20000.0);
-  seen.planner_failures = 5;
-  EXPECT_EQ(limits->plan_budget(seen, 0.15), 40000.0);
 }
 
 }  // namespace

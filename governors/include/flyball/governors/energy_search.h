@@ -21,10 +21,9 @@ namespace flyball {
 
 struct EnergySearchSettings {
   double deceleration_m_s2{6.0};
-  double reaction_s{0.14};    ///< t_b: the guard's tick, a command's age and the brake's lag.
-  double margin_m{0.5};       ///< Body and tracking tube, subtracted from the distance. Chosen.
-  double frame_s{0.05};       ///< Between two frames of the camera.
-  double failed_plan_s{2.5};  ///< A failed plan costs as much as so long a hover. Chosen.
+  double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
+  double margin_m{0.5};     ///< Body and tracking tube, subtracted from the distance. Chosen.
+  double frame_s{0.05};     ///< Between two frames of the camera.
   /// Mean length of path from obstacle to obstacle; 0: there are none.
   double spacing_m{};
   double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of
@@ -61,11 +60,8 @@ struct Surroundings {
   /// end most rays in a room, but not in the open space behind the next door. Outside of rooms, at
   /// most ten times the learned one is expected.
   double most_response_s{1e9};
-  bool is_enclosed{};   ///< By walls, as in rooms.
-  double coarsest_m{};  ///< The largest cells with which the path ahead is passable.
-  /// For each level, finest first: how many plans fail in its cells per metre of path, because they
-  /// close gaps that nobody has seen yet; null: none. It stays the owner's.
-  const std::vector<double>* failed_plans_per_m{};
+  bool is_enclosed{};      ///< By walls, as in rooms.
+  double coarsest_m{};     ///< The largest cells with which the path ahead is passable.
   double finest_m{};       ///< The smallest cells that may be chosen; 0: any.
   WaitingShare waits{};    ///< Raises the price of lower clocks.
   bool needs_top_clock{};  ///< A plan is being searched for, which the model does not price.
@@ -82,11 +78,12 @@ struct EnergyEstimate {
 
 /// Exact search of a small lattice for the least energy per metre of progress
 ///
-///     J = (P_rotor(v) + P_computer) / v * l + failed plans
+///     J = (P_rotor(v) + P_computer) / v * l
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
-/// Here v is the speed of MAVBench's eq. 2 for the predicted latency. A change of cells costs
-/// nothing: a price of .2 s of hover changed no mission's energy (1.000 +- .011 in a forest, n 48).
+/// Here v is the speed of MAVBench's eq. 2 for the predicted latency. Neither a
+/// change of cells nor a failed plan has a price: .2 and 2.5 s of hover changed no mission's energy
+/// (1.000 +- .011 and 1.000 in a forest, n 48).
 /// The calibrated bound does not count here: it is for single maps, while energy adds up over all
 /// of them. With the bound in place of the prediction, the search took cells that were too large. l
 /// is the length of the path over that of the straight line: an obstacle of half width w that comes
