@@ -21,8 +21,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
             std::string{doors == std::string{"fine"} ? "doors on the grid" : "doors anywhere"} +
             (noise == std::string{"true"} ? ", noise" : ", no noise");
         plot.values.push_back({name, median(point, flight_figure("battery_used_percent")).value});
-        const Claim success = success_claim(policy + ", " + name, point);
-        findings.claims.push_back(success);
+        findings.claims.push_back(success_claim(policy + ", " + name, point));
       }
     }
     findings.figures.push_back(

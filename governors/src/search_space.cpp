@@ -96,14 +96,21 @@ double shown_free_m(const Observation& seen) {
   return std::isfinite(shown_m) ? std::clamp(shown_m, 0.0, farthest_m) : 0.0;
 }
 
+Decision decision_for(const MapSetting& setting) {
+  Decision wish;
+  wish.reason = Reason::energy;
+  wish.set("map.resolution_m", setting.resolution_m);
+  wish.set("map.range_m", setting.range_m);
+  wish.set("cpu.frequency_hz", setting.clock_hz);
+  return wish;
+}
+
 std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed) {
   std::vector<PolicyOption> all;
   for (const EnergyEstimate& one : weighed) {
     if (std::isfinite(one.joules_per_m)) {
       PolicyOption option;
-      option.setting.set("map.resolution_m", one.setting.resolution_m);
-      option.setting.set("map.range_m", one.setting.range_m);
-      option.setting.set("cpu.frequency_hz", one.setting.clock_hz);
+      option.setting = decision_for(one.setting);
       option.speed_m_s = one.speed_m_s;
       option.joules_per_m = one.joules_per_m;
       option.response_s = one.response_s;

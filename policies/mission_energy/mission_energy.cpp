@@ -75,7 +75,7 @@ class MissionEnergy final : public flyball::Policy,
     const MapSetting best =
         within_s ? search_->idle(home.resolution_m, home.range_m, *within_s, raised_by, seen.now)
                  : search_->choose(surroundings(seen), seen.now).setting;
-    flyball::Decision wish = flyball::MissionLimits::wish(best);
+    flyball::Decision wish = flyball::decision_for(best);
     if (views_) {
       views_->note(seen);
       if (const auto nodes = views_->nodes()) {

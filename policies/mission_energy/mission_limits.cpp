@@ -19,7 +19,7 @@ constexpr double next_maps_s = 0.5;     // Chosen: for two decisions a range sta
 /// reach up to the vehicle: there every plan would begin in an occupied cell.
 double largest_cells_m(const std::vector<double>& lattice_m, const VehicleModel& vehicle) {
   // Larger cells block more of the paths between trees: in delivery_forest, .8 m take 1.06 of the
-  // energy that .6 m take (stock OctoMap, n 48), and they gain nothing in congestion.
+  // energy that .6 m take (stock OctoMap, n 96), and they gain nothing in congestion.
   constexpr double usual_m = 0.6;
   const double most_m = std::min(usual_m, vehicle.ground_clearance_m.value_or(usual_m));
   if (lattice_m.empty()) {
@@ -270,15 +270,6 @@ bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSe
   const bool is_within =
       near && seen.speed_m_s <= narrow_m_s_ && !(in_force.resolution_m > levels_m_.front());
   return seeks_door_ || is_within;
-}
-
-Decision MissionLimits::wish(const MapSetting& setting) {
-  Decision wish;
-  wish.reason = Reason::energy;
-  wish.set("map.resolution_m", setting.resolution_m);
-  wish.set("map.range_m", setting.range_m);
-  wish.set("cpu.frequency_hz", setting.clock_hz);
-  return wish;
 }
 
 }  // namespace flyball

@@ -55,8 +55,6 @@ class MissionLimits {
 
   /// @param in_force  The setting that the search has chosen last.
   [[nodiscard]] Surroundings look(const Observation& seen, const MapSetting& in_force);
-  /// This setting as a decision.
-  [[nodiscard]] static Decision wish(const MapSetting& setting);
 
   /// Larger cells may close openings that nobody has seen yet.
   [[nodiscard]] double large_m() const { return large_m_; }

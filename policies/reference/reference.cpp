@@ -66,7 +66,7 @@ class Reference final : public flyball::Policy,
     search_->learn(seen);
     const MapSetting best = chosen(seen);
     truth_ = nullptr;
-    return flyball::MissionLimits::wish(best);
+    return flyball::decision_for(best);
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {

@@ -246,9 +246,8 @@ std::vector<Error> Airframe::validate() const {
           "four rotors of " + text(rotor_mass_kg) +
               " kg must weigh >= 0 and less than mass_kg = " + text(mass_kg));
   const double needed_n = spare * mass_kg * gravity_m_s2;
-  require(most_payload_kg() > 0.0, "the rotors' " + text(lift_n(*this)) +
-                                       " N must exceed 1.2 times the weight, " + text(needed_n) +
-                                       " N");
+  require(most_payload_kg() > 0.0, "the rotors' " + text(lift_n(*this)) + " N must exceed " +
+                                       text(spare) + " times the weight, " + text(needed_n) + " N");
   return errors;
 }
 

@@ -61,6 +61,9 @@ constexpr double open_path_m = 6.0;
 /// the values of an observation make no sense.
 [[nodiscard]] double shown_free_m(const Observation& seen);
 
+/// The wishes for the map and the clock, with `Reason::energy`.
+[[nodiscard]] Decision decision_for(const MapSetting& setting);
+
 /// The settings that a search compared and allows, with the least energy per metre first.
 [[nodiscard]] std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed);
 
