@@ -81,15 +81,14 @@ struct EnergyEstimate {
 ///     J = (P_rotor(v) + P_computer) / v * l
 ///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
 ///
-/// Here v is the speed of MAVBench's eq. 2 for the predicted latency. Neither a
-/// change of cells nor a failed plan has a price: .2 and 2.5 s of hover changed no mission's energy
-/// (1.000 +- .011 and 1.000 in a forest, n 48).
-/// The calibrated bound does not count here: it is for single maps, while energy adds up over all
-/// of them. With the bound in place of the prediction, the search took cells that were too large. l
-/// is the length of the path over that of the straight line: an obstacle of half width w that comes
-/// into view s ahead makes the path longer by sqrt(s^2 + w^2) - s, and by the cell that its border
-/// fills. So small cells and a long range are worth something even where the mission, not latency,
-/// limits the speed.
+/// Here v is the speed of MAVBench's eq. 2 for the predicted latency. The calibrated bound does not
+/// count here: it is for single maps, while energy adds up over all of them. With the bound in
+/// place of the prediction, the search took cells that were too large. l is the length of the path
+/// over that of the straight line: an obstacle of half width w that comes into view s ahead makes
+/// the path longer by sqrt(s^2 + w^2) - s, and by the cell that its border fills. So small cells
+/// and a long range are worth something even where the mission, not latency, limits the speed.
+/// Neither a change of cells nor a failed plan has a price: .2 and 2.5 s of hover changed no
+/// mission's energy (1.000 +- .011 and 1.000 in a forest, n 48).
 ///
 /// Among settings that take less than a thousandth more than the best, the search takes the one
 /// with the shortest response. It learns latency and rotor power from observations, and also how
