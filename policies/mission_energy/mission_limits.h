@@ -7,7 +7,6 @@
 #include "flyball/governors/energy_search.h"
 #include "flyball/governors/idle.h"
 #include "flyball/runtime/board.h"
-#include "flyball/runtime/decision.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
 #include "flyball/runtime/result.h"

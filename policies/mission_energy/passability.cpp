@@ -76,10 +76,10 @@ Passability::Standing Passability::standing(const Observation& seen) {
 // The finest cells have a short range. So while a gap is still far away, and after a first failed
 // plan, the next coarser level is used.
 std::size_t Passability::needed_level(const Observation& seen, Standing standing) const {
-  const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
   if (seen.planner_failures > 1 || standing == Standing::for_good) {
     return 0;
   }
+  const bool has_failed = standing != Standing::no || seen.planner_failures > 0;
   const std::size_t coarsest = has_failed ? retry_level_ : levels_m_.size() - 1;
   const std::size_t open = open_level(seen);
   const bool is_far = seen.gap_distance_m > settings_.near_m;

@@ -162,6 +162,7 @@ TEST(MissionEnergy, plans_on_the_ground_in_the_cells_that_it_will_fly_with) {
   for (const auto phase : {flyball::MissionPhase::take_off, flyball::MissionPhase::land}) {
     flyball::Observation seen = cruising();
     seen.phase = phase;
+    seen.speed_m_s = 0.0;
     EXPECT_EQ(EnergyRule{}.wish(seen, "map.resolution_m"), in_flight_m);
   }
 }

@@ -10,8 +10,8 @@ namespace flyball {
 namespace {
 
 constexpr double headroom_limit_m = 5.0;  // Chosen: four times the largest cells.
-constexpr double zone_limit_m = 40.0;     // Twice the range of the shipped cameras.
 constexpr double headroom_step_m = 0.05;  // A third of the finest cells.
+constexpr double zone_limit_m = 40.0;     // Chosen: twice the range of most shipped cameras.
 // Chosen: where density and speed limits ahead are looked up, closer than RoboRun's blocks are
 // wide.
 constexpr std::array<double, 3> density_places_m{4.0, 8.0, 12.0};

@@ -181,6 +181,8 @@ TEST(Navigator, lets_the_next_path_begin_at_its_stop_when_it_was_too_fast_for_th
   ASSERT_TRUE(second.has_value());
   EXPECT_FALSE(second->may_turn_back) << "another search takes less time than turning";
   EXPECT_GT(second->start_W.x(), first->start_W.x() + 0.3);
+  trip.tick(400);
+  EXPECT_NEAR(trip.navigator.follower().position_W().x(), second->start_W.x(), 0.1);
 }
 
 TEST(Navigator, may_turn_back_to_a_known_path_where_it_is_slow) {
