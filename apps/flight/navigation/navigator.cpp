@@ -240,6 +240,8 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   ++failures_;
   if (planned.failure == "start blocked" && at_rest_since_) {
     leave_blocked_place();
+  } else if (at_rest_since_) {
+    look_from_elsewhere();
   }
   // The governor sees the failure first, because its settings may be the reason.
   const Duration look = from_seconds(brief_->settings.governor.period_s);

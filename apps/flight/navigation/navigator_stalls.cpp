@@ -10,6 +10,9 @@ using namespace std::chrono_literals;
 
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
+constexpr int tries = 3;             // Chosen: the third search is the first with a narrow tube.
+constexpr int tries_where_slow = 6;  // Chosen: so often a door that noise had closed was not open.
+constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
 
 }  // namespace
 
@@ -27,7 +30,7 @@ void Navigator::note_stall(MissionTime now) {
   }
   trust_own_place();
   failures_ = ++stalls_;
-  if (!steps_back()) {
+  if (!leaves_blind_zone()) {
     want_plan(now, "stalled before unknown space");
   }
 }
@@ -37,7 +40,7 @@ void Navigator::leave_blocked_place() {
   const Vec3 here_W = follower_.position_W();
   const auto aside_W = place_aside_W(situation(), here_W);
   if (!aside_W) {
-    (void)steps_back();
+    (void)leaves_blind_zone();
   } else if (*aside_W != here_W) {
     leave_path_at(*aside_W, follower_.yaw_rad());
   }
@@ -53,17 +56,35 @@ double Navigator::yaw_ahead_rad() const {
   return yaw_of(ahead_W - follower_.position_W());
 }
 
-bool Navigator::steps_back() {
-  const Intrinsics camera = brief_->settings.camera.intrinsics();
-  const double away_m = blind_m(map_->resolution_m(), brief_->narrow_body(),
-                                0.5 * camera.height_px / camera.focal_px);
-  const bool is_unseen = brief_->maps_obstacles && !knobs_->restraint.must_hover;
-  if (!is_unseen || !back_.begin(away_m, yaw_ahead_rad())) {
+bool Navigator::steps_back(double away_m, double yaw_rad) {
+  const bool may_go = brief_->maps_obstacles && !knobs_->restraint.must_hover;
+  if (!may_go || !back_.begin(away_m, yaw_rad)) {
     return false;
   }
   leave_path_at(follower_.position_W(), follower_.yaw_rad());
+  return true;
+}
+
+bool Navigator::leaves_blind_zone() {
+  const Intrinsics camera = brief_->settings.camera.intrinsics();
+  const double away_m = blind_m(map_->resolution_m(), brief_->narrow_body(),
+                                0.5 * camera.height_px / camera.focal_px);
+  if (!steps_back(away_m, yaw_ahead_rad())) {
+    return false;
+  }
   news_.events.push_back("steps back to see what is before it");
   return true;
+}
+
+// A path may have led past the only opening, which noise had closed, to where that is out of view.
+// Where the mission is slow, an opening is mostly near, and from nearby it is seen best.
+void Navigator::look_from_elsewhere() {
+  const Vec3 here_W = follower_.position_W();
+  const bool is_slow = situation().speed_limit_m_s(here_W) <= slow_m_s;
+  if (failures_ >= (is_slow ? tries_where_slow : tries) &&
+      steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
+    news_.events.push_back("goes back to look for a path from there");
+  }
 }
 
 void Navigator::go_back(MissionTime now, Duration dt, double error_m) {

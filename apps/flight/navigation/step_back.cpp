@@ -10,9 +10,9 @@ namespace flyball {
 namespace {
 
 // Chosen by hand. The vehicle cannot see behind itself, so it flies back slowly and not far.
-constexpr double spacing_m = 0.1;     // Between remembered places: less than a fine cell.
-constexpr double most_trail_m = 5.0;  // Longer than the blind zone of cells of 1 m.
-constexpr double least_m = 0.2;       // From nearer by the camera would see nothing new.
+constexpr double spacing_m = 0.1;      // Between remembered places: less than a fine cell.
+constexpr double most_trail_m = 16.0;  // For four looks from elsewhere (Navigator).
+constexpr double least_m = 0.2;        // From nearer by the camera would see nothing new.
 constexpr double speed_m_s = 0.5;
 constexpr double turn_rate_rad_s = 0.8;
 constexpr double settled_m = 0.15;  // The vehicle stands when it is this near to its reference, ...

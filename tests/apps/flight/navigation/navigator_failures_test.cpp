@@ -3,6 +3,7 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +67,41 @@ TEST(NavigatorFailures, looks_towards_its_goal_and_to_both_sides_after_a_plan_th
   constexpr double north_rad = 1.5707963267948966;
   EXPECT_GT(most_rad, north_rad + 0.7);
   EXPECT_LT(least_rad, north_rad - 0.7);
+}
+
+/// Flies east until its path is blocked and stands there, while searches for another path fail.
+///
+/// @return How far it has gone back after so many of them [m].
+double goes_back_m(Trip& trip, int searches) {
+  auto query = trip.fly_until_blocked();
+  trip.tick(1000);
+  const Vec3 before_W = trip.navigator.follower().position_W();
+  for (int i = 0; i < searches; ++i) {
+    if (!query) {
+      ADD_FAILURE() << "asks for no plan after " << i;
+      break;
+    }
+    trip.navigator.path_planned(trip.now, {query->id, {}, "no path"});
+    trip.tick(600);
+    query = trip.navigator.next_query(trip.now);
+  }
+  return (trip.navigator.follower().position_W() - before_W).norm();
+}
+
+TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_when_three_searches_have_found_none) {
+  for (const auto& [searches, away_m] : {std::pair{2, 0.0}, std::pair{3, 4.0}, std::pair{4, 8.0}}) {
+    Trip trip;
+    EXPECT_NEAR(goes_back_m(trip, searches), away_m, 0.11) << searches;
+  }
+}
+
+TEST(NavigatorFailures, stays_longer_where_the_mission_is_slow_since_openings_are_near) {
+  Site site;
+  site.zones = {{{Vec3{3, -3, 0}, Vec3{60, 3, 3}}, slow_m_s}};
+  for (const auto& [searches, away_m] : {std::pair{5, 0.0}, std::pair{6, 4.0}}) {
+    Trip trip{kit::MissionRig::one_core(), site};
+    EXPECT_NEAR(goes_back_m(trip, searches), away_m, 0.11) << searches;
+  }
 }
 
 }  // namespace

@@ -78,7 +78,9 @@ class Navigator {
   void leave_blocked_place();
   void leave_path_at(const Vec3& p_W, double yaw_rad);
   [[nodiscard]] double yaw_ahead_rad() const;
-  [[nodiscard]] bool steps_back();
+  [[nodiscard]] bool steps_back(double away_m, double yaw_rad);
+  [[nodiscard]] bool leaves_blind_zone();
+  void look_from_elsewhere();
   void go_back(MissionTime now, Duration dt, double error_m);
   void plan_failed(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& path_W) const;

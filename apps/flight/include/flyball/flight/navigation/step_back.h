@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Flies back along the own track, out of the zone that the camera cannot see.
+/// Flies back along the own track, to where the camera sees more.
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/time.h"
