@@ -237,10 +237,10 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
     want_plan(now, "the path cannot be joined: " + planned.failure);
     return;
   }
-  ++failures_;
+  failures_ += planned.map_moved_on ? 0 : 1;
   if (planned.failure == "start blocked" && at_rest_since_) {
     leave_blocked_place();
-  } else if (at_rest_since_) {
+  } else if (at_rest_since_ && !planned.map_moved_on) {
     look_from_elsewhere();
   }
   // The governor sees the failure first, because its settings may be the reason.

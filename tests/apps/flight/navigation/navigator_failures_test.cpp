@@ -23,6 +23,7 @@ TEST(NavigatorFailures, plans_anew_after_the_governors_next_look_when_only_the_m
     EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
     trip.now += from_seconds(trip.rig.scenario.governor.period_s);
     EXPECT_EQ(trip.navigator.next_query(trip.now).has_value(), moved_on);
+    EXPECT_EQ(trip.navigator.state().planner_failures, moved_on ? 0U : 1U) << "a path was found";
   }
 }
 

@@ -109,7 +109,7 @@ class Navigator {
   std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
   bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
-  int failures_{};  ///< Plans in a row that have failed.
+  int failures_{};  ///< Searches that found no path since one was last adopted.
   int replans_{};
   StepBack back_{};
   MissionTime asked_at_{};

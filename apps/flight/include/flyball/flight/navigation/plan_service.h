@@ -20,7 +20,7 @@ struct PlanQuery {
   Vec3 start_W{Vec3::Zero()};
   Vec3 start_direction_W{Vec3::Zero()};  ///< Zero: from a standstill.
   Vec3 goal_W{Vec3::Zero()};
-  int failures{};        ///< Plans in a row that have failed.
+  int failures{};        ///< Searches that found no path since one was last adopted.
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
