@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
 namespace {
@@ -34,15 +33,14 @@ class GapSwitch final : public flyball::Policy {
             {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit that means narrow gaps; 0: none does."},
             {"near_m", 8.0, 0.0, 100.0, "From farther on, gaps are looked at on the second level."},
             // As of density.
-            {"min_fine_s", 2.0, 0.0, 3600.0, "Smaller cells last at least this long."},
-            {"coarse_budget", 200.0, 100.0, 1e6, "Iterations of a plan from the third level on."}};
+            {"min_fine_s", 2.0, 0.0, 3600.0, "Smaller cells last at least this long."}};
   }
 
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::KnobSettings& knobs,
                         const flyball::BoardModel& board) override {
-    if (flyball::Status status = flyball::require_knobs(
-            "policy \"gap_switch\"", knobs, {"map.resolution_m", "map.range_m", "planner.budget"});
+    if (flyball::Status status = flyball::require_knobs("policy \"gap_switch\"", knobs,
+                                                        {"map.resolution_m", "map.range_m"});
         !status) {
       return status;
     }
@@ -60,8 +58,6 @@ class GapSwitch final : public flyball::Policy {
     narrow_m_s_ = given.number("narrow_m_s");
     near_m_ = given.number("near_m");
     min_fine_ = flyball::from_seconds(given.number("min_fine_s"));
-    full_budget_ = knobs.value("planner.budget");
-    coarse_budget_ = std::min(given.number("coarse_budget"), full_budget_);
     level_ = top_;
     needed_at_ = last_ = flyball::MissionTime{};
     finest_on_m_ = 0.0;
@@ -77,7 +73,6 @@ class GapSwitch final : public flyball::Policy {
     wish.reason = flyball::Reason::density;
     wish.set("map.resolution_m", cells_m_[level_]);
     wish.set("map.range_m", ranges_m_[level_]);
-    wish.set("planner.budget", plan_budget(seen));
     return wish;
   }
 
@@ -133,25 +128,12 @@ class GapSwitch final : public flyball::Policy {
     }
   }
 
-  // In large cells, a path that is not found soon does not exist. In small ones a search begins
-  // with a quarter and doubles (Luby, Sinclair and Zuckerman 1993,
-  // doi:10.1016/0020-0190(93)90029-9).
-  [[nodiscard]] double plan_budget(const Observation& seen) const {
-    if (level_ >= 2) {
-      return coarse_budget_;
-    }
-    const double halvings = std::max(0.0, 2.0 - static_cast<double>(seen.planner_failures));
-    return full_budget_ * std::pow(0.5, halvings);
-  }
-
   std::array<double, 4> cells_m_{};
   std::array<double, 4> ranges_m_{};
   std::size_t top_{};  ///< The coarsest level.
   double body_m_{};
   double narrow_m_s_{};
   double near_m_{};
-  double full_budget_{};
-  double coarse_budget_{};
   flyball::Duration min_fine_{};
 
   std::size_t level_{};

@@ -16,17 +16,16 @@ parameters = {
   {name = "narrow_m_s", default = 2, min = 0, max = 50, description = "A speed limit that means narrow gaps."},
   {name = "near_m", default = 8, min = 0, max = 100, description = "From farther on, gaps are looked at on the second level."},
   {name = "min_fine_s", default = 2, min = 0, max = 3600, description = "Smaller cells last at least this long."},
-  {name = "coarse_budget", default = 200, min = 100, max = 1e6, description = "Iterations of a plan at the third level."},
 }
 
 local past_the_gap_m = 3
 local rounding = 1e-9 -- a difference is not exact
 
-local settings, cells_m, ranges_m, full_budget
+local settings, cells_m, ranges_m
 local level, finest_on_m, needed_at_s, last_s
 
 function start(given, knobs)
-  for _, needed in ipairs({"map.resolution_m", "map.range_m", "planner.budget"}) do
+  for _, needed in ipairs({"map.resolution_m", "map.range_m"}) do
     if not knobs[needed] then
       error("there is no knob " .. needed)
     end
@@ -34,7 +33,6 @@ function start(given, knobs)
   settings = given
   cells_m = {given.fine_m, 2 * given.fine_m, 4 * given.fine_m}
   ranges_m = {given.range_m, given.range_2_m, given.range_3_m}
-  full_budget = knobs["planner.budget"].value
   level, finest_on_m, needed_at_s, last_s = #cells_m, 0, 0, 0
 end
 
@@ -78,17 +76,9 @@ local function move_to(wanted, seen)
   end
 end
 
-local function plan_budget(seen)
-  if level >= 3 then
-    return math.min(settings.coarse_budget, full_budget)
-  end
-  return full_budget * 0.5 ^ math.max(0, 2 - seen.planner_failures)
-end
-
 function decide(seen)
   finest_on_m = math.max(0, finest_on_m - math.max(0, seen.speed_m_s) * (seen.now_s - last_s))
   last_s = seen.now_s
   move_to(wanted_level(seen), seen)
-  return {["map.resolution_m"] = cells_m[level], ["map.range_m"] = ranges_m[level],
-          ["planner.budget"] = plan_budget(seen)}, "density"
+  return {["map.resolution_m"] = cells_m[level], ["map.range_m"] = ranges_m[level]}, "density"
 end

@@ -26,7 +26,9 @@ constexpr double half_band_m = 0.3;  // A little more than half the body's heigh
 constexpr double worthwhile = 0.5;  // Flight is slower in a narrow tube: it must save this share.
 constexpr int shorter_iterations = 400;  // A known door takes fewer (tests/kernels/rrt_test.cpp).
 constexpr int most_improvements = 3;
-constexpr int wide_parts = 8;  // A wide tube gets an eighth of the budget: what fits is found soon.
+constexpr int wide_iterations = 500;    // A wide path is found within so many, if there is one.
+constexpr int first_iterations = 1000;  // Of 740 paths on mixed missions 28 took more.
+constexpr int most_doublings = 10;      // More than any budget.
 // Measured in flights of delivery_mixed: 9 of 88 such searches found a path, and a vehicle in
 // motion loses this share of the time that it searches, because it flies on meanwhile.
 constexpr double finds_one = 0.1;
@@ -53,11 +55,14 @@ class Search {
 
  private:
   // The first search asks for room around the wide tube that cruise speed needs, the second one for
-  // the wide tube alone; each gets a small part of the budget, because a wide path is mostly found
-  // soon if there is one. The narrow tube gets what is left. A tube that fits through none of the
-  // openings ahead is not tried, since before doors that would take a quarter of the time.
+  // the wide tube alone, each with few iterations. A tube that fits through none of the openings
+  // ahead is not tried, since before doors that would take most of the time. With the narrow tube
+  // there may be no path at all, and the vehicle stands while a search uses up its iterations. So
+  // the first one is short, and each after a failed one is twice as long and on a newer map (Luby,
+  // Sinclair and Zuckerman 1993, doi:10.1016/0020-0190(93)90029-9).
   bool find_any() {
-    const int budget = static_cast<int>(situation_.knobs.value("planner.budget"));
+    const int budget = std::min(static_cast<int>(situation_.knobs.value("planner.budget")),
+                                first_iterations << std::min(query_.failures, most_doublings));
     if (query_.may_be_tight) {
       return try_with(situation_.brief.narrow_body(), budget);
     }
@@ -65,14 +70,13 @@ class Search {
     const auto fits = [&](const Cylinder& body) {
       return 2.0 * body.radius_m <= opening_m + exact_to_m;
     };
-    const int part = budget / wide_parts;
+    const int few = std::min(wide_iterations, budget);
     const Cylinder wide = situation_.brief.body_at(situation_.knobs.value("mission.max_speed_m_s"));
     const Cylinder roomy{wide.radius_m + room_m, wide.half_height_m};
     const bool tries_roomy = 2.0 * situation_.map.resolution_m() <= room_m && fits(roomy);
     const bool tries_wide = fits(wide);
-    const int tried = (tries_roomy ? part : 0) + (tries_wide ? part : 0);
-    return (tries_roomy && try_with(roomy, part)) || (tries_wide && try_with(wide, part)) ||
-           try_with(situation_.brief.narrow_body(), budget - tried);
+    return (tries_roomy && try_with(roomy, few)) || (tries_wide && try_with(wide, few)) ||
+           try_with(situation_.brief.narrow_body(), budget);
   }
 
   [[nodiscard]] double narrowest_opening_m() {

@@ -51,7 +51,7 @@ struct Plan {
 
 class PathPlanner : public Kernel {
  public:
-  /// How much one plan may cost: `PlanRequest::max_iterations`.
+  /// How much one search may cost: `PlanRequest::max_iterations` is at most that.
   [[nodiscard]] std::vector<KnobSpec> knobs() const override {
     return {{"planner.budget",
              "iterations",
@@ -60,7 +60,7 @@ class PathPlanner : public Kernel {
              100.0,
              1e6,
              4000.0,
-             "iterations that one plan may take"}};
+             "iterations that one search may take"}};
   }
   /// Unknown space may be crossed, occupied cubes may not. Same request and map, same plan.
   [[nodiscard]] virtual Plan plan(const PlanRequest& request, const OccupancyView& map) = 0;

@@ -3,6 +3,9 @@
 
 #include "mission_rig.h"
 #include <array>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -16,10 +19,12 @@ kit::GridMap room_with_gap(double gap_m) {
   return map;
 }
 
-/// Finds nothing, and counts how often it was asked.
+/// Finds nothing, and counts how often it was asked, and for how many iterations.
 class CountingPlanner final : public PathPlanner {
  public:
-  Plan plan(const PlanRequest&, const OccupancyView&) override {
+  std::vector<int> iterations{};
+  Plan plan(const PlanRequest& request, const OccupancyView&) override {
+    iterations.push_back(request.max_iterations);
     Plan none;
     none.failure = "none";
     none.work.add("tubes", 1.0);
@@ -59,10 +64,36 @@ TEST(PlanWithTubes, keeps_to_its_budget_where_there_is_no_path) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
   ASSERT_TRUE(planning.rig.set("planner.budget", 1600));
+  planning.query.may_be_tight = true;
+  planning.query.failures = 5;
   Cylinder body;
   const Plan plan = planning.plan(body);
   EXPECT_TRUE(plan.waypoints_W.empty());
   EXPECT_LE(plan.work.count("iterations"), 1600.0);
+  EXPECT_GT(plan.work.count("iterations"), 1500.0);
+}
+
+// What a wide tube gets was a share of the budget, so that a small budget meant narrow paths, which
+// are flown slowly.
+TEST(PlanWithTubes, searches_briefly_with_wide_tubes_and_longer_with_each_failure_in_narrow_ones) {
+  const kit::GridMap map = room_with_gap(4.5);
+  const auto iterations = [&map](int failures, double budget) {
+    Planning planning{map};
+    auto planner = std::make_unique<CountingPlanner>();
+    const CountingPlanner& asked = *planner;
+    planning.planner = std::move(planner);
+    planning.query.goal_W.y() = 0.0;
+    planning.query.failures = failures;
+    EXPECT_TRUE(planning.rig.set("planner.budget", budget));
+    Cylinder body;
+    (void)planning.plan(body);
+    return asked.iterations;
+  };
+  EXPECT_EQ(iterations(0, 4000), (std::vector<int>{500, 500, 1000}));
+  EXPECT_EQ(iterations(1, 4000), (std::vector<int>{500, 500, 2000}));
+  EXPECT_EQ(iterations(9, 4000), (std::vector<int>{500, 500, 4000}));
+  EXPECT_EQ(iterations(1000, 1e6), (std::vector<int>{500, 500, 1000000}));
+  EXPECT_EQ(iterations(1, 300), (std::vector<int>{300, 300, 300}));
 }
 
 TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
@@ -75,7 +106,7 @@ TEST(PlanWithTubes, falls_back_to_the_narrow_tube_in_a_door) {
   EXPECT_GT(plan.work.count("iterations"), 0.0);
 }
 
-// Two eighths of the budget would go to tubes that no opening lets through.
+// Half of the iterations would go to tubes that no opening lets through.
 TEST(PlanWithTubes, spends_nothing_on_tubes_that_cannot_pass) {
   const auto iterations = [](double gap_m) {
     const kit::GridMap map = room_with_gap(gap_m);

@@ -12,9 +12,9 @@
 namespace flyball {
 
 /// Answers one request. The first search asks for the tube of cruise speed with room beside it;
-/// later ones ask for narrower tubes. All searches together keep to the knob `planner.budget`. If
-/// the path is a detour, a much shorter one is searched for with the narrowest tube, because the
-/// first path of a sampling planner leads around a house as likely as through its door.
+/// later ones ask for narrower tubes. Each search keeps to the knob `planner.budget`. If the path
+/// is a detour, a much shorter one is searched for with the narrowest tube, because the first path
+/// of a sampling planner leads around a house as likely as through its door.
 ///
 /// @param body  Out: the body, with its tube, that the plan was found for.
 /// @return      The plan; its work is that of all searches.
