@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
-constexpr int tries = 3;             // Chosen: the third search is the first with a narrow tube.
+constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr int tries_where_slow = 6;  // Chosen: so often a door that noise had closed was not open.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
 
