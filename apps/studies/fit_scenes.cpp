@@ -61,9 +61,7 @@ class Delivery {
   }
 
  private:
-  [[nodiscard]] bool is_indoors() const {
-    return bench_.situation().speed_limit_m_s(here_W()) <= slow_m_s;
-  }
+  [[nodiscard]] bool is_indoors() const { return bench_.situation().is_slow_at(here_W()); }
   [[nodiscard]] Vec3 here_W() const { return path_.at(s_m_).p_W; }
   [[nodiscard]] Pose pose() const { return looking(here_W(), yaw_of(path_.at(s_m_).tangent_W)); }
 

@@ -188,7 +188,7 @@ PlanQuery Navigator::query() {
   query.goal_W = *goal_W_;
   query.failures = failures_;
   // When no path was found twice with the narrow tube, none will be found with a wide one.
-  query.may_be_tight = situation().speed_limit_m_s(query.start_W) <= slow_m_s || failures_ > 1;
+  query.may_be_tight = situation().is_slow_at(query.start_W) || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
   return query;
 }

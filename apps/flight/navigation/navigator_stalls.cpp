@@ -80,8 +80,7 @@ bool Navigator::leaves_blind_zone() {
 // Where the mission is slow, an opening is mostly near, and from nearby it is seen best.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
-  const bool is_slow = situation().speed_limit_m_s(here_W) <= slow_m_s;
-  if (failures_ >= (is_slow ? tries_where_slow : tries) &&
+  if (failures_ >= (situation().is_slow_at(here_W) ? tries_where_slow : tries) &&
       steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
     news_.events.push_back("goes back to look for a path from there");
   }

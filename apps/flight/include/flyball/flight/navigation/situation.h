@@ -19,6 +19,8 @@ struct Situation {
   [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const {
     return knobs.speed_limit_m_s(brief.site, p_W);
   }
+  /// In a narrow passage or a room.
+  [[nodiscard]] bool is_slow_at(const Vec3& p_W) const { return speed_limit_m_s(p_W) <= slow_m_s; }
 };
 
 }  // namespace flyball

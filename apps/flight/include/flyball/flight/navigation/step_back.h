@@ -22,8 +22,9 @@ namespace flyball {
 [[nodiscard]] double blind_m(double cell_m, const Cylinder& body, double half_field);
 
 /// A vehicle that has stopped nearer than that to unknown space would stay there for good, because
-/// each frame shows the same as the last one. So it flies back along its own track, waits there
-/// until a frame that was taken at rest is in the map, and plans anew. It cannot see behind itself;
+/// each frame shows the same as the last one; so would one from where no search finds a path. So it
+/// flies back along its own track, waits there until a frame that was taken at rest is in the map,
+/// and plans anew. It cannot see behind itself;
 /// like the guard, it relies on obstacles that do not move.
 class StepBack {
  public:
