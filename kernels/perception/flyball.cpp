@@ -67,6 +67,9 @@ class FlyballMapper final : public flyball::Mapper {
   void declare_clear(const Vec3& centre_W, const flyball::Cylinder& space) override {
     map_->declare_clear(centre_W, space);
   }
+  void doubt_obstacles(const Vec3& p_W, double radius_m) override {
+    map_->doubt_obstacles(p_W, radius_m);
+  }
   [[nodiscard]] const flyball::OccupancyView& view() const override { return map_->view(); }
   [[nodiscard]] std::shared_ptr<const flyball::OccupancyView> revision() override {
     return map_->revision();

@@ -100,6 +100,12 @@ class MapperCulprit final : public Mapper {
       honest_->declare_clear(centre_W, space);
     }
   }
+  void doubt_obstacles(const Vec3& p_W, double radius_m) override {
+    honest_->doubt_obstacles(p_W, radius_m);
+    if (crime_ == "rash") {
+      honest_ = kit::kernels().make<Mapper>("octomap");
+    }
+  }
   [[nodiscard]] const OccupancyView& view() const override {
     spoilt_ = std::make_unique<SpoiltView>(honest_->view(), crime_);
     return *spoilt_;
@@ -173,6 +179,7 @@ TEST(MapperConformance, finds_each_kind_of_breach) {
        {"careless", "makes another map of a frame than of its points"},
        {"deaf", "does not mark what every frame has hit"},
        {"stubborn", "does not free unknown space that is declared clear"},
+       {"rash", "frees an obstacle that is in doubt, or forgets more than obstacles"},
        {"aliasing", "changes a revision that it has handed on"},
        {"invents", "lists a cell as occupied that its view does not call so"},
        {"idle", "counts no rays or no updates"},

@@ -230,5 +230,19 @@ TEST(Flyball, frees_declared_space_at_once_and_only_where_it_is_unknown) {
   EXPECT_EQ(mapper->view().body_state({0.5, 0.0, 0.3}, body), CellState::occupied);
 }
 
+TEST(Flyball, forgets_obstacles_in_doubt_until_a_scan_shows_them_again) {
+  const auto mapper = kit::made_mapper("flyball");
+  const Vec3 wall_W{3.01, 0.01, 0.01};
+  insert(*mapper, wall_scan(3.0F), {0.15, range_m});
+  mapper->doubt_obstacles({-20.0, 0.0, 0.0}, 12.0);
+  EXPECT_EQ(mapper->view().state(wall_W), CellState::occupied) << "it lies elsewhere";
+  mapper->doubt_obstacles({-4.0, 0.0, 0.0}, 12.0);
+  EXPECT_EQ(mapper->view().state(wall_W), CellState::unknown);
+  EXPECT_EQ(mapper->view().state({1.5, 0.0, 0.0}), CellState::free);
+  EXPECT_TRUE(mapper->occupied().empty());
+  insert(*mapper, wall_scan(3.0F), {0.15, range_m});
+  EXPECT_EQ(mapper->view().state(wall_W), CellState::occupied);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -17,7 +17,7 @@
 namespace flyball::kit {
 
 /// Shows a dense map as a mapper's view, and these cells as what is occupied; inserts nothing.
-class GridMapper final : public Mapper {
+class GridMapper : public Mapper {
  public:
   explicit GridMapper(const GridMap& map, std::vector<OccupiedCell> cells = {})
       : map_{map}, cells_{std::move(cells)} {}

@@ -91,8 +91,12 @@ struct Trip {
     }
   }
   void note(const NavigatorNews& news) {
-    for (const ClearSpace& clear : news.clear) {
-      declared_W.push_back(clear.centre_W);
+    for (const MapNote& told : news.map_notes) {
+      if (const auto* clear = std::get_if<ClearSpace>(&told)) {
+        declared_W.push_back(clear->centre_W);
+      } else {
+        doubted_W.push_back(std::get<DoubtedPlace>(told).centre_W);
+      }
     }
     gave_up = gave_up || news.gives_up;
     late_maps += news.map_use && news.map_use->budget_use > 1.0 ? 1 : 0;
@@ -116,6 +120,7 @@ struct Trip {
   std::uint64_t revision{};
   std::uint64_t commands{};
   std::vector<Vec3> declared_W{};  ///< Clear space that the navigator has told of.
+  std::vector<Vec3> doubted_W{};   ///< Around which the map is to be made anew.
   bool gave_up{};
   int late_maps{};
 };

@@ -13,13 +13,14 @@ constexpr auto stall_patience = 6s;
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr int tries_where_slow = 6;  // Chosen: so often a door that noise had closed was not open.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
+constexpr double doubted_m = 12.0;   // Chosen: farther than a fine map sees from there.
 
 }  // namespace
 
 // The vehicle stands here, so the place is free, although noise or the edge of an obstacle may have
 // filled a cell that the body or its tube overlaps.
 void Navigator::trust_own_place() {
-  news_.clear.push_back({follower_.position_W(), brief_->narrow_body()});
+  news_.map_notes.push_back(ClearSpace{follower_.position_W(), brief_->narrow_body()});
 }
 
 // The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
@@ -77,12 +78,14 @@ bool Navigator::leaves_blind_zone() {
 }
 
 // A path may have led past the only opening, which noise had closed, to where that is out of view.
-// Where the mission is slow, an opening is mostly near, and from nearby it is seen best.
+// Where the mission is slow, an opening is mostly near, and from nearby it is seen best. What
+// closed it may be noise of long ago, from far away, in cells that no ray has crossed since then.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
   if (failures_ >= (situation().is_slow_at(here_W) ? tries_where_slow : tries) &&
       steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
     news_.events.push_back("goes back to look for a path from there");
+    news_.map_notes.push_back(DoubtedPlace{here_W, doubted_m});
   }
 }
 

@@ -66,19 +66,29 @@ void BrickMap::show(const std::vector<BrickStates>& bricks) {
   }
 }
 
+bool BrickMap::is_beyond(const CellKey& chunk, const Vec3& p_W, double radius_m) const {
+  const Aabb cube = lattice().cube(chunk, chunk_level);
+  const Vec3 nearest = p_W.cwiseMax(cube.min).cwiseMin(cube.max);
+  return (p_W - nearest).squaredNorm() > radius_m * radius_m;
+}
+
+void BrickMap::forget_occupied(const Vec3& p_W, double radius_m) {
+  begin_change();
+  for (const Chunk* chunk : std::vector<const Chunk*>{cells_.chunks()}) {
+    if (chunk->block(chunk_level, 0).has_occupied && !is_beyond(chunk->key, p_W, radius_m)) {
+      at(chunk->key).forget_occupied();
+    }
+  }
+}
+
 std::size_t BrickMap::drop_beyond(const Vec3& p_W,
                                   double radius_m,
                                   const std::function<void(const Chunk&)>& show) {
-  const auto is_far = [&](const Chunk& chunk) {
-    const Aabb cube = lattice().cube(chunk.key, chunk_level);
-    const Vec3 nearest = p_W.cwiseMax(cube.min).cwiseMin(cube.max);
-    return (p_W - nearest).squaredNorm() > radius_m * radius_m;
-  };
   begin_change();
   auto& chunks = revisions_->chunks;
   std::vector<const Chunk*> kept;  // In their order, which decides in which order cells are shown.
   for (std::size_t number = 0; number < chunks.size(); ++number) {
-    if (is_far(*chunks[number])) {
+    if (is_beyond(chunks[number]->key, p_W, radius_m)) {
       show(*chunks[number]);
       drop(number);
     } else {

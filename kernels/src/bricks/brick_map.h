@@ -47,6 +47,9 @@ class BrickMap {
       double radius_m,
       const std::function<void(const Chunk&)>& show = [](const Chunk&) {});
 
+  /// Makes the occupied cells unknown in all chunks of which a part lies within `radius_m`.
+  void forget_occupied(const Vec3& p_W, double radius_m);
+
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -56,6 +59,8 @@ class BrickMap {
     std::unique_ptr<Chunk> chunk;
   };
   [[nodiscard]] Spare make_spare() const;
+  /// Whether a chunk as a whole lies farther from `p_W`.
+  [[nodiscard]] bool is_beyond(const CellKey& chunk, const Vec3& p_W, double radius_m) const;
   /// Takes note of who reads, before the map changes.
   void begin_change();
   /// A chunk that no reader sees, made or copied if need be.

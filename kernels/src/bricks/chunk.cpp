@@ -2,6 +2,8 @@
 // tested-in: brick_map
 #include "chunk.h"
 
+#include "bits.h"
+
 namespace flyball {
 namespace {
 
@@ -61,6 +63,18 @@ void Chunk::set_masks(std::size_t brick, const CellMasks& cells) {
   code = static_cast<std::uint8_t>((code & ~3U) | unknown);
   if ((cells.occupied != 0) != ((has_occupied[brick >> 6U] & bit) != 0)) {
     flip_occupied(brick);
+  }
+}
+
+void Chunk::forget_occupied() {
+  for (std::size_t brick = 0; brick < brick_count; ++brick) {
+    const CellMasks cells = masks[brick];
+    for (std::uint64_t left = cells.occupied; left != 0; left &= left - 1) {
+      bricks[brick].cells[static_cast<std::size_t>(lowest_bit(left))] = log_odds::unknown;
+    }
+    if (cells.occupied != 0) {
+      set_masks(brick, {0, cells.unknown | cells.occupied});
+    }
   }
 }
 

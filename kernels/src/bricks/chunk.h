@@ -60,6 +60,8 @@ struct alignas(64) Chunk {
   ///                                  map keeps none.
   explicit Chunk(const CellKey& at, Bricks* log_odds = nullptr);
   void set_masks(std::size_t brick, const CellMasks& cells);
+  /// Occupied cells become unknown. @pre The map keeps log-odds.
+  void forget_occupied();
   void set_key(const CellKey& at);
   /// Whether it is the chunk with this tag, or the one of unknown cells.
   [[nodiscard]] bool answers(std::uint64_t of_tag) const {

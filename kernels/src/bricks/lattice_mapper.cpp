@@ -104,6 +104,10 @@ class LatticeMapper final : public Mapper {
     view_.declare_clear(centre_W, space);
   }
 
+  void doubt_obstacles(const Vec3& p_W, double radius_m) override {
+    map_.forget_occupied(p_W, radius_m);
+  }
+
   [[nodiscard]] const OccupancyView& view() const override { return view_; }
 
   [[nodiscard]] std::shared_ptr<const OccupancyView> revision() override {

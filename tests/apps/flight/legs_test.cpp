@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/legs.h"
 
-#include "flyball/flight/perception/clear_space.h"
+#include "flyball/flight/perception/map_notes.h"
 #include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"

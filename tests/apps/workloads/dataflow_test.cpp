@@ -63,9 +63,9 @@ Talk talk_of(const std::string& text) {
 
 /// The figures of the paper show how data flows. These topics carry what steers that flow:
 /// settings, orders, reports and the record.
-const std::set<std::string> steering{"knobs", "mission_state", "end",         "outcome",
-                                     "log",   "guidance",      "navigator",   "map_use",
-                                     "lanes", "localization",  "clear_space", "tracked_time"};
+const std::set<std::string> steering{"knobs", "mission_state", "end",       "outcome",
+                                     "log",   "guidance",      "navigator", "map_use",
+                                     "lanes", "localization",  "map_notes", "tracked_time"};
 
 /// Each as `t: who -> whom`. What no node writes or reads comes from or goes to the vehicle.
 std::set<std::string> edges_of(const std::string& workload) {

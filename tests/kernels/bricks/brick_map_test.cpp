@@ -51,6 +51,12 @@ class BruteForce {
       }
     }
   }
+  void forget_occupied(int least_x) {
+    for (auto cell = cells_.begin(); cell != cells_.end();) {
+      const bool goes = cell->second >= 0 && std::get<0>(cell->first) >= least_x;
+      cell = goes ? cells_.erase(cell) : std::next(cell);
+    }
+  }
   [[nodiscard]] CellState state(const CellKey& cell, int level) const {
     const int edge = 1 << level;
     bool has_unknown = false;
@@ -92,6 +98,34 @@ TEST(BrickMap, says_of_every_cell_at_every_level_what_a_plain_grid_says) {
     }
     EXPECT_GT(*std::min_element(seen, seen + 3), 20);
   }
+}
+
+TEST(BrickMap, forgets_the_occupied_cells_of_some_chunks_and_leaves_revisions_as_they_were) {
+  std::mt19937_64 generator{7};
+  BrickMap map{0.15};
+  BruteForce reference;
+  const auto learn = [&] {
+    const auto changes = random_changes(generator, 600);
+    map.apply(changes);
+    reference.apply(changes);
+  };
+  const auto compare = [&](const BrickCells& cells, const BruteForce& with) {
+    for (int i = 0; i < 3000; ++i) {
+      const int level = i % (BrickCells::coarsest_level + 1);
+      const auto key = [&] { return (middle - 40 + static_cast<int>(generator() % 80)) >> level; };
+      const CellKey cell{key(), key(), key()};
+      ASSERT_EQ(cells.state(cell, level), with.state(cell, level)) << "level " << level;
+    }
+  };
+  learn();
+  const auto revision = map.revision();
+  const BruteForce before = reference;
+  map.forget_occupied({9.7, 0.0, 0.0}, 9.0);  // The chunks with x < 0 end at 0.
+  reference.forget_occupied(middle);
+  compare(map.cells(), reference);
+  compare(*revision, before);
+  learn();  // What was forgotten is learnt as if it had never been known.
+  compare(map.cells(), reference);
 }
 
 TEST(BrickMap, holds_the_same_bytes_with_all_vector_instructions) {

@@ -115,6 +115,12 @@ class Mapper : public Kernel {
   /// cylinders that the scenario declares clear, and the space that the body occupies. Visible at
   /// once.
   virtual void declare_clear(const Vec3& centre_W, const Cylinder& space) = 0;
+  /// What occupied cells near `p_W` show may be noise: they become unknown, at once, until a scan
+  /// shows again what is there. A mapper that cannot do so ignores it.
+  ///
+  /// @param radius_m  Around `p_W`. Cells that lie somewhat farther may become unknown, too.
+  virtual void doubt_obstacles([[maybe_unused]] const Vec3& p_W, [[maybe_unused]] double radius_m) {
+  }
   /// Answers from committed changes only. Lives as long as the mapper.
   [[nodiscard]] virtual const OccupancyView& view() const = 0;
   /// The map as `view` shows it now, for readers on other threads: whatever the mapper does

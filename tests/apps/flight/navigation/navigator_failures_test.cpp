@@ -93,6 +93,7 @@ TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_when_three_searches_have
   for (const auto& [searches, away_m] : {std::pair{2, 0.0}, std::pair{3, 4.0}, std::pair{4, 8.0}}) {
     Trip trip;
     EXPECT_NEAR(goes_back_m(trip, searches), away_m, 0.11) << searches;
+    EXPECT_EQ(trip.doubted_W.empty(), searches < 3) << "the map is made anew there";
   }
 }
 

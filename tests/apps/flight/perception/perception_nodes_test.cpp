@@ -2,8 +2,13 @@
 #include "flyball/flight/perception/perception_nodes.h"
 
 #include "flyball/flight/perception/pose_history.h"
+#include "flyball/runtime/modeled/virtual_executor.h"
 
+#include "grid_map.h"
+#include "mission_rig.h"
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +67,38 @@ TEST(CameraPose, is_mounted_where_the_scenario_says) {
   const Vec3 ahead = X_WC.linear() * Vec3::UnitZ();
   EXPECT_NEAR(ahead.z(), -std::sin(0.5), 1e-12);
   EXPECT_NEAR(ahead.y(), std::cos(0.5), 1e-12);
+}
+
+/// Remembers what it is told.
+class ToldMapper final : public kit::GridMapper {
+ public:
+  using GridMapper::GridMapper;
+  void declare_clear(const Vec3& centre_W, const Cylinder&) override {
+    clear_W.push_back(centre_W);
+  }
+  void doubt_obstacles(const Vec3& p_W, double) override { doubted_W.push_back(p_W); }
+
+  std::vector<Vec3> clear_W{};
+  std::vector<Vec3> doubted_W{};
+};
+
+TEST(Map, tells_its_mapper_what_is_clear_and_what_is_in_doubt) {
+  const kit::GridMap map = kit::corridor(10.0);
+  const auto mapper = std::make_shared<ToldMapper>(map);
+  kit::MissionRig rig{map};
+  rig.kernels.mapper = mapper;
+  Graph graph{"perception"};
+  const PerceptionTopics topics = add_perception(graph, rig.parts(graph));
+  EventQueue queue;
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+  const Vec3 here_W{1.0, 2.0, 3.0};
+  const Vec3 there_W{4.0, 5.0, 6.0};
+  executor.publish(topics.map_notes, MapNote{ClearSpace{here_W, {0.3, 0.1}}});
+  executor.publish(topics.map_notes, MapNote{DoubtedPlace{there_W, 12.0}});
+  executor.publish(topics.cloud, PointCloudFrame{});
+  queue.run([&] { return queue.now() >= MissionTime{1s}; });
+  EXPECT_EQ(mapper->clear_W, std::vector<Vec3>{here_W});
+  EXPECT_EQ(mapper->doubted_W, std::vector<Vec3>{there_W});
 }
 
 }  // namespace

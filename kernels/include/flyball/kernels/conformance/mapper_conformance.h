@@ -32,6 +32,7 @@ class MapperConformance : public KernelConformance<Mapper> {
       check_commit();
       check_revision();
       check_declared();
+      check_doubted();
       check_resolutions(resolutions_m);
       check_refusals();
       check_work();
@@ -213,6 +214,23 @@ class MapperConformance : public KernelConformance<Mapper> {
       require(mapper->view().state(occupied[i].centre_W) == CellState::occupied,
               "frees an obstacle that lies in space that is declared clear");
     }
+  }
+
+  /// An obstacle in doubt stays, or is unknown until it is seen again.
+  void check_doubted() {
+    const auto mapper = mapped();
+    const States before = states_of(mapper->view());
+    mapper->doubt_obstacles(Vec3::Zero(), 20.0);
+    const States doubted = states_of(mapper->view());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool was_occupied = before[i] == CellState::occupied;
+      require(was_occupied ? doubted[i] != CellState::free : doubted[i] == before[i],
+              "frees an obstacle that is in doubt, or forgets more than obstacles");
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+      insert(*mapper, frame, 0.0, settings());
+    }
+    require(states_of(mapper->view()) == before, "does not learn again what was in doubt");
   }
 
   /// What was mapped at one resolution stays when another one is in force.

@@ -13,7 +13,7 @@
 #include "flyball/flight/navigation/plan_service.h"
 #include "flyball/flight/navigation/situation.h"
 #include "flyball/flight/navigation/step_back.h"
-#include "flyball/flight/perception/clear_space.h"
+#include "flyball/flight/perception/map_notes.h"
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/work.h"
 
@@ -26,7 +26,7 @@ namespace flyball {
 /// What the navigator has to say beside its set-point and its query.
 struct NavigatorNews {
   std::vector<std::string> events{};
-  std::vector<ClearSpace> clear{};
+  std::vector<MapNote> map_notes{};
   std::optional<MapUse> map_use{};
   Work asked{};     ///< Of the map: see `CountedMap`.
   bool gives_up{};  ///< It has stood without a path for too long.

@@ -5,8 +5,8 @@
 /// From camera to map, as in MAVBench's dataflows: localization, point cloud, occupancy map.
 
 #include "flyball/flight/flight_parts.h"
-#include "flyball/flight/perception/clear_space.h"
 #include "flyball/flight/perception/localization_nodes.h"
+#include "flyball/flight/perception/map_notes.h"
 #include "flyball/flight/perception/map_revision.h"
 
 namespace flyball {
@@ -17,7 +17,7 @@ namespace flyball {
 struct PerceptionTopics {
   LocalizationTopics localization;
   Topic<PointCloudFrame> cloud;
-  Topic<ClearSpace> clear;  ///< A queue of what is declared free.
+  Topic<MapNote> map_notes;  ///< A queue.
   Topic<MapRevision> map;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: legs
-#include "flyball/flight/perception/clear_space.h"
+#include "flyball/flight/perception/map_notes.h"
 
 namespace flyball {
 

@@ -2,17 +2,28 @@
 #pragma once
 
 /// @file
-/// Space that is known to be free although no camera has seen it.
+/// What the node `map` is told of space beside the camera's frames.
 
 #include "flyball/runtime/geometry.h"
 
+#include <variant>
+
 namespace flyball {
 
-/// Declared to the node `map`, which marks it free where its map is unknown.
+/// Space that is known to be free although no camera has seen it: it becomes free where the map is
+/// unknown.
 struct ClearSpace {
   Vec3 centre_W{Vec3::Zero()};
   Cylinder space{};
 };
+
+/// A place around which obstacles in the map may be noise: see `Mapper::doubt_obstacles`.
+struct DoubtedPlace {
+  Vec3 centre_W{Vec3::Zero()};
+  double radius_m{};
+};
+
+using MapNote = std::variant<ClearSpace, DoubtedPlace>;
 
 /// The cylinder over a place on the ground where a vehicle may take off and land, 2.5 m high; see
 /// `Site::start_clear_m` for its radius.
