@@ -11,7 +11,6 @@ using namespace std::chrono_literals;
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
-constexpr int tries_where_slow = 6;  // Chosen: so often a door that noise had closed was not open.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
 constexpr double doubted_m = 12.0;   // Chosen: farther than a fine map sees from there.
 
@@ -78,12 +77,11 @@ bool Navigator::leaves_blind_zone() {
 }
 
 // A path may have led past the only opening, which noise had closed, to where that is out of view.
-// Where the mission is slow, an opening is mostly near, and from nearby it is seen best. What
-// closed it may be noise of long ago, from far away, in cells that no ray has crossed since then.
+// What closed it may be noise of long ago, from far away, in cells that no ray has crossed since
+// then.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
-  if (failures_ >= (situation().is_slow_at(here_W) ? tries_where_slow : tries) &&
-      steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
+  if (failures_ >= tries && steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
     news_.events.push_back("goes back to look for a path from there");
     news_.map_notes.push_back(DoubtedPlace{here_W, doubted_m});
   }
