@@ -17,6 +17,7 @@ struct Part {
 };
 
 constexpr std::array parts{
+    Part{"mission_energy_without_search", "search"},
     Part{"mission_energy_without_resolution", "resolution"},
     Part{"mission_energy_without_range", "range"},
     Part{"mission_energy_without_clock", "clock"},
@@ -38,6 +39,7 @@ std::vector<Place> places() {
       {"into_a_building", "delivery_outdoor_to_indoor", "from a field into a building",
        quick_map()},
       {"forest", "delivery_forest", "forest", quick_map()},
+      {"office", "delivery_office_as_built", "office as built", quick_map()},
       {"mixed", "delivery_mixed", "building, crowd and slit", joined(quick_map(), mixed)},
   };
 }

@@ -4,6 +4,9 @@
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -28,6 +31,7 @@ struct Ablation::Named {
 const std::vector<Ablation::Named>& Ablation::parts() {
   static const std::vector<Named> all{
       {"nothing", Part::none},
+      {"search", Part::search},
       {"resolution", Part::resolution},
       {"range", Part::range},
       {"clock", Part::clock},
@@ -105,8 +109,28 @@ Observation Ablation::seen(Observation seen) const {
   return seen;
 }
 
-void Ablation::limit(Surroundings& around, const std::vector<double>& ranges_m) const {
-  if (part_ == Part::resolution) {
+void Ablation::leave_one(Surroundings& around, const EnergySearch& search) {
+  constexpr std::array usual_m{10.0, 15.0, 22.0, 25.0};  // Of gap_switch, finest cells first.
+  const std::vector<double>& cells_m = search.points().axes()[0].values;
+  const std::vector<double>& ranges_m = search.points().axes()[1].values;
+  const auto larger = std::upper_bound(cells_m.begin(), cells_m.end(), around.coarsest_m);
+  const auto level =
+      static_cast<std::size_t>(std::max(larger - cells_m.begin(), std::ptrdiff_t{1})) - 1;
+  const double most_m = std::max(search.most_range_m(cells_m[level]), around.clear_range_m);
+  const auto longer =
+      std::upper_bound(ranges_m.begin(), ranges_m.end(),
+                       std::min(usual_m.at(std::min(level, usual_m.size() - 1)), most_m));
+  around.finest_m = cells_m[level];
+  around.least_range_m = around.most_range_m =
+      longer != ranges_m.begin() ? *std::prev(longer) : ranges_m.front();
+  around.needs_top_clock = true;
+}
+
+void Ablation::limit(Surroundings& around, const EnergySearch& search) const {
+  const std::vector<double>& ranges_m = search.points().axes()[1].values;
+  if (part_ == Part::search) {
+    leave_one(around, search);
+  } else if (part_ == Part::resolution) {
     // The finest cells pass every gap, so they are the ones to keep.
     around.coarsest_m = 0.0;
   } else if (part_ == Part::range) {

@@ -35,14 +35,15 @@ class Ablation {
 
   /// What the search learns from, and what the limits look at.
   [[nodiscard]] Observation seen(Observation seen) const;
-  /// Changes what the search may choose. @param ranges_m  That it compares, ascending.
-  void limit(Surroundings& around, const std::vector<double>& ranges_m) const;
+  /// Changes what the search may choose.
+  void limit(Surroundings& around, const EnergySearch& search) const;
   /// Whether the top clock is kept also while the vehicle is idle.
   [[nodiscard]] bool keeps_top_clock() const { return part_ == Part::clock; }
 
  private:
   enum class Part : std::uint8_t {
     none,
+    search,
     resolution,
     range,
     clock,
@@ -57,6 +58,8 @@ class Ablation {
     noise_limit,
     wide_first_bound
   };
+  /// Leaves one setting: the largest cells that the limits allow, with gap_switch's range for them.
+  static void leave_one(Surroundings& around, const EnergySearch& search);
   struct Named;
   static const std::vector<Named>& parts();
   Part part_{Part::none};

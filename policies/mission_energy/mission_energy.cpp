@@ -119,7 +119,7 @@ class MissionEnergy final : public flyball::Policy,
     if (deceleration_m_s2_ > 0.0) {
       around.deceleration_m_s2 = deceleration_m_s2_;
     }
-    without_->limit(around, limits_->ranges_m());
+    without_->limit(around, *search_);
     return around;
   }
 

@@ -137,6 +137,7 @@ class EnergySearch {
   [[nodiscard]] BoundCount bounds() const;
   /// `most_late` holds where no map takes more than four times as long as predicted.
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
+  /// What it compares. Axes: cells [m], ranges [m], clocks [Hz], all ascending.
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
   /// `SearchLevel::most_range_m` of these cells.
   [[nodiscard]] double most_range_m(double resolution_m) const {
