@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: mission
 #include "flyball/flight/navigation/navigation_nodes.h"
 
 #include "flyball/flight/navigation/follow_node.h"
