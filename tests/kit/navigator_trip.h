@@ -52,7 +52,7 @@ struct Trip {
   }
   void hover_at(const Vec3& p_W) { navigator.obey(now, {++commands, HoverAt{p_W, 0.0}}); }
   void set_goal(const Vec3& p_W, const std::optional<double>& yaw_rad = {}) {
-    navigator.obey(now, {++commands, GoTo{p_W, yaw_rad}});
+    navigator.obey(now, {++commands, GoTo{p_W, yaw_rad, has_other_goals}});
   }
   void turn(const std::string& knob, double value) {
     EXPECT_TRUE(rig.set(knob, value));
@@ -119,6 +119,7 @@ struct Trip {
   double cell_m{0.15};
   std::uint64_t revision{};
   std::uint64_t commands{};
+  bool has_other_goals{};          ///< Of whoever sets the goal.
   std::vector<Vec3> declared_W{};  ///< Clear space that the navigator has told of.
   std::vector<Vec3> doubted_W{};   ///< Around which the map is to be made anew.
   bool gave_up{};

@@ -181,7 +181,7 @@ void ExplorationFlight::take_answer(JobContext& job) {
     return;
   }
   view_ = *step.next;
-  guidance_.go_to(job, view_.p_W, view_.yaw_rad);
+  guidance_.go_to_view(job, view_.p_W, view_.yaw_rad);
   stage_ = Stage::flying;
   since_ = job.now();
 }

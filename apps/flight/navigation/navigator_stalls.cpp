@@ -78,10 +78,11 @@ bool Navigator::leaves_blind_zone() {
 
 // A path may have led past the only opening, which noise had closed, to where that is out of view.
 // What closed it may be noise of long ago, from far away, in cells that no ray has crossed since
-// then.
+// then. Where the mission has other goals, another one is reached sooner.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
-  if (failures_ >= tries && steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
+  if (failures_ >= tries && !has_other_goals_ &&
+      steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
     news_.events.push_back("goes back to look for a path from there");
     news_.map_notes.push_back(DoubtedPlace{here_W, doubted_m});
   }

@@ -27,6 +27,7 @@ TEST(Guidance, believes_no_state_from_before_its_last_command) {
   guidance.declare(spec);
   graph.node(std::move(spec), [&](JobContext& job) {
     if (knows.empty()) {
+      guidance.go_to_view(job, Vec3{4.0, 5.0, 6.0}, 0.5);
       guidance.go_to(job, Vec3{1.0, 2.0, 3.0});
     }
     knows.push_back(guidance.state(job) != nullptr);
@@ -40,12 +41,15 @@ TEST(Guidance, believes_no_state_from_before_its_last_command) {
   executor.publish(topics.state, NavigatorState{});
   queue.run([&] { return queue.now() >= MissionTime{150ms}; });
   NavigatorState heard;
-  heard.obeyed = 1;
+  heard.obeyed = 2;
   executor.publish(topics.state, heard);
   queue.run([&] { return queue.now() >= MissionTime{250ms}; });
-  ASSERT_EQ(commands.size(), 1U);
-  EXPECT_EQ(commands.front().number, 1U);
-  EXPECT_EQ(std::get<GoTo>(commands.front().what).p_W, (Vec3{1.0, 2.0, 3.0}));
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_EQ(commands.back().number, 2U);
+  EXPECT_EQ(std::get<GoTo>(commands.back().what).p_W, (Vec3{1.0, 2.0, 3.0}));
+  EXPECT_FALSE(std::get<GoTo>(commands.back().what).is_one_of_many);
+  EXPECT_TRUE(std::get<GoTo>(commands.front().what).is_one_of_many)
+      << "an explorer has other views";
   ASSERT_GE(knows.size(), 2U);
   EXPECT_FALSE(knows.front());
   EXPECT_TRUE(knows.back());

@@ -106,5 +106,12 @@ TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_where_the_mission_is_slo
   }
 }
 
+TEST(NavigatorFailures, stays_and_keeps_its_map_where_the_mission_has_other_goals) {
+  Trip trip;
+  trip.has_other_goals = true;
+  EXPECT_NEAR(goes_back_m(trip, 4), 0.0, 0.01);
+  EXPECT_TRUE(trip.doubted_W.empty());
+}
+
 }  // namespace
 }  // namespace flyball

@@ -22,6 +22,8 @@ struct HoverAt {
 struct GoTo {
   Vec3 p_W{Vec3::Zero()};
   std::optional<double> yaw_rad{};
+  /// Who asks for it has others to go to when no path to it is found.
+  bool is_one_of_many{};
 };
 /// The goal is given up. A path that is flown is flown to its end.
 struct NoGoal {};
@@ -78,8 +80,9 @@ class Guidance {
   void hover_at(JobContext& job, const Vec3& p_W, double yaw_rad) {
     send(job, HoverAt{p_W, yaw_rad});
   }
-  void go_to(JobContext& job, const Vec3& p_W, std::optional<double> yaw_rad = {}) {
-    send(job, GoTo{p_W, yaw_rad});
+  void go_to(JobContext& job, const Vec3& p_W) { send(job, GoTo{p_W}); }
+  void go_to_view(JobContext& job, const Vec3& p_W, double yaw_rad) {
+    send(job, GoTo{p_W, yaw_rad, true});
   }
   void give_up_goal(JobContext& job) { send(job, NoGoal{}); }
   /// Null until the navigator has heard the last command.

@@ -100,6 +100,7 @@ class Navigator {
   std::uint64_t obeyed_{};
   std::optional<Vec3> goal_W_{};
   std::optional<double> goal_yaw_rad_{};
+  bool has_other_goals_{};  ///< Whoever commands has.
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
