@@ -58,7 +58,8 @@ class Ablation {
     noise_limit,
     wide_first_bound
   };
-  /// Leaves one setting: the largest cells that the limits allow, with gap_switch's range for them.
+  /// Leaves one setting in cruise: the largest cells that the limits allow, with gap_switch's range
+  /// for them.
   static void leave_one(Surroundings& around, const EnergySearch& search);
   struct Named;
   static const std::vector<Named>& parts();

@@ -2,6 +2,7 @@
 #include "flyball/kernels/conformance/mapper_conformance.h"
 
 #include "kernel_trials.h"
+#include "made_mapper.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +59,11 @@ class SpoiltView final : public OccupancyView {
 
 class MapperCulprit final : public Mapper {
  public:
-  explicit MapperCulprit(std::string crime) : crime_{std::move(crime)} {}
+  explicit MapperCulprit(std::string crime) : crime_{std::move(crime)} {
+    if (crime_ == "sulking") {
+      honest_ = kit::made_mapper("flyball");  // The other one ignores doubts.
+    }
+  }
 
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
@@ -91,7 +96,7 @@ class MapperCulprit final : public Mapper {
     return prepare(cloud, X_WC, settings);
   }
   void commit() override {
-    if (crime_ != "deaf") {
+    if (crime_ != "deaf" && !does_not_learn_) {
       honest_->commit();
     }
   }
@@ -102,6 +107,7 @@ class MapperCulprit final : public Mapper {
   }
   void doubt_obstacles(const Vec3& p_W, double radius_m) override {
     honest_->doubt_obstacles(p_W, radius_m);
+    does_not_learn_ = crime_ == "sulking";
     if (crime_ == "rash") {
       honest_ = kit::kernels().make<Mapper>("octomap");
     }
@@ -142,6 +148,7 @@ class MapperCulprit final : public Mapper {
   std::shared_ptr<Mapper> honest_{kit::kernels().make<Mapper>("octomap")};  // With "aliasing".
   mutable std::unique_ptr<SpoiltView> spoilt_{};
   double last_m_{};
+  bool does_not_learn_{};
 };
 
 TEST(Mappers, keep_their_contract) {
@@ -180,6 +187,7 @@ TEST(MapperConformance, finds_each_kind_of_breach) {
        {"deaf", "does not mark what every frame has hit"},
        {"stubborn", "does not free unknown space that is declared clear"},
        {"rash", "frees an obstacle that is in doubt, or forgets more than obstacles"},
+       {"sulking", "does not learn again what was in doubt"},
        {"aliasing", "changes a revision that it has handed on"},
        {"invents", "lists a cell as occupied that its view does not call so"},
        {"idle", "counts no rays or no updates"},

@@ -52,7 +52,7 @@ struct Trip {
   }
   void hover_at(const Vec3& p_W) { navigator.obey(now, {++commands, HoverAt{p_W, 0.0}}); }
   void set_goal(const Vec3& p_W, const std::optional<double>& yaw_rad = {}) {
-    navigator.obey(now, {++commands, GoTo{p_W, yaw_rad, has_other_goals}});
+    navigator.obey(now, {++commands, GoTo{p_W, yaw_rad, is_one_of_many}});
   }
   void turn(const std::string& knob, double value) {
     EXPECT_TRUE(rig.set(knob, value));
@@ -91,11 +91,11 @@ struct Trip {
     }
   }
   void note(const NavigatorNews& news) {
-    for (const MapNote& told : news.map_notes) {
+    for (const MapHint& told : news.map_hints) {
       if (const auto* clear = std::get_if<ClearSpace>(&told)) {
         declared_W.push_back(clear->centre_W);
       } else {
-        doubted_W.push_back(std::get<DoubtedPlace>(told).centre_W);
+        doubted.push_back(std::get<DoubtedPlace>(told));
       }
     }
     gave_up = gave_up || news.gives_up;
@@ -119,9 +119,9 @@ struct Trip {
   double cell_m{0.15};
   std::uint64_t revision{};
   std::uint64_t commands{};
-  bool has_other_goals{};          ///< Of whoever sets the goal.
+  bool is_one_of_many{};           ///< Of `set_goal`.
   std::vector<Vec3> declared_W{};  ///< Clear space that the navigator has told of.
-  std::vector<Vec3> doubted_W{};   ///< Around which the map is to be made anew.
+  std::vector<DoubtedPlace> doubted{};
   bool gave_up{};
   int late_maps{};
 };

@@ -88,7 +88,7 @@ void ExplorationFlight::declare(NodeSpec& spec) const {
   guidance_.declare(spec);
   declare_log(spec, parts_.mission);
   spec.writes.push_back(explore_.request.index);
-  spec.writes.push_back(perception_.map_notes.index);
+  spec.writes.push_back(perception_.map_hints.index);
 }
 
 Vec3 ExplorationFlight::above_start_W() const {
@@ -133,7 +133,7 @@ void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
 
 void ExplorationFlight::take_off(JobContext& job, const PoseEstimate& pose) {
   const Site& site = parts_.brief->site;
-  job.publish(perception_.map_notes, MapNote{clear_over(site.start_W, site.start_clear_m)});
+  job.publish(perception_.map_hints, MapHint{clear_over(site.start_W, site.start_clear_m)});
   guidance_.hover_at(job, above_start_W(), yaw_of(pose.X_WB.linear().col(0)));
   legs_.take_off(job, parts_.brief->site.cruise_height_m);
   stage_ = Stage::climbing;

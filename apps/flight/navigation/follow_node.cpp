@@ -76,8 +76,8 @@ class Follow {
     for (const std::string& event : news.events) {
       log_event(job, mission(), event);
     }
-    for (const MapNote& note : node_.map_notes ? news.map_notes : std::vector<MapNote>{}) {
-      job.publish(*node_.map_notes, note);
+    for (const MapHint& hint : node_.map_hints ? news.map_hints : std::vector<MapHint>{}) {
+      job.publish(*node_.map_hints, hint);
     }
     if (news.map_use) {
       job.publish(node_.topics.map_use, *news.map_use);
@@ -111,8 +111,8 @@ void add_follow(Graph& graph, const FollowNode& node) {
   if (topics.clearance) {
     spec.reads.push_back(topics.clearance->index);
   }
-  if (node.map_notes) {
-    spec.writes.push_back(node.map_notes->index);
+  if (node.map_hints) {
+    spec.writes.push_back(node.map_hints->index);
   }
   declare_log(spec, mission);
   auto follow = std::make_shared<Follow>(node);  // Owner: this node alone.

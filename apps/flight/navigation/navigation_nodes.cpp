@@ -224,7 +224,7 @@ NavigationTopics add_navigation(Graph& graph,
   add_plan(graph, parts, perception, topics);
   add_smooth(graph, parts, topics, newest_map, perception.map.index);
   FollowNode follow{parts, perception.localization, topics};
-  follow.map_notes = perception.map_notes;
+  follow.map_hints = perception.map_hints;
   add_follow(graph, follow);
   return topics;
 }

@@ -49,7 +49,8 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
     hover_at(hover->p_W, hover->yaw_rad);
   } else if (const auto* go = std::get_if<GoTo>(&command.what)) {
     goal_yaw_rad_ = go->yaw_rad;
-    has_other_goals_ = go->is_one_of_many;
+    is_one_of_many_ = go->is_one_of_many;
+    doubts_ = 0;
     failures_ = 0;
     set_goal(now, go->p_W);
   } else {

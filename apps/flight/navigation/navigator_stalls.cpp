@@ -12,14 +12,15 @@ using namespace std::chrono_literals;
 constexpr auto stall_patience = 6s;
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
-constexpr double doubted_m = 12.0;   // Chosen: farther than a fine map sees from there.
+constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
+constexpr int most_doubts = 3;       // Chosen, for each goal.
 
 }  // namespace
 
 // The vehicle stands here, so the place is free, although noise or the edge of an obstacle may have
 // filled a cell that the body or its tube overlaps.
 void Navigator::trust_own_place() {
-  news_.map_notes.push_back(ClearSpace{follower_.position_W(), brief_->narrow_body()});
+  news_.map_hints.push_back(ClearSpace{follower_.position_W(), brief_->narrow_body()});
 }
 
 // The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
@@ -77,14 +78,18 @@ bool Navigator::leaves_blind_zone() {
 }
 
 // A path may have led past the only opening, which noise had closed, to where that is out of view.
-// What closed it may be noise of long ago, from far away, in cells that no ray has crossed since
-// then. Where the mission has other goals, another one is reached sooner.
+// What closed it may be noise of looks from far away, in cells that no ray has crossed since then,
+// so the map forgets its obstacles there. Walls that are no noise are seen again and close the way
+// as before: a few times are enough. Where the mission has other goals, another one is reached
+// sooner.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
-  if (failures_ >= tries && !has_other_goals_ &&
-      steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
-    news_.events.push_back("goes back to look for a path from there");
-    news_.map_notes.push_back(DoubtedPlace{here_W, doubted_m});
+  if (failures_ < tries || is_one_of_many_ || !steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
+    return;
+  }
+  news_.events.push_back("goes back to look for a path from there");
+  if (doubts_++ < most_doubts) {
+    news_.map_hints.push_back(DoubtedPlace{here_W, doubted_m});
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/navigation/round_trip.h"
 
-#include "flyball/flight/perception/map_notes.h"
+#include "flyball/flight/perception/map_hints.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace flyball {
 
 void RoundTrip::declare(NodeSpec& spec) const {
-  spec.writes.push_back(perception_.map_notes.index);
+  spec.writes.push_back(perception_.map_hints.index);
   legs_.declare(spec);
   guidance_.declare(spec);
   declare_log(spec, mission_);
@@ -80,8 +80,8 @@ const Vec3& RoundTrip::end_W() const {
 
 void RoundTrip::take_off(JobContext& job, const PoseEstimate& pose) {
   const Site& places = brief_->site;
-  job.publish(perception_.map_notes, MapNote{clear_over(places.start_W, places.start_clear_m)});
-  job.publish(perception_.map_notes, MapNote{clear_over(places.goal_W, places.goal_clear_m)});
+  job.publish(perception_.map_hints, MapHint{clear_over(places.start_W, places.start_clear_m)});
+  job.publish(perception_.map_hints, MapHint{clear_over(places.goal_W, places.goal_clear_m)});
   guidance_.hover_at(job, above(begin_W()), yaw_of(pose.X_WB.linear().col(0)));
   legs_.take_off(job, places.cruise_height_m);
   stage_ = Stage::climbing;

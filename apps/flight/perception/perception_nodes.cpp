@@ -86,8 +86,8 @@ class Map {
 
   Work operator()(JobContext& job) {
     poses_.take_from(job, topics_.localization.poses);
-    while (const auto note = job.take(topics_.map_notes)) {
-      take(*note);
+    while (const auto told = job.take(topics_.map_hints)) {
+      std::visit([this](const auto& hint) { take(hint); }, *told);
     }
     const auto frame = job.latest(topics_.cloud);
     const auto knobs = job.latest(mission_.knobs);
@@ -100,12 +100,9 @@ class Map {
   }
 
  private:
-  void take(const MapNote& note) {
-    if (const auto* clear = std::get_if<ClearSpace>(&note)) {
-      mapper_->declare_clear(clear->centre_W, clear->space);
-    } else if (const auto* doubted = std::get_if<DoubtedPlace>(&note)) {
-      mapper_->doubt_obstacles(doubted->centre_W, doubted->radius_m);
-    }
+  void take(const ClearSpace& clear) { mapper_->declare_clear(clear.centre_W, clear.space); }
+  void take(const DoubtedPlace& doubted) {
+    mapper_->doubt_obstacles(doubted.centre_W, doubted.radius_m);
   }
 
   Work insert(JobContext& job,
@@ -145,7 +142,7 @@ void add_map(Graph& graph, const FlightParts& parts, const PerceptionTopics& top
   spec.priority = 10;
   spec.deadline = 5s;
   spec.reads = {topics.localization.poses.index, topics.localization.status.index,
-                topics.map_notes.index, parts.mission.knobs.index};
+                topics.map_hints.index, parts.mission.knobs.index};
   spec.writes = {topics.map.index};
   declare_log(spec, parts.mission);
   auto map = std::make_shared<Map>(parts, topics);  // Owner: this node alone.
@@ -173,7 +170,7 @@ PerceptionTopics add_perception(Graph& graph, const FlightParts& of_vehicle) {
   PerceptionTopics topics;
   topics.localization = add_localization(graph, parts);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
-  topics.map_notes = graph.topic<MapNote>("map_notes", 16);
+  topics.map_hints = graph.topic<MapHint>("map_hints", 16);
   topics.map = graph.topic<MapRevision>("map_revision");
   if (parts.brief->settings.kernels.slam_load && !parts.vehicle.view) {
     add_slam_load(graph, parts);

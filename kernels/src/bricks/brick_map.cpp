@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "brick_map.h"
 
+#include "flyball/runtime/assert.h"
+
 namespace flyball {
 
 BrickMap::BrickMap(double finest_m, Simd simd) : cells_{finest_m, simd} {}
@@ -73,6 +75,7 @@ bool BrickMap::is_beyond(const CellKey& chunk, const Vec3& p_W, double radius_m)
 }
 
 void BrickMap::forget_occupied(const Vec3& p_W, double radius_m) {
+  FLYBALL_ASSERT(keeps_log_odds_, "radius_m=%g", radius_m);
   begin_change();
   for (const Chunk* chunk : std::vector<const Chunk*>{cells_.chunks()}) {
     if (chunk->block(chunk_level, 0).has_occupied && !is_beyond(chunk->key, p_W, radius_m)) {

@@ -48,6 +48,7 @@ class BrickMap {
       const std::function<void(const Chunk&)>& show = [](const Chunk&) {});
 
   /// Makes the occupied cells unknown in all chunks of which a part lies within `radius_m`.
+  /// @pre The map keeps log-odds.
   void forget_occupied(const Vec3& p_W, double radius_m);
 
   [[nodiscard]] std::size_t bytes() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/legs.h"
 
-#include "flyball/flight/perception/map_notes.h"
+#include "flyball/flight/perception/map_hints.h"
 #include "flyball/runtime/modeled/virtual_executor.h"
 
 #include "grid_map.h"

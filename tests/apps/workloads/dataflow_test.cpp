@@ -65,7 +65,7 @@ Talk talk_of(const std::string& text) {
 /// settings, orders, reports and the record.
 const std::set<std::string> steering{"knobs", "mission_state", "end",       "outcome",
                                      "log",   "guidance",      "navigator", "map_use",
-                                     "lanes", "localization",  "map_notes", "tracked_time"};
+                                     "lanes", "localization",  "map_hints", "tracked_time"};
 
 /// Each as `t: who -> whom`. What no node writes or reads comes from or goes to the vehicle.
 std::set<std::string> edges_of(const std::string& workload) {

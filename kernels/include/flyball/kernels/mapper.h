@@ -116,9 +116,10 @@ class Mapper : public Kernel {
   /// once.
   virtual void declare_clear(const Vec3& centre_W, const Cylinder& space) = 0;
   /// What occupied cells near `p_W` show may be noise: they become unknown, at once, until a scan
-  /// shows again what is there. A mapper that cannot do so ignores it.
+  /// shows again what is there, and free where space was declared clear. They are missing from
+  /// files of the map, too. A mapper that cannot do so ignores it.
   ///
-  /// @param radius_m  Around `p_W`. Cells that lie somewhat farther may become unknown, too.
+  /// @param radius_m  Around `p_W`. Cells up to 64 finest cells farther away may be doubted, too.
   virtual void doubt_obstacles([[maybe_unused]] const Vec3& p_W, [[maybe_unused]] double radius_m) {
   }
   /// Answers from committed changes only. Lives as long as the mapper.
@@ -143,8 +144,9 @@ class Mapper : public Kernel {
                                      [[maybe_unused]] std::optional<double> resolution_m) const {
     return Error{ErrorCode::unavailable, "this mapper writes no files; try: mapper flyball"};
   }
-  /// What this mapper forgets from now on goes into this file, which it deletes in the end, and
-  /// `write` puts it back into the map. To be called before the first `prepare`, once configured.
+  /// What lies so far away that this mapper forgets it from now on goes into this file, which it
+  /// deletes in the end, and `write` puts it back into the map. To be called before the first
+  /// `prepare`, once configured.
   ///
   /// @error `failed` when the file cannot be made. What goes wrong later is an error of `write`.
   [[nodiscard]] virtual Status keep_forgotten([[maybe_unused]] const std::string& path) {

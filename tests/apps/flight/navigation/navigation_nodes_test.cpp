@@ -62,7 +62,7 @@ class NavigationNodes : public testing::Test {
   std::vector<PlannedPath> paths;
 };
 
-/// A path that is known from (2, 0) on, to be joined from (5, 0) by a vehicle that flies east.
+/// A known path whose next corner, (2, .5), lies behind a vehicle at (5, 0) that flies east.
 PlanQuery joins_behind() {
   PlanQuery query;
   query.id = 7;
@@ -90,10 +90,12 @@ TEST_F(NavigationNodes, join_a_path_that_begins_backwards_when_there_is_time_to_
 }
 
 TEST_F(NavigationNodes, say_why_there_is_no_path) {
+  rig.brief->site.bounds_W = {Vec3{-2.0, -3.0, 0.0}, Vec3{60.0, 3.0, 3.0}};
   PlanQuery query = joins_behind();
   query.known.reset();
-  query.start_W.z() = 30.0;  // Where nothing is known.
-  EXPECT_FALSE(answer_to(query).failure.empty());
+  map.fill({query.start_W - Vec3::Constant(0.1), query.start_W + Vec3::Constant(0.1)},
+           CellState::occupied);
+  EXPECT_EQ(answer_to(query).failure, "start blocked");
 }
 
 }  // namespace

@@ -93,8 +93,24 @@ TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_when_three_searches_have
   for (const auto& [searches, away_m] : {std::pair{2, 0.0}, std::pair{3, 4.0}, std::pair{4, 8.0}}) {
     Trip trip;
     EXPECT_NEAR(goes_back_m(trip, searches), away_m, 0.11) << searches;
-    EXPECT_EQ(trip.doubted_W.empty(), searches < 3) << "the map is made anew there";
+    ASSERT_EQ(trip.doubted.empty(), searches < 3) << "there obstacles are looked at anew";
+    if (!trip.doubted.empty()) {
+      const Vec3 stands_W = trip.navigator.follower().position_W();
+      EXPECT_NEAR((trip.doubted.front().centre_W - stands_W).norm(), away_m, 0.11);
+      EXPECT_GT(trip.doubted.front().radius_m, 8.0);
+    }
   }
+}
+
+TEST(NavigatorFailures, doubts_obstacles_three_times_on_the_way_to_a_goal) {
+  Trip trip;
+  EXPECT_GT(goes_back_m(trip, 6), 12.0) << "it goes back once more than that";
+  EXPECT_EQ(trip.doubted.size(), 3U);
+  trip.set_goal(Vec3{20, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  goes_back_m(trip, 3);
+  EXPECT_EQ(trip.doubted.size(), 4U) << "of another goal";
 }
 
 TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_where_the_mission_is_slow_too) {
@@ -108,9 +124,9 @@ TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_where_the_mission_is_slo
 
 TEST(NavigatorFailures, stays_and_keeps_its_map_where_the_mission_has_other_goals) {
   Trip trip;
-  trip.has_other_goals = true;
+  trip.is_one_of_many = true;
   EXPECT_NEAR(goes_back_m(trip, 4), 0.0, 0.01);
-  EXPECT_TRUE(trip.doubted_W.empty());
+  EXPECT_TRUE(trip.doubted.empty());
 }
 
 }  // namespace

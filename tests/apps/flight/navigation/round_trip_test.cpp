@@ -23,7 +23,7 @@ class ThereAndBack : public testing::Test {
     const FlightParts parts = rig.parts(graph);
     vehicle = parts.vehicle;
     PerceptionTopics perception;
-    perception.map_notes = graph.topic<MapNote>("map_notes", 8);
+    perception.map_hints = graph.topic<MapHint>("map_hints", 8);
     const GuidanceTopics guidance{graph.topic<GuidanceCommand>("guidance", 8),
                                   graph.topic<NavigatorState>("navigator")};
     trip.emplace(parts, perception, Guidance{guidance});

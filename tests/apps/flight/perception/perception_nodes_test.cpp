@@ -76,10 +76,14 @@ class ToldMapper final : public kit::GridMapper {
   void declare_clear(const Vec3& centre_W, const Cylinder&) override {
     clear_W.push_back(centre_W);
   }
-  void doubt_obstacles(const Vec3& p_W, double) override { doubted_W.push_back(p_W); }
+  void doubt_obstacles(const Vec3& p_W, double radius_m) override {
+    doubted_W.push_back(p_W);
+    doubted_m.push_back(radius_m);
+  }
 
   std::vector<Vec3> clear_W{};
   std::vector<Vec3> doubted_W{};
+  std::vector<double> doubted_m{};
 };
 
 TEST(Map, tells_its_mapper_what_is_clear_and_what_is_in_doubt) {
@@ -93,12 +97,13 @@ TEST(Map, tells_its_mapper_what_is_clear_and_what_is_in_doubt) {
   VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
   const Vec3 here_W{1.0, 2.0, 3.0};
   const Vec3 there_W{4.0, 5.0, 6.0};
-  executor.publish(topics.map_notes, MapNote{ClearSpace{here_W, {0.3, 0.1}}});
-  executor.publish(topics.map_notes, MapNote{DoubtedPlace{there_W, 12.0}});
+  executor.publish(topics.map_hints, MapHint{ClearSpace{here_W, {0.3, 0.1}}});
+  executor.publish(topics.map_hints, MapHint{DoubtedPlace{there_W, 12.0}});
   executor.publish(topics.cloud, PointCloudFrame{});
   queue.run([&] { return queue.now() >= MissionTime{1s}; });
   EXPECT_EQ(mapper->clear_W, std::vector<Vec3>{here_W});
   EXPECT_EQ(mapper->doubted_W, std::vector<Vec3>{there_W});
+  EXPECT_EQ(mapper->doubted_m, std::vector<double>{12.0});
 }
 
 }  // namespace

@@ -220,7 +220,10 @@ class MapperConformance : public KernelConformance<Mapper> {
   void check_doubted() {
     const auto mapper = mapped();
     const States before = states_of(mapper->view());
+    const auto revision = mapper->revision();
     mapper->doubt_obstacles(Vec3::Zero(), 20.0);
+    require(revision == nullptr || states_of(*revision) == before,
+            "changes a revision that it has handed on");
     const States doubted = states_of(mapper->view());
     for (std::size_t i = 0; i < before.size(); ++i) {
       const bool was_occupied = before[i] == CellState::occupied;

@@ -16,7 +16,7 @@ struct FollowNode {
   FlightParts parts;
   LocalizationTopics localization;
   NavigationTopics topics;
-  std::optional<Topic<MapNote>> map_notes{};        ///< Where there is a map to be told.
+  std::optional<Topic<MapHint>> map_hints{};        ///< Where there is a map to be told.
   std::shared_ptr<const OccupancyView> declared{};  ///< Where there is none. Owners: the nodes.
 };
 

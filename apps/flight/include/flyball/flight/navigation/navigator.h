@@ -13,7 +13,7 @@
 #include "flyball/flight/navigation/plan_service.h"
 #include "flyball/flight/navigation/situation.h"
 #include "flyball/flight/navigation/step_back.h"
-#include "flyball/flight/perception/map_notes.h"
+#include "flyball/flight/perception/map_hints.h"
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/work.h"
 
@@ -26,7 +26,7 @@ namespace flyball {
 /// What the navigator has to say beside its set-point and its query.
 struct NavigatorNews {
   std::vector<std::string> events{};
-  std::vector<MapNote> map_notes{};
+  std::vector<MapHint> map_hints{};
   std::optional<MapUse> map_use{};
   Work asked{};     ///< Of the map: see `CountedMap`.
   bool gives_up{};  ///< It has stood without a path for too long.
@@ -100,7 +100,8 @@ class Navigator {
   std::uint64_t obeyed_{};
   std::optional<Vec3> goal_W_{};
   std::optional<double> goal_yaw_rad_{};
-  bool has_other_goals_{};  ///< Whoever commands has.
+  bool is_one_of_many_{};  ///< The goal: see GoTo.
+  int doubts_{};           ///< Times that obstacles were doubted on the way to it.
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.

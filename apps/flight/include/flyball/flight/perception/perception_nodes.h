@@ -6,7 +6,7 @@
 
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/perception/localization_nodes.h"
-#include "flyball/flight/perception/map_notes.h"
+#include "flyball/flight/perception/map_hints.h"
 #include "flyball/flight/perception/map_revision.h"
 
 namespace flyball {
@@ -17,7 +17,7 @@ namespace flyball {
 struct PerceptionTopics {
   LocalizationTopics localization;
   Topic<PointCloudFrame> cloud;
-  Topic<MapNote> map_notes;  ///< A queue.
+  Topic<MapHint> map_hints;  ///< A queue.
   Topic<MapRevision> map;
 };
 

@@ -23,7 +23,7 @@ struct DoubtedPlace {
   double radius_m{};
 };
 
-using MapNote = std::variant<ClearSpace, DoubtedPlace>;
+using MapHint = std::variant<ClearSpace, DoubtedPlace>;
 
 /// The cylinder over a place on the ground where a vehicle may take off and land, 2.5 m high; see
 /// `Site::start_clear_m` for its radius.

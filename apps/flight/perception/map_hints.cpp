@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tested-in: legs
-#include "flyball/flight/perception/map_notes.h"
+#include "flyball/flight/perception/map_hints.h"
 
 namespace flyball {
 
