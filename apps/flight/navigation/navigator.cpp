@@ -50,7 +50,7 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
   } else if (const auto* go = std::get_if<GoTo>(&command.what)) {
     goal_yaw_rad_ = go->yaw_rad;
     is_one_of_many_ = go->is_one_of_many;
-    doubts_ = 0;
+    doubted_W_.clear();
     failures_ = 0;
     set_goal(now, go->p_W);
   } else {

@@ -3,6 +3,8 @@
 #include "flyball/flight/navigation/navigator.h"
 #include "flyball/flight/navigation/step_aside.h"
 
+#include <algorithm>
+
 namespace flyball {
 namespace {
 
@@ -13,7 +15,8 @@ constexpr auto stall_patience = 6s;
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
 constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
-constexpr int most_doubts = 3;       // Chosen, for each goal.
+constexpr double same_room_m = 6.0;  // Chosen: a room. From one place obstacles are doubted ...
+constexpr int most_doubts = 3;       // ... so often, at most, on the way to a goal.
 
 }  // namespace
 
@@ -88,7 +91,9 @@ void Navigator::look_from_elsewhere() {
     return;
   }
   news_.events.push_back("goes back to look for a path from there");
-  if (doubts_++ < most_doubts) {
+  const auto is_near = [&](const Vec3& p_W) { return (p_W - here_W).norm() < same_room_m; };
+  if (std::count_if(doubted_W_.begin(), doubted_W_.end(), is_near) < most_doubts) {
+    doubted_W_.push_back(here_W);
     news_.map_hints.push_back(DoubtedPlace{here_W, doubted_m});
   }
 }

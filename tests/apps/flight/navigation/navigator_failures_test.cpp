@@ -70,13 +70,8 @@ TEST(NavigatorFailures, looks_towards_its_goal_and_to_both_sides_after_a_plan_th
   EXPECT_LT(least_rad, north_rad - 0.7);
 }
 
-/// Flies east until its path is blocked and stands there, while searches for another path fail.
-///
-/// @return How far it has gone back after so many of them [m].
-double goes_back_m(Trip& trip, int searches) {
-  auto query = trip.fly_until_blocked();
-  trip.tick(1000);
-  const Vec3 before_W = trip.navigator.follower().position_W();
+/// So many searches for another path fail. @return What is asked for then.
+std::optional<PlanQuery> fail(Trip& trip, std::optional<PlanQuery> query, int searches) {
   for (int i = 0; i < searches; ++i) {
     if (!query) {
       ADD_FAILURE() << "asks for no plan after " << i;
@@ -86,6 +81,17 @@ double goes_back_m(Trip& trip, int searches) {
     trip.tick(600);
     query = trip.navigator.next_query(trip.now);
   }
+  return query;
+}
+
+/// Flies east until its path is blocked and stands there, while searches for another path fail.
+///
+/// @return How far it has gone back after so many of them [m].
+double goes_back_m(Trip& trip, int searches) {
+  const auto query = trip.fly_until_blocked();
+  trip.tick(1000);
+  const Vec3 before_W = trip.navigator.follower().position_W();
+  (void)fail(trip, query, searches);
   return (trip.navigator.follower().position_W() - before_W).norm();
 }
 
@@ -102,15 +108,21 @@ TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_when_three_searches_have
   }
 }
 
-TEST(NavigatorFailures, doubts_obstacles_three_times_on_the_way_to_a_goal) {
+TEST(NavigatorFailures, doubts_obstacles_from_one_place_three_times_on_the_way_to_a_goal) {
   Trip trip;
-  EXPECT_GT(goes_back_m(trip, 6), 12.0) << "it goes back once more than that";
-  EXPECT_EQ(trip.doubted.size(), 3U);
-  trip.set_goal(Vec3{20, 0, 1.5});
-  trip.answer(*trip.navigator.next_query(trip.now));
-  trip.tick(100);
-  goes_back_m(trip, 3);
-  EXPECT_EQ(trip.doubted.size(), 4U) << "of another goal";
+  auto query = trip.fly_until_blocked();
+  for (std::size_t visit = 1; visit <= 5; ++visit) {
+    trip.tick(1000);
+    query = fail(trip, query, 3);
+    EXPECT_EQ(trip.doubted.size(), std::min(visit, std::size_t{3}));
+    ASSERT_TRUE(query);
+    trip.answer(*query);  // Where nothing is known any more, a path is found; the wall is real.
+    trip.tick(50);
+    trip.block(7.0);
+    query = trip.navigator.next_query(trip.now);
+  }
+  (void)goes_back_m(trip, 3);
+  EXPECT_EQ(trip.doubted.size(), 4U) << "the way to another goal";
 }
 
 TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_where_the_mission_is_slow_too) {

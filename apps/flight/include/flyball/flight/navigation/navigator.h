@@ -100,8 +100,8 @@ class Navigator {
   std::uint64_t obeyed_{};
   std::optional<Vec3> goal_W_{};
   std::optional<double> goal_yaw_rad_{};
-  bool is_one_of_many_{};  ///< The goal: see GoTo.
-  int doubts_{};           ///< Times that obstacles were doubted on the way to it.
+  bool is_one_of_many_{};          ///< The goal: see GoTo.
+  std::vector<Vec3> doubted_W_{};  ///< Where obstacles were doubted on the way to it.
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
