@@ -125,6 +125,26 @@ TEST(NavigatorFailures, doubts_obstacles_from_one_place_three_times_on_the_way_t
   EXPECT_EQ(trip.doubted.size(), 4U) << "the way to another goal";
 }
 
+TEST(NavigatorFailures, gives_up_where_obstacles_were_doubted_and_paths_lead_no_nearer) {
+  for (const int searches : {0, 3}) {
+    Trip trip;
+    auto query = trip.fly_until_blocked();
+    trip.tick(1000);
+    query = fail(trip, query, searches);
+    EXPECT_FALSE(trip.gave_up);
+    const MissionTime before = trip.now;
+    while (to_seconds(trip.now - before) < 280.0) {  // Three times the patience at a standstill.
+      ASSERT_TRUE(query);
+      trip.answer(*query);
+      trip.tick(10);
+      trip.block(0.5);
+      query = trip.navigator.next_query(trip.now);
+      trip.tick(1000);
+    }
+    EXPECT_EQ(trip.gave_up, searches > 0) << searches;
+  }
+}
+
 TEST(NavigatorFailures, looks_for_a_path_from_elsewhere_where_the_mission_is_slow_too) {
   Site site;
   site.zones = {{{Vec3{3, -3, 0}, Vec3{60, 3, 3}}, slow_m_s}};

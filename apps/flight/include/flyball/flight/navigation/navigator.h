@@ -69,6 +69,7 @@ class Navigator {
   void note_finer_map(MissionTime now);
   [[nodiscard]] bool is_detour() const;
   void note_rest(MissionTime now, double speed_m_s);
+  void note_progress(MissionTime now, double limit_s);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
   [[nodiscard]] bool is_leg_ending() const;
@@ -122,6 +123,8 @@ class Navigator {
   bool is_searching_{};  ///< The localizer is lost, and the vehicle looks for a known place.
   MissionTime not_before_{};
   MissionTime without_path_since_{};
+  double nearest_m_{};          ///< To the goal, so far.
+  MissionTime nearer_since_{};  ///< When the vehicle came that near.
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
   MapLatency map_latency_;
