@@ -22,8 +22,6 @@ constexpr double rests_below_m_s = 0.02;  // The speed of PathFollower's standst
 constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unknown space.
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
-constexpr double nearer_m = 1.0;           // Progress towards a goal; less may be an evasion.
-constexpr double futile_limits = 3.0;      // So many times the patience of a standing vehicle.
 constexpr double rounding_m = 1e-6;
 
 }  // namespace
@@ -329,20 +327,7 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
   } else if (to_seconds(now - without_path_since_) > limit_s) {
     news_.gives_up = true;
   }
-  note_progress(now, futile_limits * limit_s);
-}
-
-// Where obstacles were doubted, paths are found through walls that are not seen again yet, and a
-// vehicle before a closed door would try them until its battery is empty.
-void Navigator::note_progress(MissionTime now, double limit_s) {
-  const double to_goal_m = goal_W_ ? (*goal_W_ - follower_.position_W()).norm() : 0.0;
-  if (!goal_W_ || has_arrived() || to_goal_m < nearest_m_ - nearer_m) {
-    nearest_m_ = to_goal_m;
-    nearer_since_ = now;
-  }
-  if (!doubted_W_.empty() && to_seconds(now - nearer_since_) > limit_s) {
-    news_.gives_up = true;
-  }
+  note_progress(now);
 }
 
 Setpoint Navigator::tick(MissionTime now,

@@ -12,11 +12,13 @@ using namespace std::chrono_literals;
 
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
-constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
-constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
-constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
-constexpr double same_room_m = 6.0;  // Chosen: a room. From one place obstacles are doubted ...
-constexpr int most_doubts = 3;       // ... so often, at most, on the way to a goal.
+constexpr int tries = 3;               // Chosen: two may have failed because of noise in the map.
+constexpr double elsewhere_m = 4.0;    // Chosen: there half of a fine map of 8 m is new.
+constexpr double doubted_m = 12.0;     // Chosen: a fine map sees 8 m from 4 m farther back.
+constexpr double same_room_m = 6.0;    // Chosen: a room. From one place obstacles are doubted ...
+constexpr int most_doubts = 3;         // ... so often, at most, on the way to a goal.
+constexpr double nearer_m = 1.0;       // Chosen: less is an evasion, no progress to the goal.
+constexpr double futile_limits = 3.0;  // Chosen: the patience of a standing vehicle so many times.
 
 }  // namespace
 
@@ -95,6 +97,20 @@ void Navigator::look_from_elsewhere() {
   if (std::count_if(doubted_W_.begin(), doubted_W_.end(), is_near) < most_doubts) {
     doubted_W_.push_back(here_W);
     news_.map_hints.push_back(DoubtedPlace{here_W, doubted_m});
+  }
+}
+
+// Where obstacles were doubted, paths are found through walls that are not seen again yet, and a
+// vehicle before a closed door would try them until its battery is empty.
+void Navigator::note_progress(MissionTime now) {
+  const double limit_s = futile_limits * brief_->settings.mission.plan_time_limit_s;
+  const double to_goal_m = goal_W_ ? (*goal_W_ - follower_.position_W()).norm() : 0.0;
+  if (!goal_W_ || has_arrived() || to_goal_m < nearest_m_ - nearer_m) {
+    nearest_m_ = to_goal_m;
+    nearer_since_ = now;
+  }
+  if (!doubted_W_.empty() && to_seconds(now - nearer_since_) > limit_s) {
+    news_.gives_up = true;
   }
 }
 

@@ -69,7 +69,7 @@ class Navigator {
   void note_finer_map(MissionTime now);
   [[nodiscard]] bool is_detour() const;
   void note_rest(MissionTime now, double speed_m_s);
-  void note_progress(MissionTime now, double limit_s);
+  void note_progress(MissionTime now);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
   [[nodiscard]] bool is_leg_ending() const;
