@@ -25,13 +25,6 @@ class NavigationNodes : public testing::Test {
     mission = parts.mission;
     perception = add_perception(graph, parts);
     topics = add_navigation(graph, parts, perception);
-    NodeSpec spec;
-    spec.name = "listener";
-    spec.trigger = OnMessage{topics.path.index};
-    graph.node(std::move(spec), [this](JobContext& job) {
-      paths.push_back(*job.latest(topics.path));
-      return Work{};
-    });
   }
 
   static void kernels_of(MissionKernels& kernels, const Plugins& plugins) {
@@ -43,6 +36,8 @@ class NavigationNodes : public testing::Test {
   /// What becomes of a query.
   PlannedPath answer_to(const PlanQuery& query) {
     VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+    executor.subscribe<PlannedPath>(topics.path,
+                                    [this](const PlannedPath& path) { paths.push_back(path); });
     executor.publish(mission.knobs, *rig.knobs);
     executor.publish(perception.map,
                      MapRevision{1, MissionTime{}, 0.15, std::make_shared<kit::GridMap>(map)});

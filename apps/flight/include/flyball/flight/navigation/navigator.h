@@ -29,7 +29,7 @@ struct NavigatorNews {
   std::vector<MapHint> map_hints{};
   std::optional<MapUse> map_use{};
   Work asked{};     ///< Of the map: see `CountedMap`.
-  bool gives_up{};  ///< It has stood without a path for too long.
+  bool gives_up{};  ///< It has stood without a path, or come no nearer, for too long.
 };
 
 /// One node owns it; all that it knows comes by messages, and all that it says goes by messages.
