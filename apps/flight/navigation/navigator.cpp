@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace flyball {
@@ -30,6 +29,7 @@ Navigator::Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTra
     : brief_{std::move(brief)},
       path_tracker_{std::move(path_tracker)},
       follower_{brief_},
+      patience_{brief_->settings.mission.plan_time_limit_s},
       map_latency_{frame_price(*brief_)} {}
 
 void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs) {
@@ -51,7 +51,7 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
   } else if (const auto* go = std::get_if<GoTo>(&command.what)) {
     goal_yaw_rad_ = go->yaw_rad;
     is_one_of_many_ = go->is_one_of_many;
-    doubted_W_.clear();
+    patience_.begin(now);
     failures_ = 0;
     set_goal(now, go->p_W);
   } else {
@@ -72,8 +72,6 @@ void Navigator::leave_path_at(const Vec3& p_W, double yaw_rad) {
 
 void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
-  without_path_since_ = nearer_since_ = now;
-  nearest_m_ = std::numeric_limits<double>::infinity();
   pending_id_ = 0;
   known_.reset();
   want_plan(now, "new goal");
@@ -303,6 +301,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
 void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) {
   if (is_searching_ && goal_W_) {
     hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
+    patience_.resume(now);
     set_goal(now, *goal_W_);
   }
   is_searching_ = false;
@@ -321,13 +320,9 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
   if (stalls_ > 0 && speed_m_s > moves_above_m_s) {
     failures_ = stalls_ = 0;
   }
-  const double limit_s = brief_->settings.mission.plan_time_limit_s;
-  if (!rests || !goal_W_ || has_arrived()) {
-    without_path_since_ = now;
-  } else if (to_seconds(now - without_path_since_) > limit_s) {
-    news_.gives_up = true;
-  }
-  note_progress(now);
+  const bool is_on_way = goal_W_ && !has_arrived();
+  const double to_goal_m = is_on_way ? (*goal_W_ - follower_.position_W()).norm() : 0.0;
+  news_.gives_up |= patience_.note(now, to_goal_m, rests);
 }
 
 Setpoint Navigator::tick(MissionTime now,

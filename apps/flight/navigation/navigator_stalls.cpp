@@ -3,8 +3,6 @@
 #include "flyball/flight/navigation/navigator.h"
 #include "flyball/flight/navigation/step_aside.h"
 
-#include <algorithm>
-
 namespace flyball {
 namespace {
 
@@ -12,13 +10,9 @@ using namespace std::chrono_literals;
 
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
-constexpr int tries = 3;               // Chosen: two may have failed because of noise in the map.
-constexpr double elsewhere_m = 4.0;    // Chosen: there half of a fine map of 8 m is new.
-constexpr double doubted_m = 12.0;     // Chosen: a fine map sees 8 m from 4 m farther back.
-constexpr double same_room_m = 6.0;    // Chosen: a room. From one place obstacles are doubted ...
-constexpr int most_doubts = 3;         // ... so often, at most, on the way to a goal.
-constexpr double nearer_m = 1.0;       // Chosen: less is an evasion, no progress to the goal.
-constexpr double futile_limits = 3.0;  // Chosen: the patience of a standing vehicle so many times.
+constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
+constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
+constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
 
 }  // namespace
 
@@ -84,8 +78,7 @@ bool Navigator::leaves_blind_zone() {
 
 // A path may have led past the only opening, which noise had closed, to where that is out of view.
 // What closed it may be noise of looks from far away, in cells that no ray has crossed since then,
-// so the map forgets its obstacles there. Walls that are no noise are seen again and close the way
-// as before: a few times are enough. Where the mission has other goals, another one is reached
+// so the map forgets its obstacles there. Where the mission has other goals, another one is reached
 // sooner.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
@@ -93,24 +86,8 @@ void Navigator::look_from_elsewhere() {
     return;
   }
   news_.events.push_back("goes back to look for a path from there");
-  const auto is_near = [&](const Vec3& p_W) { return (p_W - here_W).norm() < same_room_m; };
-  if (std::count_if(doubted_W_.begin(), doubted_W_.end(), is_near) < most_doubts) {
-    doubted_W_.push_back(here_W);
+  if (patience_.may_doubt(here_W)) {
     news_.map_hints.push_back(DoubtedPlace{here_W, doubted_m});
-  }
-}
-
-// Where obstacles were doubted, paths are found through walls that are not seen again yet, and a
-// vehicle before a closed door would try them until its battery is empty.
-void Navigator::note_progress(MissionTime now) {
-  const double limit_s = futile_limits * brief_->settings.mission.plan_time_limit_s;
-  const double to_goal_m = goal_W_ ? (*goal_W_ - follower_.position_W()).norm() : 0.0;
-  if (!goal_W_ || has_arrived() || to_goal_m < nearest_m_ - nearer_m) {
-    nearest_m_ = to_goal_m;
-    nearer_since_ = now;
-  }
-  if (!doubted_W_.empty() && to_seconds(now - nearer_since_) > limit_s) {
-    news_.gives_up = true;
   }
 }
 

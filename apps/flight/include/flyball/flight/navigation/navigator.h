@@ -5,6 +5,7 @@
 /// Flies the vehicle to a goal through the known map: requests plans, splices them into the
 /// committed path, and keeps the bound on latency from which the speed limit follows.
 
+#include "flyball/flight/navigation/goal_patience.h"
 #include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/map_latency.h"
 #include "flyball/flight/navigation/path_clearance.h"
@@ -69,7 +70,6 @@ class Navigator {
   void note_finer_map(MissionTime now);
   [[nodiscard]] bool is_detour() const;
   void note_rest(MissionTime now, double speed_m_s);
-  void note_progress(MissionTime now);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
   [[nodiscard]] bool is_leg_ending() const;
@@ -101,8 +101,8 @@ class Navigator {
   std::uint64_t obeyed_{};
   std::optional<Vec3> goal_W_{};
   std::optional<double> goal_yaw_rad_{};
-  bool is_one_of_many_{};          ///< The goal: see GoTo.
-  std::vector<Vec3> doubted_W_{};  ///< Where obstacles were doubted on the way to it.
+  bool is_one_of_many_{};  ///< The goal: see GoTo.
+  GoalPatience patience_;
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::uint64_t pending_id_{};  ///< 0: none.
@@ -122,9 +122,6 @@ class Navigator {
   bool wants_plan_{};
   bool is_searching_{};  ///< The localizer is lost, and the vehicle looks for a known place.
   MissionTime not_before_{};
-  MissionTime without_path_since_{};
-  double nearest_m_{};          ///< To the goal, so far.
-  MissionTime nearer_since_{};  ///< When the vehicle came that near.
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
   MapLatency map_latency_;
