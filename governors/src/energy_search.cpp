@@ -18,7 +18,6 @@ constexpr double too_slow = 1e3;   // A factor on the price of settings that res
                                    // other is cheaper, but one of them is better than none.
 constexpr double open_over_room = 10.0;  // Chosen: so much longer a map may take, at most, where no
                                          // walls end its rays.
-enum Axis : std::size_t { resolution, range, clock_axis };
 
 // At the mission's own speed limit many settings differ by milliwatts only. Among them the search
 // takes the one with the shortest response. Each is compared with the best of all, because small
@@ -69,7 +68,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
       bound_{levels.size(), 1, settings.bound},
       computer_{computer},
       thermal_{computer},
-      most_clock_hz_{points_.axes()[clock_axis].values.back()} {
+      most_clock_hz_{clocks_hz().back()} {
   for (const SearchLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;
@@ -86,12 +85,12 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
 
 MapSetting EnergySearch::setting(std::size_t point) const {
   const double* values = points_.values(point);
-  return {values[resolution], values[range], values[clock_axis]};
+  return {values[0], values[1], values[2]};
 }
 
 // The nearest level, because somebody else may have set the cells of the map.
 std::size_t EnergySearch::level(double resolution_m) const {
-  const auto& levels = points_.axes()[resolution].values;
+  const auto& levels = cells_m();
   std::size_t best = 0;
   for (std::size_t i = 1; i < levels.size(); ++i) {
     if (std::abs(levels[i] - resolution_m) < std::abs(levels[best] - resolution_m)) {
@@ -118,7 +117,7 @@ Watts EnergySearch::computer_power(const MapSetting& setting, double map_s) cons
 void EnergySearch::learn(const Observation& seen) {
   learn_latency(seen);
   thermal_.learn(seen);
-  most_clock_hz_ = thermal_.most_clock_hz(points_.axes()[clock_axis].values);
+  most_clock_hz_ = thermal_.most_clock_hz(clocks_hz());
   if (seen.phase == MissionPhase::cruise) {
     rotors_.learn(seen.speed_m_s, seen.rotor_power);
   }
@@ -188,8 +187,7 @@ std::vector<LevelBounds> EnergySearch::bound_levels() const {
   std::vector<LevelBounds> levels;
   for (std::size_t i = 0; i < bound_.levels(); ++i) {
     const QuantileTracker& one = bound_.tracker(i);
-    levels.push_back({points_.axes()[resolution].values[i], one.decisions(), one.misses(),
-                      one.most_misses(worst, 1)});
+    levels.push_back({cells_m()[i], one.decisions(), one.misses(), one.most_misses(worst, 1)});
   }
   return levels;
 }
@@ -225,8 +223,8 @@ bool EnergySearch::is_allowed(const MapSetting& candidate,
                               const Surroundings& around,
                               double least_range_m) const {
   // If no level is fine enough, the finest one is allowed.
-  const double coarsest_m = std::max(around.coarsest_m, points_.axes()[resolution].values.front());
-  const double most_range_m = std::max(around.most_range_m, points_.axes()[range].values.front());
+  const double coarsest_m = std::max(around.coarsest_m, cells_m().front());
+  const double most_range_m = std::max(around.most_range_m, ranges_m().front());
   const double clear_range_m =
       std::max(most_range_m_[level(candidate.resolution_m)], around.clear_range_m);
   return candidate.resolution_m <= coarsest_m && candidate.resolution_m >= around.finest_m &&
@@ -281,18 +279,17 @@ EnergyEstimate EnergySearch::choose(const Surroundings& around, MissionTime now)
 
 MapSetting EnergySearch::idle(
     double resolution_m, double range_m, double within_s, std::size_t raised_by, MissionTime now) {
-  const std::vector<double>& clocks_hz = points_.axes()[clock_axis].values;
   const double factor = bound_.tracker(level(resolution_m)).factor();
   std::size_t slowest = 0;
-  while (slowest + 1 < clocks_hz.size() &&
-         factor * predicted_s({resolution_m, range_m, clocks_hz[slowest]}) > within_s) {
+  while (slowest + 1 < clocks_hz().size() &&
+         factor * predicted_s({resolution_m, range_m, clocks_hz()[slowest]}) > within_s) {
     ++slowest;
   }
-  const std::size_t chosen = std::min(slowest + raised_by, clocks_hz.size() - 1);
+  const std::size_t chosen = std::min(slowest + raised_by, clocks_hz().size() - 1);
   for (EnergyEstimate& none : estimates_) {
     none.joules_per_m = std::numeric_limits<double>::infinity();  // The vehicle makes no progress.
   }
-  put_in_force({resolution_m, range_m, std::min(clocks_hz[chosen], most_clock_hz_)}, now);
+  put_in_force({resolution_m, range_m, std::min(clocks_hz()[chosen], most_clock_hz_)}, now);
   return in_force_;
 }
 

@@ -111,8 +111,8 @@ Observation Ablation::seen(Observation seen) const {
 
 void Ablation::leave_one(Surroundings& around, const EnergySearch& search) {
   constexpr std::array usual_m{10.0, 15.0, 22.0, 25.0};  // Of gap_switch, finest cells first.
-  const std::vector<double>& cells_m = search.points().axes()[0].values;
-  const std::vector<double>& ranges_m = search.points().axes()[1].values;
+  const std::vector<double>& cells_m = search.cells_m();
+  const std::vector<double>& ranges_m = search.ranges_m();
   const auto larger = std::upper_bound(cells_m.begin(), cells_m.end(), around.coarsest_m);
   const auto level =
       static_cast<std::size_t>(std::max(larger - cells_m.begin(), std::ptrdiff_t{1})) - 1;
@@ -127,7 +127,7 @@ void Ablation::leave_one(Surroundings& around, const EnergySearch& search) {
 }
 
 void Ablation::limit(Surroundings& around, const EnergySearch& search) const {
-  const std::vector<double>& ranges_m = search.points().axes()[1].values;
+  const std::vector<double>& ranges_m = search.ranges_m();
   if (part_ == Part::search) {
     leave_one(around, search);
   } else if (part_ == Part::resolution) {

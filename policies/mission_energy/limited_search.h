@@ -23,8 +23,7 @@ struct LimitedSearch {
   /// @param owner     For messages: `policy "mission_energy"`.
   /// @param given     Those of `MissionLimits::parameters`, `fine_latency_s` and
   ///                  `coarse_latency_s`.
-  /// @param settings  Their spacing is set to that of the limits, unless it is larger already. If
-  /// the policy refuses its own
+  /// @param settings  Their spacing is that of a forest at least. If the policy refuses its own
   ///                  parameters, that is told after what is missing.
   /// @error `invalid_input`: a knob or the board's power is missing, or parameters contradict each
   ///        other or the knobs.

@@ -24,10 +24,10 @@ HorizonSearch::HorizonSearch(const HorizonSettings& settings, const EnergySearch
       price_{search.settings()},
       speeds_{static_cast<std::size_t>(settings.most_speed_m_s / settings.speed_step_m_s) + 1} {
   const OperatingPoints& all = search.points();
-  const std::vector<double>& cells_m = all.axes()[0].values;
+  const std::vector<double>& cells_m = search.cells_m();
   levels_ = cells_m.size();
   finest_m_ = cells_m.front();
-  top_clock_hz_ = all.axes()[2].values.back();
+  top_clock_hz_ = search.clocks_hz().back();
   for (std::size_t point = 0; point < all.size(); ++point) {
     const double* at = all.values(point);
     if (at[1] > search.most_range_m(at[0])) {

@@ -51,7 +51,7 @@ class Reference final : public flyball::Policy,
     if (!made) {
       return made.error();
     }
-    levels_m_ = made->search.points().axes().front().values;
+    levels_m_ = made->search.cells_m();
     limits_.emplace(std::move(made->limits));
     search_.emplace(std::move(made->search));
     horizon_.emplace(flyball::HorizonSettings{}, *search_);
