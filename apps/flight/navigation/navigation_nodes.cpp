@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <utility>
+#include <vector>
 
 namespace flyball {
 namespace {
@@ -57,6 +58,22 @@ void add_check(Graph& graph,
   });
 }
 
+/// The goal of the next leg in place of the mission's, which may be too far away for one plan.
+/// Where a search may take long or find nothing, the leg is the free part of the way that was
+/// flown. In a forest, a search finds a shorter one at once.
+void choose_leg(const Situation& situation, PlanQuery& query) {
+  const bool is_doubtful = query.failures > 0 || situation.is_slow_at(query.start_W) ||
+                           situation.brief.settings.planner.horizon_m > 0.0;
+  const std::size_t flown = query.flown_W.size();
+  query.flown_W =
+      is_doubtful ? free_leg_W(situation, std::move(query.flown_W)) : std::vector<Vec3>{};
+  if (query.flown_W.empty()) {
+    query.goal_W = sub_goal_W(situation, query.start_W, query.goal_W, query.failures);
+  } else if (query.flown_W.size() < flown) {
+    query.goal_W = query.flown_W.back();
+  }
+}
+
 /// The answer to one query, and what it cost: the search, and what else the map was asked.
 PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery query, Work& work) {
   const CountedMap map{situation.map};
@@ -72,8 +89,7 @@ PlanAnswer planned(const Situation& situation, PathPlanner& planner, PlanQuery q
     }
     return answer;
   }
-  query.goal_W = sub_goal_W({situation.brief, situation.knobs, map}, query.start_W, query.goal_W,
-                            query.failures);
+  choose_leg({situation.brief, situation.knobs, map}, query);
   Plan plan = plan_with_tubes(situation, planner, query, answer.body);
   answer.failure = plan.failure;
   answer.iterations = plan.work.count("iterations");

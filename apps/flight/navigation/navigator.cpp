@@ -74,6 +74,7 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
   pending_id_ = 0;
   known_.reset();
+  returns_ = flown_.leads_to(goal_W);
   want_plan(now, "new goal");
 }
 
@@ -192,18 +193,25 @@ PlanQuery Navigator::query() {
   // When no path was found twice with the narrow tube, none will be found with a wide one.
   query.may_be_tight = situation().is_slow_at(query.start_W) || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
+  if (returns_) {
+    query.flown_W = flown_.between(query.start_W, query.goal_W);
+  }
   return query;
 }
 
 // The next plan is asked for so early that the vehicle need not stop, and so late that the next
-// leg, which is half a horizon at least, is longer than what is left of this one.
+// leg, which is half a horizon at least, is longer than what is left of this one. A shorter leg is
+// the free part of the way that was flown: more of it is free in smaller cells, and it needs no
+// search.
 bool Navigator::is_leg_ending() const {
   const double horizon_m = brief_->settings.planner.horizon_m;
   if (horizon_m <= 0.0 || !follower_.has_path()) {
     return false;
   }
   const Path& path = follower_.path();
-  return path.length_m() - follower_.s_m() < 0.4 * horizon_m &&
+  const bool is_short = path.length_m() < 0.5 * horizon_m;
+  const double left_m = returns_ && is_short ? room_to_turn_m : 0.4 * horizon_m;
+  return path.length_m() - follower_.s_m() < left_m &&
          (path.at(path.length_m()).p_W - *goal_W_).norm() >
              brief_->settings.mission.goal_tolerance_m;
 }
@@ -344,6 +352,9 @@ Setpoint Navigator::tick(MissionTime now,
     go_back(now, dt, error_W.norm());
   } else if (follower_.has_path()) {
     back_.flew(follower_.position_W());
+    if (!returns_) {
+      flown_.flew(follower_.position_W());
+    }
   }
   note_rest(now, reference.speed_m_s);
   tell_map_use(now);

@@ -64,7 +64,7 @@ class Search {
     const int budget = std::min(static_cast<int>(situation_.knobs.value("planner.budget")),
                                 first_iterations << std::min(query_.failures, most_doublings));
     if (query_.may_be_tight) {
-      return try_with(situation_.brief.narrow_body(), budget);
+      return try_narrow(budget);
     }
     const double opening_m = narrowest_opening_m();
     const auto fits = [&](const Cylinder& body) {
@@ -76,7 +76,13 @@ class Search {
     const bool tries_roomy = 2.0 * situation_.map.resolution_m() <= room_m && fits(roomy);
     const bool tries_wide = fits(wide);
     return (tries_roomy && try_with(roomy, few)) || (tries_wide && try_with(wide, few)) ||
-           try_with(situation_.brief.narrow_body(), budget);
+           try_narrow(budget);
+  }
+
+  // The way that was flown is not always the shortest, so it takes the place of the longest search.
+  bool try_narrow(int budget) {
+    request_.flown_W = query_.flown_W;
+    return try_with(situation_.brief.narrow_body(), budget);
   }
 
   [[nodiscard]] double narrowest_opening_m() {

@@ -9,6 +9,7 @@ constexpr double step_m = 2.5;
 constexpr double nearest_share = 0.5;  // Of the horizon: nearer goals would make short legs.
 constexpr double side_step_m = 3.0;
 constexpr int most_aside = 4;
+constexpr double least_leg_m = 5.0;  // Chosen: a search takes as long as the flight of so many.
 constexpr double body_band_m = 0.3;  // A little more than half the body's height.
 // Unknown space nearer to an obstacle may be the obstacle's inside: RoboRun's blocks are 4 m wide.
 constexpr double unknown_gap_m = 3.0;
@@ -46,6 +47,23 @@ Vec3 sub_goal_W(const Situation& situation, const Vec3& start_W, const Vec3& goa
     }
   }
   return goal_W;
+}
+
+std::vector<Vec3> free_leg_W(const Situation& situation, std::vector<Vec3> flown_W) {
+  const double horizon_m = situation.brief.settings.planner.horizon_m;
+  const Cylinder body = situation.brief.narrow_body();
+  double leg_m = 0.0;
+  std::size_t free = 0;
+  while (free + 1 < flown_W.size() && (horizon_m <= 0.0 || leg_m < horizon_m) &&
+         !situation.map.segment_hits(flown_W[free], flown_W[free + 1], body)) {
+    leg_m += (flown_W[free + 1] - flown_W[free]).norm();
+    ++free;
+  }
+  if (flown_W.empty() || (free + 1 < flown_W.size() && leg_m < least_leg_m)) {
+    return {};
+  }
+  flown_W.resize(free + 1);
+  return flown_W;
 }
 
 }  // namespace flyball

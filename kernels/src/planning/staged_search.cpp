@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <utility>
 
@@ -56,6 +57,47 @@ Plan failed(Plan plan, std::string why) {
   return plan;
 }
 
+/// The place farthest on the way to which a straight piece leads; `here` itself where not even the
+/// next one is free. What looks free from one place to a far one may hide an obstacle between, so
+/// each piece is tried twice as long as the one before that was free, and then halved.
+std::size_t farthest(const std::vector<Vec3>& way_W, std::size_t here, MotionChecker& checker) {
+  const std::size_t last = way_W.size() - 1;
+  std::size_t reached = here;
+  std::size_t step = 1;
+  while (reached < last && checker.is_flyable(way_W[here], way_W[std::min(here + step, last)])) {
+    reached = std::min(here + step, last);
+    step *= 2;
+  }
+  for (step /= 4; step > 0 && reached > here; step /= 2) {
+    const std::size_t next = std::min(reached + step, last);
+    if (next > reached && checker.is_flyable(way_W[here], way_W[next])) {
+      reached = next;
+    }
+  }
+  return reached;
+}
+
+/// The way that was flown, with few way-points; empty where it is not free, or a shorter one is
+/// looked for.
+std::vector<Vec3> free_way(const PlanRequest& request, MotionChecker& checker) {
+  if (request.flown_W.empty() || std::isfinite(request.shorter_than_m)) {
+    return {};
+  }
+  std::vector<Vec3> all_W{request.start_W};
+  all_W.insert(all_W.end(), request.flown_W.begin(), request.flown_W.end());
+  all_W.push_back(request.goal_W);
+  std::vector<Vec3> way_W{all_W.front()};
+  for (std::size_t here = 0; here + 1 < all_W.size();) {
+    const std::size_t next = farthest(all_W, here, checker);
+    if (next == here) {
+      return {};
+    }
+    way_W.push_back(all_W[next]);
+    here = next;
+  }
+  return way_W;
+}
+
 /// Tries stage after stage; adds what they did to `iterations`.
 StageResult search_all(const PlanRequest& request,
                        const TreeSearch& search,
@@ -80,10 +122,13 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   if (checker.is_flyable(request.start_W, request.goal_W)) {
     plan.waypoints_W = {request.start_W, request.goal_W};
   } else {
-    const double before = checker.queries();
-    found = search_all(request, search, checker);
-    plan.searching.add("iterations", found.iterations);
-    plan.searching.add("collision_queries", checker.queries() - before);
+    found.points_W = free_way(request, checker);
+    if (found.points_W.empty()) {
+      const double before = checker.queries();
+      found = search_all(request, search, checker);
+      plan.searching.add("iterations", found.iterations);
+      plan.searching.add("collision_queries", checker.queries() - before);
+    }
     if (!found.points_W.empty()) {
       plan.waypoints_W = simplify(std::move(found.points_W), checker, request.bounds_W,
                                   RandomStream{request.seed, "path_simplifier"});

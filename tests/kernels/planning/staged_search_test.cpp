@@ -2,6 +2,7 @@
 #include "planning/staged_search.h"
 
 #include "plan_scenes.h"
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -115,6 +116,60 @@ TEST(StagedSearch, starts_from_a_place_that_is_within_its_own_margin_of_a_wall) 
   const auto plan = flyball::staged_plan(
       request, map, [](const SearchStage&, MotionChecker&) { return StageResult{}; });
   EXPECT_EQ(plan.waypoints_W.size(), 2U);
+}
+
+/// Around the end of a wall, which stands between start and goal.
+struct FlownScene {
+  explicit FlownScene(double end_y_m = 2.0) {
+    map.fill({{10.0, -5, 0}, {10.15, end_y_m, 3}}, flyball::CellState::occupied);
+    request.body = flyball::kit::slow_body();
+    request.start_W = {2, 0, 1.5};
+    request.goal_W = {18, 0, 1.5};
+    request.bounds_W = {{0, -5, 0}, {20, 5, 3}};
+    for (int i = 0; i <= 160; ++i) {
+      const double x = 2.0 + 0.1 * i;
+      request.flown_W.push_back({x, 4.0 * (1.0 - std::abs(x - 10.0) / 8.0), 1.5});
+    }
+  }
+  /// Searches that the plan took.
+  int searches() {
+    int count = 0;
+    plan = flyball::staged_plan(request, map, [&count](const SearchStage&, MotionChecker&) {
+      ++count;
+      return StageResult{};
+    });
+    return count;
+  }
+  flyball::kit::GridMap map{{{0, -5, 0}, {20, 5, 3}}, 0.15};
+  PlanRequest request;
+  flyball::Plan plan;
+};
+
+TEST(StagedSearch, takes_the_way_that_was_flown_with_few_way_points) {
+  FlownScene scene;
+  EXPECT_EQ(scene.searches(), 0);
+  ASSERT_GE(scene.plan.waypoints_W.size(), 3U);
+  EXPECT_LE(scene.plan.waypoints_W.size(), 4U);
+  EXPECT_EQ(scene.plan.waypoints_W.front(), scene.request.start_W);
+  EXPECT_EQ(scene.plan.waypoints_W.back(), scene.request.goal_W);
+  EXPECT_EQ(scene.plan.work.count("iterations"), 0.0);
+  EXPECT_LT(scene.plan.work.count("collision_queries"), 200.0);
+  for (std::size_t i = 1; i < scene.plan.waypoints_W.size(); ++i) {
+    EXPECT_FALSE(scene.map.segment_hits(scene.plan.waypoints_W[i - 1], scene.plan.waypoints_W[i],
+                                        scene.request.body));
+  }
+}
+
+TEST(StagedSearch, searches_where_the_way_that_was_flown_is_blocked_now) {
+  FlownScene scene{4.5};
+  EXPECT_GT(scene.searches(), 0);
+  EXPECT_FALSE(scene.plan.failure.empty());
+}
+
+TEST(StagedSearch, searches_where_a_shorter_path_is_wanted_than_was_flown) {
+  FlownScene scene;
+  scene.request.shorter_than_m = 17.0;
+  EXPECT_GT(scene.searches(), 0);
 }
 
 }  // namespace

@@ -26,7 +26,10 @@ struct PlanRequest {
   /// be and looks at narrow passages first.
   double shorter_than_m{std::numeric_limits<double>::infinity()};
   double max_slope_rad{0.35};  ///< Of each straight piece; about 20 degrees.
-  std::uint64_t seed{};        ///< Of this one plan.
+  /// A way that the vehicle has flown, from near the start to near the goal; empty: none. Where it
+  /// is free on the map, nothing is searched for, unless a shorter path is wanted.
+  std::vector<Vec3> flown_W{};
+  std::uint64_t seed{};  ///< Of this one plan.
 };
 
 /// Of the polygon through these points.

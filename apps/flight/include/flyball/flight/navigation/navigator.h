@@ -5,6 +5,7 @@
 /// Flies the vehicle to a goal through the known map: requests plans, splices them into the
 /// committed path, and keeps the bound on latency from which the speed limit follows.
 
+#include "flyball/flight/navigation/flown_way.h"
 #include "flyball/flight/navigation/goal_patience.h"
 #include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/map_latency.h"
@@ -115,6 +116,8 @@ class Navigator {
   int failures_{};  ///< Searches that found no path since one was last adopted.
   int replans_{};
   StepBack back_{};
+  FlownWay flown_{};
+  bool returns_{};  ///< The way that was flown leads to the goal.
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
   PlanLead lead_{};

@@ -23,6 +23,8 @@ struct PlanQuery {
   int failures{};        ///< Searches that found no path since one was last adopted.
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
+  std::vector<Vec3>
+      flown_W{};  ///< The way to the goal, where the vehicle has come by it; or empty.
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
   std::optional<KnownPath> known{};
   bool may_turn_back{true};  ///< To join it; else a path that would have to is refused.
@@ -40,7 +42,7 @@ struct PlanAnswer {
 /// On a link: a path's way-points, beside the members of fixed size.
 [[nodiscard]] inline double wire_bytes(const PlanQuery& query) {
   const std::size_t known = query.known ? query.known->waypoints_W.size() : 0;
-  return static_cast<double>(sizeof(PlanQuery) + known * sizeof(Vec3));
+  return static_cast<double>(sizeof(PlanQuery) + (known + query.flown_W.size()) * sizeof(Vec3));
 }
 [[nodiscard]] inline double wire_bytes(const PlanAnswer& answer) {
   return static_cast<double>(sizeof(PlanAnswer) + answer.waypoints_W.size() * sizeof(Vec3) +
