@@ -69,7 +69,7 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: .6 m, or less where the ground would reach up to the vehicle."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map, but for slow_range_m."},
-      {"slow_range_m", 3.5, 0.5, 100.0, "Shortest where narrow gaps are declared."},
+      {"slow_range_m", 2.0, 0.5, 100.0, "Shortest where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},

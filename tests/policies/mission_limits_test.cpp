@@ -136,7 +136,7 @@ TEST(MissionLimits, may_look_nearer_where_the_mission_is_slow) {
   auto limits = made();
   const MapSetting setting{0.60, 7.0, 2e9};
   Observation seen = between_trees(0.8);
-  EXPECT_EQ(limits->ranges_m().front(), 3.5);
+  EXPECT_EQ(limits->ranges_m().front(), 2.0);
   EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0);
   seen.speed_limit_m_s = 1.0;
   EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
