@@ -61,7 +61,7 @@ TEST(Drift, every_case_is_settings_of_a_scenario) {
   }
 }
 
-/// Over open ground, long enough for 450 decisions; small pictures, which are what costs host time.
+/// Over open ground, long enough for 300 decisions; small pictures, which are what costs host time.
 MissionRecord flown_with(const std::string& policy, const DriftCase& drift) {
   std::vector<std::string> settings{
       "world.generator=empty",    "world.goal_distance_m=900",
@@ -77,7 +77,7 @@ MissionRecord flown_with(const std::string& policy, const DriftCase& drift) {
 }
 
 DriftCount late_after(const MissionRecord& record) {
-  return count_bounds(drift_record(*record.trace), after(event_s), 51, 450);
+  return count_bounds(drift_record(*record.trace), after(event_s), 51, 300);
 }
 
 // The share that is asked for is 5 %.
@@ -86,7 +86,7 @@ TEST(Drift, a_calibrated_bound_holds_when_costs_triple_and_one_calibrated_once_d
   ASSERT_EQ(slowdown.name, "slowdown");
   const MissionRecord calibrated = flown_with("mission_energy", slowdown);
   EXPECT_NE(calibrated.summary.failure, MissionFailure::collision);
-  EXPECT_EQ(late_after(calibrated).decisions, 400U);
+  EXPECT_EQ(late_after(calibrated).decisions, 250U);
   EXPECT_LE(late_after(calibrated).late_share(), 2.0 * 0.05);
   const MissionRecord once = flown_with("mission_energy_once", slowdown);
   EXPECT_NE(once.summary.failure, MissionFailure::collision);
