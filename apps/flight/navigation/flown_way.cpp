@@ -10,7 +10,8 @@ namespace {
 constexpr double spacing_m = 0.1;  // Chosen: a bend of 1 m stays within 2 mm of such chords.
 constexpr double same_m = 0.3;     // Chosen: between places so near to each other there is no wall.
 constexpr std::size_t least_loop = 30;  // Chosen: 3 m; a vehicle that hovers makes no loop.
-constexpr double near_goal_m = 1.0;     // Chosen: as near as way and goal are mostly seen together.
+constexpr double jump_m = 0.5;          // Chosen: farther than the vehicle flies between two ticks.
+constexpr double joint_m = 3.0;         // Chosen: so far from the way a search may have led.
 
 std::size_t nearest(const std::vector<Vec3>& places_W, const Vec3& p_W) {
   const auto is_nearer = [&p_W](const Vec3& a_W, const Vec3& b_W) {
@@ -23,8 +24,16 @@ std::size_t nearest(const std::vector<Vec3>& places_W, const Vec3& p_W) {
 }  // namespace
 
 void FlownWay::flew(const Vec3& p_W) {
-  if (!places_W_.empty() && (places_W_.back() - p_W).norm() < spacing_m) {
+  if (places_W_.empty()) {
+    places_W_.push_back(p_W);
     return;
+  }
+  const double from_last_m = (places_W_.back() - p_W).norm();
+  if (from_last_m < spacing_m) {
+    return;
+  }
+  if (from_last_m > jump_m) {
+    go_on_from(p_W);
   }
   const auto is_same = [&p_W](const Vec3& old_W) { return (old_W - p_W).norm() < same_m; };
   const auto loops_end =
@@ -36,22 +45,33 @@ void FlownWay::flew(const Vec3& p_W) {
   places_W_.push_back(p_W);
 }
 
-bool FlownWay::leads_to(const Vec3& goal_W) const {
-  return !places_W_.empty() &&
-         (places_W_[nearest(places_W_, goal_W)] - goal_W).norm() < near_goal_m;
+// The vehicle has come here without a record of its way: it went back, was lost or flew home.
+void FlownWay::go_on_from(const Vec3& p_W) {
+  const std::size_t last = nearest(places_W_, p_W);
+  const bool is_beside = (places_W_[last] - p_W).norm() < beside_way_m;
+  places_W_.resize(is_beside ? last + 1 : 0);
 }
 
-std::vector<Vec3> FlownWay::between(const Vec3& start_W, const Vec3& goal_W) const {
+bool FlownWay::leads_to(const Vec3& goal_W) const {
+  return !places_W_.empty() &&
+         (places_W_[nearest(places_W_, goal_W)] - goal_W).norm() < beside_way_m;
+}
+
+std::vector<Vec3> FlownWay::between(const Vec3& start_W, const Vec3& goal_W, double most_m) const {
   if (!leads_to(goal_W)) {
     return {};
   }
-  const std::size_t from = nearest(places_W_, start_W);
+  std::size_t at = nearest(places_W_, start_W);
   const std::size_t to = nearest(places_W_, goal_W);
-  const auto begin = places_W_.begin() + static_cast<std::ptrdiff_t>(std::min(from, to));
-  const auto end = places_W_.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)) + 1;
-  std::vector<Vec3> way_W{begin, end};
-  if (from > to) {
-    std::reverse(way_W.begin(), way_W.end());
+  if ((places_W_[at] - start_W).norm() > joint_m) {
+    return {};
+  }
+  std::vector<Vec3> way_W{start_W, places_W_[at]};
+  double length_m = (way_W[1] - way_W[0]).norm();
+  while (at != to && (most_m <= 0.0 || length_m < most_m)) {
+    at = at < to ? at + 1 : at - 1;
+    length_m += (places_W_[at] - way_W.back()).norm();
+    way_W.push_back(places_W_[at]);
   }
   return way_W;
 }

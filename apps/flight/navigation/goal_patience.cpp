@@ -32,13 +32,12 @@ bool GoalPatience::may_doubt(const Vec3& here_W) {
   return true;
 }
 
-bool GoalPatience::note(MissionTime now, double to_goal_m, bool rests) {
-  const bool is_on_way = to_goal_m > 0.0;
-  if (!rests || !is_on_way) {
+bool GoalPatience::note(MissionTime now, std::optional<double> to_goal_m, bool rests) {
+  if (!rests || !to_goal_m) {
     without_path_since_ = now;
   }
-  if (!is_on_way || to_goal_m < nearest_m_ - nearer_m) {
-    nearest_m_ = to_goal_m;
+  if (!to_goal_m || *to_goal_m < nearest_m_ - nearer_m) {
+    nearest_m_ = to_goal_m.value_or(std::numeric_limits<double>::infinity());
     nearer_since_ = now;
   }
   const bool is_futile =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/navigation/navigation_nodes.h"
 
+#include "flyball/flight/navigation/flown_way.h"
 #include "flyball/flight/navigation/follow_node.h"
 #include "flyball/flight/navigation/plan_with_tubes.h"
 #include "flyball/flight/navigation/sub_goal.h"
@@ -8,7 +9,6 @@
 
 #include <functional>
 #include <utility>
-#include <vector>
 
 namespace flyball {
 namespace {
@@ -59,17 +59,11 @@ void add_check(Graph& graph,
 }
 
 /// The goal of the next leg in place of the mission's, which may be too far away for one plan.
-/// Where a search may take long or find nothing, the leg is the free part of the way that was
-/// flown. In a forest, a search finds a shorter one at once.
 void choose_leg(const Situation& situation, PlanQuery& query) {
-  const bool is_doubtful = query.failures > 0 || situation.is_slow_at(query.start_W) ||
-                           situation.brief.settings.planner.horizon_m > 0.0;
-  const std::size_t flown = query.flown_W.size();
-  query.flown_W =
-      is_doubtful ? free_leg_W(situation, std::move(query.flown_W)) : std::vector<Vec3>{};
+  query.flown_W = free_leg_W(situation, std::move(query.flown_W));
   if (query.flown_W.empty()) {
     query.goal_W = sub_goal_W(situation, query.start_W, query.goal_W, query.failures);
-  } else if (query.flown_W.size() < flown) {
+  } else if ((query.flown_W.back() - query.goal_W).norm() > beside_way_m) {
     query.goal_W = query.flown_W.back();
   }
 }

@@ -50,11 +50,10 @@ Vec3 sub_goal_W(const Situation& situation, const Vec3& start_W, const Vec3& goa
 }
 
 std::vector<Vec3> free_leg_W(const Situation& situation, std::vector<Vec3> flown_W) {
-  const double horizon_m = situation.brief.settings.planner.horizon_m;
   const Cylinder body = situation.brief.narrow_body();
   double leg_m = 0.0;
   std::size_t free = 0;
-  while (free + 1 < flown_W.size() && (horizon_m <= 0.0 || leg_m < horizon_m) &&
+  while (free + 1 < flown_W.size() &&
          !situation.map.segment_hits(flown_W[free], flown_W[free + 1], body)) {
     leg_m += (flown_W[free + 1] - flown_W[free]).norm();
     ++free;

@@ -58,8 +58,8 @@ Plan failed(Plan plan, std::string why) {
 }
 
 /// The place farthest on the way to which a straight piece leads; `here` itself where not even the
-/// next one is free. What looks free from one place to a far one may hide an obstacle between, so
-/// each piece is tried twice as long as the one before that was free, and then halved.
+/// next one is free. The longest free piece need not lead to the last place that can be
+/// reached, but to try all would take too long: lengths are doubled, and then halved.
 std::size_t farthest(const std::vector<Vec3>& way_W, std::size_t here, MotionChecker& checker) {
   const std::size_t last = way_W.size() - 1;
   std::size_t reached = here;
@@ -77,10 +77,12 @@ std::size_t farthest(const std::vector<Vec3>& way_W, std::size_t here, MotionChe
   return reached;
 }
 
-/// The way that was flown, with few way-points; empty where it is not free, or a shorter one is
-/// looked for.
+/// The way that was flown, with few way-points; empty where it is not free or leaves the bounds, or
+/// a shorter one is looked for.
 std::vector<Vec3> free_way(const PlanRequest& request, MotionChecker& checker) {
-  if (request.flown_W.empty() || std::isfinite(request.shorter_than_m)) {
+  const auto is_inside = [&](const Vec3& p_W) { return request.bounds_W.contains(p_W); };
+  if (request.flown_W.empty() || std::isfinite(request.shorter_than_m) ||
+      !std::all_of(request.flown_W.begin(), request.flown_W.end(), is_inside)) {
     return {};
   }
   std::vector<Vec3> all_W{request.start_W};

@@ -172,4 +172,10 @@ TEST(StagedSearch, searches_where_a_shorter_path_is_wanted_than_was_flown) {
   EXPECT_GT(scene.searches(), 0);
 }
 
+TEST(StagedSearch, searches_where_the_way_that_was_flown_leaves_the_bounds) {
+  FlownScene scene;
+  scene.request.bounds_W.max.y() = 3.5;
+  EXPECT_GT(scene.searches(), 0);
+}
+
 }  // namespace

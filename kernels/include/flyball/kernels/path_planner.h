@@ -27,7 +27,8 @@ struct PlanRequest {
   double shorter_than_m{std::numeric_limits<double>::infinity()};
   double max_slope_rad{0.35};  ///< Of each straight piece; about 20 degrees.
   /// A way that the vehicle has flown, from near the start to near the goal; empty: none. Where it
-  /// is free on the map, nothing is searched for, unless a shorter path is wanted.
+  /// is free on the map, nothing need be searched for, unless a shorter path is wanted. A planner
+  /// may ignore it.
   std::vector<Vec3> flown_W{};
   std::uint64_t seed{};  ///< Of this one plan.
 };

@@ -16,14 +16,15 @@ void fly(FlownWay& way, const Vec3& from_W, const Vec3& to_W) {
   }
 }
 
+constexpr double all = 0.0;
 const Vec3 home_W{0.0, 0.0, 1.5};
 const Vec3 corner_W{20.0, 0.0, 1.5};
-const Vec3 away_W{20.0, 10.0, 1.5};
+const Vec3 far_W{20.0, 10.0, 1.5};
 
 FlownWay around_a_corner() {
   FlownWay way;
   fly(way, home_W, corner_W);
-  fly(way, corner_W, away_W);
+  fly(way, corner_W, far_W);
   return way;
 }
 
@@ -36,9 +37,9 @@ double longest_piece_m(const std::vector<Vec3>& way_W) {
 }
 
 TEST(FlownWay, leads_home_around_the_corner_by_which_the_vehicle_came) {
-  const auto way_W = around_a_corner().between(away_W, home_W);
+  const auto way_W = around_a_corner().between(far_W, home_W, all);
   ASSERT_GT(way_W.size(), 100U);
-  EXPECT_LT((way_W.front() - away_W).norm(), 0.11);
+  EXPECT_LT((way_W.front() - far_W).norm(), 0.11);
   EXPECT_LT((way_W.back() - home_W).norm(), 0.11);
   EXPECT_LT(longest_piece_m(way_W), 0.2);
   for (const Vec3& p_W : way_W) {
@@ -47,33 +48,61 @@ TEST(FlownWay, leads_home_around_the_corner_by_which_the_vehicle_came) {
 }
 
 TEST(FlownWay, leads_out_again) {
-  const auto way_W = around_a_corner().between(home_W, away_W);
+  const auto way_W = around_a_corner().between(home_W, far_W, all);
   ASSERT_FALSE(way_W.empty());
   EXPECT_LT((way_W.front() - home_W).norm(), 0.11);
-  EXPECT_LT((way_W.back() - away_W).norm(), 0.11);
+  EXPECT_LT((way_W.back() - far_W).norm(), 0.11);
 }
 
-TEST(FlownWay, begins_where_it_is_nearest_to_the_vehicle) {
-  const auto way_W = around_a_corner().between(Vec3{12.0, 4.0, 1.5}, home_W);
+TEST(FlownWay, begins_beside_the_vehicle_or_not_at_all) {
+  const FlownWay way = around_a_corner();
+  const Vec3 beside_W{12.0, 2.0, 1.5};
+  const auto way_W = way.between(beside_W, home_W, all);
+  ASSERT_GT(way_W.size(), 2U);
+  EXPECT_EQ(way_W.front(), beside_W);
+  EXPECT_NEAR(way_W[1].x(), 12.0, 0.11);
+  EXPECT_EQ(way_W[1].y(), 0.0);
+  EXPECT_TRUE(way.between(Vec3{12.0, 4.0, 1.5}, home_W, all).empty());
+}
+
+TEST(FlownWay, is_no_longer_than_is_asked_for) {
+  const auto way_W = around_a_corner().between(far_W, home_W, 15.0);
   ASSERT_FALSE(way_W.empty());
-  EXPECT_NEAR(way_W.front().x(), 12.0, 0.11);
-  EXPECT_EQ(way_W.front().y(), 0.0);
+  EXPECT_NEAR((way_W.back() - Vec3{15.0, 0.0, 1.5}).norm(), 0.0, 0.21);
+}
+
+TEST(FlownWay, goes_on_from_where_the_vehicle_left_it_without_a_record) {
+  FlownWay way = around_a_corner();
+  fly(way, Vec3{10.0, 0.5, 1.5}, Vec3{10.0, 9.0, 1.5});
+  const auto way_W = way.between(Vec3{10.0, 9.0, 1.5}, home_W, all);
+  ASSERT_FALSE(way_W.empty());
+  EXPECT_LT(longest_piece_m(way_W), 1.1);
+  for (const Vec3& p_W : way_W) {
+    EXPECT_LT(p_W.x(), 10.2) << "it does not go where the vehicle was before";
+  }
+}
+
+TEST(FlownWay, begins_anew_where_the_vehicle_is_somewhere_else) {
+  FlownWay way = around_a_corner();
+  way.flew(Vec3{10.0, 5.0, 1.5});
+  EXPECT_FALSE(way.leads_to(home_W));
+  EXPECT_TRUE(way.leads_to(Vec3{10.0, 5.0, 1.5}));
 }
 
 TEST(FlownWay, leads_to_nothing_that_it_does_not_pass) {
   const FlownWay way = around_a_corner();
   EXPECT_TRUE(way.leads_to(home_W + Vec3{0.5, 0.5, 0.0}));
   EXPECT_FALSE(way.leads_to(Vec3{0.0, 10.0, 1.5}));
-  EXPECT_TRUE(way.between(away_W, Vec3{0.0, 10.0, 1.5}).empty());
+  EXPECT_TRUE(way.between(far_W, Vec3{0.0, 10.0, 1.5}, all).empty());
   EXPECT_FALSE(FlownWay{}.leads_to(home_W));
-  EXPECT_TRUE(FlownWay{}.between(away_W, home_W).empty());
+  EXPECT_TRUE(FlownWay{}.between(far_W, home_W, all).empty());
 }
 
 TEST(FlownWay, leaves_loops_out) {
   FlownWay way = around_a_corner();
-  fly(way, away_W, corner_W);  // A dead end.
+  fly(way, far_W, corner_W);  // A dead end.
   fly(way, corner_W, Vec3{20.0, -10.0, 1.5});
-  const auto way_W = way.between(Vec3{20.0, -10.0, 1.5}, home_W);
+  const auto way_W = way.between(Vec3{20.0, -10.0, 1.5}, home_W, all);
   ASSERT_FALSE(way_W.empty());
   EXPECT_LT(longest_piece_m(way_W), 0.5);
   const auto highest = std::max_element(way_W.begin(), way_W.end(),

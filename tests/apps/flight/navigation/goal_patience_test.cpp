@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/navigation/goal_patience.h"
 
+#include <optional>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -24,12 +27,28 @@ TEST(GoalPatience, ends_where_the_vehicle_stands_without_a_path) {
 }
 
 TEST(GoalPatience, begins_anew_when_the_vehicle_moves_or_has_no_goal) {
-  for (const auto& [to_goal_m, rests] : {std::pair{50.0, false}, std::pair{0.0, true}}) {
+  using Moment = std::pair<std::optional<double>, bool>;
+  for (const auto& [to_goal_m, rests] : {Moment{50.0, false}, Moment{std::nullopt, true}}) {
     GoalPatience patience = begun();
     EXPECT_FALSE(patience.note(start + 80s, to_goal_m, rests));
     EXPECT_FALSE(patience.note(start + 170s, 50.0, true));
     EXPECT_TRUE(patience.note(start + 171s, 50.0, true));
   }
+}
+
+TEST(GoalPatience, ends_also_where_the_goal_is_the_place_of_the_vehicle) {
+  GoalPatience patience = begun();
+  EXPECT_FALSE(patience.note(start + 90s, 0.0, true));
+  EXPECT_TRUE(patience.note(start + 91s, 0.0, true)) << "there is no path that ends there";
+}
+
+TEST(GoalPatience, tells_whether_the_vehicle_has_come_nearer_for_a_limit) {
+  GoalPatience patience = begun();
+  (void)patience.note(start + 50s, 50.0, false);
+  EXPECT_FALSE(patience.comes_no_nearer(start + 140s));
+  EXPECT_TRUE(patience.comes_no_nearer(start + 141s));
+  (void)patience.note(start + 141s, 40.0, false);
+  EXPECT_FALSE(patience.comes_no_nearer(start + 231s));
 }
 
 TEST(GoalPatience, begins_anew_when_the_way_goes_on_after_something_else) {

@@ -372,24 +372,5 @@ TEST(Navigator, asks_for_no_plan_before_it_has_a_map) {
   EXPECT_FALSE(navigator.next_query(MissionTime{1s}).has_value());
 }
 
-TEST(Navigator, tells_the_planner_of_the_way_by_which_it_came_on_the_way_home) {
-  Trip trip;
-  const Vec3 home_W = trip.navigator.follower().position_W();
-  trip.set_goal(Vec3{20, 0, 1.5});
-  const auto out = trip.navigator.next_query(trip.now);
-  ASSERT_TRUE(out);
-  EXPECT_TRUE(out->flown_W.empty());
-  trip.answer(*out);
-  trip.tick(2000);
-  ASSERT_TRUE(trip.navigator.has_arrived());
-  trip.hover_at(Vec3{20, 0, 1.5});
-  trip.set_goal(home_W);
-  const auto back = trip.navigator.next_query(trip.now);
-  ASSERT_TRUE(back);
-  ASSERT_GT(back->flown_W.size(), 100U);
-  EXPECT_LT((back->flown_W.front() - Vec3{20, 0, 1.5}).norm(), 0.2);
-  EXPECT_LT((back->flown_W.back() - home_W).norm(), 0.2);
-}
-
 }  // namespace
 }  // namespace flyball

@@ -10,6 +10,9 @@
 
 namespace flyball {
 
+/// What is nearer than this to the way is on it. Chosen: there is no wall between.
+constexpr double beside_way_m = 1.0;
+
 /// A way that was flown is free, as long as obstacles do not move, so on the way home no other need
 /// be searched for. Loops of it are left out.
 class FlownWay {
@@ -18,11 +21,17 @@ class FlownWay {
   void flew(const Vec3& p_W);
   /// Whether it passes near this goal.
   [[nodiscard]] bool leads_to(const Vec3& goal_W) const;
-  /// Its part between the places nearest to `start_W` and to `goal_W`, in this order; empty where
-  /// it does not lead there.
-  [[nodiscard]] std::vector<Vec3> between(const Vec3& start_W, const Vec3& goal_W) const;
+  /// From the start along the way to the place nearest to the goal; empty where it does not lead
+  /// there, or the start is not beside it.
+  ///
+  /// @param most_m  So much of it, at most; 0: all.
+  [[nodiscard]] std::vector<Vec3> between(const Vec3& start_W,
+                                          const Vec3& goal_W,
+                                          double most_m) const;
 
  private:
+  void go_on_from(const Vec3& p_W);
+
   std::vector<Vec3> places_W_{};  ///< Oldest first.
 };
 

@@ -8,6 +8,7 @@
 #include "flyball/runtime/time.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -27,10 +28,15 @@ class GoalPatience {
   /// Whether obstacles around this place may be doubted once more. If so, it has been noted: walls
   /// are seen again and close the way as before, so a few times are enough.
   [[nodiscard]] bool may_doubt(const Vec3& here_W);
-  /// @param to_goal_m  On the straight line; 0 where there is no goal, or the vehicle has arrived.
+  /// @param to_goal_m  On the straight line; none where there is no goal, or the vehicle has
+  /// arrived.
   /// @param rests      The vehicle stands.
   /// @return           Whether the vehicle gives up.
-  [[nodiscard]] bool note(MissionTime now, double to_goal_m, bool rests);
+  [[nodiscard]] bool note(MissionTime now, std::optional<double> to_goal_m, bool rests);
+  /// Whether the vehicle has come no nearer to the goal for a whole limit.
+  [[nodiscard]] bool comes_no_nearer(MissionTime now) const {
+    return to_seconds(now - nearer_since_) > limit_s_;
+  }
 
  private:
   double limit_s_;

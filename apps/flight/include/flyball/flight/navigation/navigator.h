@@ -89,6 +89,7 @@ class Navigator {
   void plan_refused(MissionTime now, const PlannedPath& planned);
   [[nodiscard]] bool awaits_finer_map(MissionTime now) const;
   [[nodiscard]] PlanQuery query();
+  [[nodiscard]] bool needs_known_way(const PlanQuery& query) const;
   [[nodiscard]] double last_stop_m() const;
   void start_from_path(PlanQuery& query);
   void want_plan(MissionTime now, const std::string& why);
@@ -117,7 +118,7 @@ class Navigator {
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
-  bool returns_{};  ///< The way that was flown leads to the goal.
+  bool knows_way_{};  ///< The way that was flown leads to the goal.
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
   PlanLead lead_{};

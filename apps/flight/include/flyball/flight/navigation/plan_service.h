@@ -23,8 +23,8 @@ struct PlanQuery {
   int failures{};        ///< Searches that found no path since one was last adopted.
   bool may_be_tight{};   ///< Only the tube of slow flight has to fit.
   double iteration_s{};  ///< Time of one iteration in the last searches; 0: not known.
-  std::vector<Vec3>
-      flown_W{};  ///< The way to the goal, where the vehicle has come by it; or empty.
+  /// From the start along the way by which the vehicle came from the goal, or empty.
+  std::vector<Vec3> flown_W{};
   /// A path that was found before and is to be joined from `start_W`: nothing is searched for.
   std::optional<KnownPath> known{};
   bool may_turn_back{true};  ///< To join it; else a path that would have to is refused.

@@ -19,8 +19,8 @@ namespace flyball {
                               const Vec3& goal_W,
                               int failures);
 
-/// The part of a way that was flown that is free on the map, up to the horizon, where there is one.
-/// Empty where it is so short that a search may find a better one.
+/// The first part of a way that was flown, as far as it is free on the map. Empty where it is so
+/// short that a search may find a better one.
 [[nodiscard]] std::vector<Vec3> free_leg_W(const Situation& situation, std::vector<Vec3> flown_W);
 
 }  // namespace flyball
