@@ -7,8 +7,8 @@
 namespace flyball {
 namespace {
 
-constexpr double spacing_m = 0.1;  // Chosen: a bend of 1 m stays within 2 mm of such chords.
-constexpr double same_m = 0.3;     // Chosen: between places so near to each other there is no wall.
+constexpr double between_places_m = 0.1;  // Chosen: a bend of 1 m stays within 2 mm of such chords.
+constexpr double same_m = 0.3;  // Chosen: between places so near to each other there is no wall.
 constexpr std::size_t least_loop = 30;  // Chosen: 3 m; a vehicle that hovers makes no loop.
 constexpr double jump_m = 0.5;          // Chosen: farther than the vehicle flies between two ticks.
 constexpr double joint_m = 3.0;         // Chosen: so far from the way a search may have led.
@@ -29,7 +29,7 @@ void FlownWay::flew(const Vec3& p_W) {
     return;
   }
   const double from_last_m = (places_W_.back() - p_W).norm();
-  if (from_last_m < spacing_m) {
+  if (from_last_m < between_places_m) {
     return;
   }
   if (from_last_m > jump_m) {
