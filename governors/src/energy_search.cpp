@@ -158,13 +158,19 @@ void EnergySearch::learn_latency(const Observation& seen) {
   bound_.settle(ticket_, issued_ + seen.latency);
   clock_factors_ = 0.0;
   looks_ = 0;
-  // A frame that was captured before the setting came into force says nothing about it.
-  const bool is_of_this_setting = seen.now - seen.latency >= in_force_since_ &&
-                                  std::abs(seen.map_resolution_m - in_force_.resolution_m) < 1e-9;
+  const MissionTime captured = seen.now - seen.latency;
+  // The first map after a change of cells may be made anew from the old one, which takes longer.
+  const bool is_of_these_cells =
+      captured >= cells_since_ && std::abs(seen.map_resolution_m - in_force_.resolution_m) < 1e-9;
+  const bool is_of_this_setting = is_of_these_cells && captured >= in_force_since_;
+  const bool tells_range = is_of_these_cells && is_positive(seen.map_range_m);
+  const bool learns =
+      settings_.learn_s == 0.0 || to_seconds(seen.now.time_since_epoch()) < settings_.learn_s;
+  if (learns && (tells_range || is_of_this_setting)) {
+    const double range_m = tells_range ? seen.map_range_m : in_force_.range_m;
+    models_.learn(level(in_force_.resolution_m), {1.0, range_m, clock}, seen.latency);
+  }
   if (is_of_this_setting) {
-    if (settings_.learn_s == 0.0 || to_seconds(seen.now.time_since_epoch()) < settings_.learn_s) {
-      models_.learn(level(in_force_.resolution_m), {1.0, in_force_.range_m, clock}, seen.latency);
-    }
     issued_ = seen.now;
     issued_at_ = Hertz{in_force_.clock_hz};
     ticket_ =
@@ -296,6 +302,9 @@ MapSetting EnergySearch::idle(
 void EnergySearch::put_in_force(const MapSetting& setting, MissionTime now) {
   if (setting == in_force_) {
     return;
+  }
+  if (setting.resolution_m != in_force_.resolution_m) {
+    cells_since_ = now;
   }
   in_force_ = setting;
   in_force_since_ = now;

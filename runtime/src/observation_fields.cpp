@@ -193,7 +193,9 @@ std::vector<ObservationField> progress_and_power_fields() {
           "While waiting: how soon after a map the mission needs the next; 0: nobody says")),
       optional(field<&O::slower_zone_m>(
           "slower_zone_m", "m",
-          "To the nearest zone with a lower speed limit than here, at most 40; 0: nobody says"))};
+          "To the nearest zone with a lower speed limit than here, at most 40; 0: nobody says")),
+      optional(field<&O::map_range_m>(
+          "map_range_m", "m", "Range of the newest frame in the newest map; 0: nobody says"))};
 }
 
 std::vector<ObservationField> stage_fields() {
@@ -220,7 +222,7 @@ std::vector<ObservationField> stage_fields() {
 }  // namespace
 
 // A member that is missing above is neither recorded nor replayed: whoever adds one is told here.
-static_assert(sizeof(Observation) == 448, "a new member belongs into observation_fields() too");
+static_assert(sizeof(Observation) == 456, "a new member belongs into observation_fields() too");
 
 const std::vector<ObservationField>& observation_fields() {
   static const std::vector<ObservationField> all = [] {

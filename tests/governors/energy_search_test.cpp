@@ -214,6 +214,24 @@ TEST(EnergySearch, does_not_learn_from_a_frame_of_the_setting_before) {
   EXPECT_EQ(one.estimate(one.in_force(), open_space()).response_s, before_s);
 }
 
+TEST(EnergySearch, learns_from_a_frame_of_the_range_before_what_that_range_takes) {
+  EnergySearch one = search();
+  one.put_in_force({0.80, 12.0, top_hz}, MissionTime{from_seconds(1.0)});
+  one.put_in_force({0.80, 7.0, top_hz}, MissionTime{from_seconds(10.0)});
+  const double before_s = one.estimate({0.80, 12.0, top_hz}, open_space()).response_s;
+  Observation late = seen_map(10.2, 1, 0.80, 5.0);  // Captured at 5.2 s.
+  late.map_range_m = 12.0;
+  one.learn(late);
+  const double after_s = one.estimate({0.80, 12.0, top_hz}, open_space()).response_s;
+  EXPECT_GT(after_s, 2.0 * before_s);
+  one.put_in_force({0.15, 7.0, top_hz}, MissionTime{from_seconds(11.0)});
+  one.put_in_force({0.80, 7.0, top_hz}, MissionTime{from_seconds(12.0)});
+  Observation rebuilt = seen_map(12.5, 2, 0.80, 50.0);  // Captured with smaller cells in force.
+  rebuilt.map_range_m = 12.0;
+  one.learn(rebuilt);
+  EXPECT_EQ(one.estimate({0.80, 12.0, top_hz}, open_space()).response_s, after_s);
+}
+
 TEST(EnergySearch, counts_a_map_that_never_comes_as_a_miss) {
   EnergySearch one = search();
   static_cast<void>(one.choose(open_space(), MissionTime{from_seconds(1.0)}));

@@ -165,6 +165,7 @@ void GovernorLoop::look_around(JobContext& job, Work& asked) {
   }
   if (map) {
     seen_.map_resolution_m = map->map->resolution_m();
+    seen_.map_range_m = map->range_m;
   }
   if (navigator && map) {
     const CountedMap counted{*map->map};

@@ -23,6 +23,11 @@ double behind(const KnobsInForce& knobs, const char* knob, double interval_s) {
                                            : passed_interval_s(interval_s, knobs.value(knob));
 }
 
+MapTerms within_range(MapTerms terms, double range_m) {
+  terms.range_m = range_m;
+  return terms;
+}
+
 }  // namespace
 
 MapTerms terms_of(const KnobsInForce& knobs, const Brief& brief) {
@@ -117,7 +122,9 @@ bool MapLatency::note_terms(MissionTime now, const MapTerms& terms) {
   if (known_terms_ && terms == terms_) {
     return false;
   }
-  since_ = known_terms_ ? now : MissionTime{};
+  if (known_terms_ && within_range(terms_, terms.range_m) != terms) {
+    since_ = now;
+  }
   known_terms_ = true;
   terms_ = terms;
   if (!last_published_) {
@@ -150,12 +157,14 @@ MapLatency::Bounds MapLatency::bounds_of(const MapTerms& terms) const {
 void MapLatency::published(const MapRevision& revision, MissionTime now) {
   const Duration bound = last_published_ ? bounds_.latency : bounds_of(terms_).latency;
   budget_use_ = ratio(now - revision.captured, bound);
-  const bool is_of_these_terms = revision.resolution_m == terms_.resolution_m;
-  if (is_of_these_terms && revision.captured >= since_) {
-    latencies_.add(now, terms_, ratio(now - revision.captured, price(terms_)));
+  const bool is_of_these_cells = revision.resolution_m == terms_.resolution_m;
+  const MapTerms made =
+      within_range(terms_, revision.range_m > 0.0 ? revision.range_m : terms_.range_m);
+  if (is_of_these_cells && revision.captured >= since_) {
+    latencies_.add(now, made, ratio(now - revision.captured, price(made)));
   }
-  if (is_of_these_terms && last_published_ && *last_published_ >= since_) {
-    intervals_.add(now, terms_, ratio(now - *last_published_, price(terms_)));
+  if (is_of_these_cells && last_published_ && *last_published_ >= since_) {
+    intervals_.add(now, made, ratio(now - *last_published_, price(made)));
   }
   last_published_ = now;
   bounds_ = bounds_of(terms_);

@@ -5,6 +5,7 @@
 #include "flyball/flight/perception/pose_history.h"
 #include "flyball/flight/perception/rate_limit.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -56,7 +57,10 @@ void add_points(Graph& graph, const FlightParts& parts, Topic<PointCloudFrame> c
       return work;
     }
     builder->apply(knobs->knobs);
-    job.publish(cloud, builder->build(*frame, knobs->value("map.range_m"), work));
+    const double range_m = knobs->value("map.range_m");
+    PointCloudFrame points = builder->build(*frame, range_m, work);
+    points.range_m = range_m;
+    job.publish(cloud, std::move(points));
     return work;
   });
 }
@@ -119,6 +123,7 @@ class Map {
     }
     mapper_->commit();
     MapRevision revision{++number_, frame.captured, settings.resolution_m, mapper_->revision()};
+    revision.range_m = std::min(frame.range_m, settings.range_m);
     if (brief_->settings.has_edge) {
       revision.bytes = octree_bytes(*mapper_, settings.resolution_m);
     }

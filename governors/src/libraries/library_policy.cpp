@@ -106,6 +106,7 @@ FlyballObservation observation_of(const Observation& seen) {
   told.soc_power_w = seen.soc_power.value();
   told.map_within_ns = seen.map_within.count();
   told.slower_zone_m = seen.slower_zone_m;
+  told.map_range_m = seen.map_range_m;
   static_assert(flyball_stage_count == stage_count);
   for (std::size_t i = 0; i < stage_count; ++i) {
     const StageUse& stage = seen.stages[i];

@@ -247,8 +247,8 @@ TEST(BadInput, a_list_has_an_end) {
   GovernedLoop loop;
   FlyballGovernorEntry entry{};
   entry.struct_size = sizeof entry;
-  EXPECT_EQ(flyball_governor_not_found, flyball_governor_list(loop.governor, 57, &entry));
-  EXPECT_EQ("the list has no entry 57", loop.error());
+  EXPECT_EQ(flyball_governor_not_found, flyball_governor_list(loop.governor, 58, &entry));
+  EXPECT_EQ("the list has no entry 58", loop.error());
 }
 
 }  // namespace

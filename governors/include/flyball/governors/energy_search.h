@@ -180,6 +180,7 @@ class EnergySearch {
   std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.
   MapSetting in_force_{};
   MissionTime in_force_since_{};
+  MissionTime cells_since_{};
   std::uint64_t revision_{};
   LatencyBound::Ticket ticket_{};  ///< The next map's, issued when the last one came.
   MissionTime issued_{};

@@ -205,6 +205,7 @@ typedef struct FlyballObservation {
 
   int64_t map_within_ns;
   double slower_zone_m;
+  double map_range_m;
 } FlyballObservation;
 
 typedef struct FlyballWish {

@@ -113,6 +113,7 @@ struct PolicyCandidate {
     seen.cpu_power = Watts{draw.uniform(0.0, 0.5) * seen.computer_power.value()};
     seen.map_within = from_seconds(draw.uniform(0.0, 3.0));
     seen.slower_zone_m = draw.uniform(0.0, 40.0);
+    seen.map_range_m = draw.uniform(0.0, 25.0);
     for (StageUse& stage : seen.stages) {
       stage = {from_seconds(draw.uniform(0.0, 3.0)), draw.uniform(0.0, 2.0),
                draw.uniform(0.0, 6.0)};
@@ -144,7 +145,7 @@ struct PolicyCandidate {
         std::chrono::hours{x < 0.0 ? -24 : 24};
     seen.deadline_misses = seen.queue_drops = seen.planner_failures = most;
     seen.cores = x < 0.0 ? -1 : 1 << 30;
-    seen.headroom_m = seen.progress = seen.slower_zone_m = x;
+    seen.headroom_m = seen.progress = seen.slower_zone_m = seen.map_range_m = x;
     seen.cpu_power = seen.gpu_power = seen.memory_power = seen.soc_power = Watts{x};
     seen.stages.fill({seen.latency, x, x});
     all.push_back(seen);

@@ -73,6 +73,7 @@ struct PointCloudFrame {
   std::uint64_t sequence{};
   Deferred<PointCloud> cloud_C{};
   std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
+  double range_m{};                    ///< Hits up to here are in it; 0: all.
 };
 
 /// On a link: 16 bits of millimetres for each pixel, as RGB-D cameras send them.

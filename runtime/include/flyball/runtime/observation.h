@@ -82,6 +82,7 @@ struct Observation {
                            ///< next one; 0: nobody says.
   double slower_zone_m{};  ///< To the nearest zone where the mission's speed limit is lower than
                            ///< here, at most 40; 0: nobody says.
+  double map_range_m{};    ///< Of the newest frame in the newest map; 0: nobody says.
   std::array<StageUse, stage_count> stages{};
 
   [[nodiscard]] const StageUse& stage(Stage one) const {

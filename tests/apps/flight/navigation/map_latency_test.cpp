@@ -52,8 +52,8 @@ struct Stream {
       publish(captured, terms.resolution_m);
     }
   }
-  void publish(MissionTime captured, double resolution_m) {
-    maps.published({++number, captured, resolution_m, nullptr}, now);
+  void publish(MissionTime captured, double resolution_m, double range_m = 0.0) {
+    maps.published({++number, captured, resolution_m, nullptr, range_m}, now);
   }
   /// The other terms come into force at once; the map that is being made belongs to neither.
   void turn_to(const MapTerms& terms) {
@@ -124,6 +124,20 @@ TEST(MapLatency, counts_a_map_of_other_cells_for_none) {
   stream.now += 2s;
   stream.publish(captured, 0.15);
   EXPECT_EQ(stream.maps.latency_bound(), before);
+}
+
+TEST(MapLatency, counts_a_frame_of_the_range_before_for_that_range) {
+  Stream stream;
+  stream.make(within(fine, 14.0), 1, 100ms);
+  const MissionTime captured = stream.now;
+  stream.now += 100ms;
+  stream.maps.note_terms(stream.now, fine);
+  stream.now += 1900ms;
+  stream.publish(captured, 0.15, 14.0);  // 2 s of 8, so that 7 m take a quarter of 1 s.
+  EXPECT_NEAR(stream.latency_bound_s(), 1.1 * 0.25, 1e-6);
+  stream.now += 1ms;
+  stream.maps.note_terms(stream.now, within(fine, 14.0));
+  EXPECT_NEAR(stream.latency_bound_s(), 1.1 * 2.0, 1e-6);
 }
 
 TEST(MapLatency, follows_the_clock_that_the_platform_prices) {

@@ -73,9 +73,9 @@ class MeasuredShares {
 
 /// A bound is the largest measured share times the price of the settings in force, so that it
 /// depends on these settings and on what was measured, and not on how often a knob was turned. A
-/// map that was begun under other settings than those it was published under is not counted: one
-/// frame that was begun at a long range and a low clock would hold the vehicle back for twenty
-/// maps.
+/// map counts for the range of its newest frame, whatever range is in force when it is published.
+/// One that was begun with other cells or at another clock is not counted: a frame that was begun
+/// at a low clock would hold the vehicle back for twenty maps.
 class MapLatency {
  public:
   explicit MapLatency(FramePrice price);
@@ -114,7 +114,8 @@ class MapLatency {
   MeasuredShares intervals_{};
   MapTerms terms_{};
   bool known_terms_{};
-  MissionTime since_{};  ///< Since when the terms hold; the first ones hold from the beginning.
+  MissionTime since_{};  ///< Since when the terms but for the range hold; the first ones hold from
+                         ///< the beginning.
   std::optional<MissionTime> last_published_{};
   Bounds bounds_{};
   double budget_use_{};

@@ -19,7 +19,8 @@ struct MapRevision {
   /// Never changes. Owners: the message, and readers that go on with this revision while newer ones
   /// come.
   std::shared_ptr<const OccupancyView> map{};
-  double bytes{};  ///< On a link; 0 where there is none.
+  double range_m{};  ///< Of the newest frame in it; 0: nobody says.
+  double bytes{};    ///< On a link; 0 where there is none.
 };
 
 [[nodiscard]] inline double wire_bytes(const MapRevision& revision) {
