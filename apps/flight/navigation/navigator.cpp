@@ -3,6 +3,7 @@
 
 #include "flyball/flight/perception/counted_map.h"
 
+#include <limits>
 #include <utility>
 
 namespace flyball {
@@ -63,6 +64,8 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
   pending_id_ = 0;
   known_.reset();
+  awaits_finer_ = false;
+  awaited_m_ = std::numeric_limits<double>::infinity();
   knows_way_ = flown_.leads_to(goal_W);
   want_plan(now, "new goal");
 }

@@ -18,6 +18,18 @@ constexpr double room_to_turn_m = 3;  // Left before an obstacle: the radius of 
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
 constexpr double rounding_m = 1e-6;
+constexpr double long_detour_s = 10.0;  // Some ten times what a stop and a look cost.
+
+/// What is left of the path, every metre and at its end.
+std::vector<Vec3> rest_of(const PathFollower& follower) {
+  const Path& path = follower.path();
+  std::vector<Vec3> rest_W;
+  for (double s_m = follower.s_m(); s_m < path.length_m(); s_m += 1.0) {
+    rest_W.push_back(path.at(s_m).p_W);
+  }
+  rest_W.push_back(path.at(path.length_m()).p_W);
+  return rest_W;
+}
 
 }  // namespace
 
@@ -35,9 +47,23 @@ void Navigator::note_finer_map(MissionTime now) {
   if (pending_id_ == 0 && map_->resolution_m() < planned_in_m_ - rounding_m) {
     planned_in_m_ = map_->resolution_m();
     if (is_detour()) {
+      // The shorter path must not come too late: the vehicle stops for it.
+      refusals_ += refusals_ == 0 && is_long_detour(rest_of(follower_)) ? 1 : 0;
       want_plan(now, "a finer map may show a shorter path");
     }
   }
+}
+
+bool Navigator::is_long_detour(const std::vector<Vec3>& path_W) const {
+  return situation().detour_s(path_W) > long_detour_s;
+}
+
+// Along such a path the camera turns away from the door before the smaller cells are there. So the
+// vehicle stays where it looks at it, once for each size of cells.
+bool Navigator::needs_finer_map(const PlannedPath& planned) const {
+  const double cells_m = knobs_->value("map.resolution_m");
+  return !joins_ && cells_m < std::min(planned_in_m_, awaited_m_) - rounding_m &&
+         is_long_detour(planned.path.waypoints_W);
 }
 
 bool Navigator::is_detour() const {
@@ -60,7 +86,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
     return std::nullopt;
   }
   asked_at_ = now;
-  wants_plan_ = false;
+  wants_plan_ = awaits_finer_ = false;
   ++replans_;
   return query();
 }
@@ -68,7 +94,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
 // A search that has failed in large cells would fail in them again and use up its whole budget.
 // When the governor has asked for smaller cells, the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return failures_ > 0 && now < not_before_ + finer_patience &&
+  return (failures_ > 0 || awaits_finer_) && now < not_before_ + finer_patience &&
          knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
 }
 
@@ -199,6 +225,13 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     return;
   }
   failures_ = stalls_;
+  if (needs_finer_map(planned)) {
+    awaits_finer_ = true;
+    awaited_m_ = knobs_->value("map.resolution_m");
+    not_before_ = now;
+    want_plan(now, "a finer map may show a shorter path");
+    return;
+  }
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, splice_m_)) {
     plan_refused(now, planned);

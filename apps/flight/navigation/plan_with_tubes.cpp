@@ -103,7 +103,7 @@ class Search {
       const double now_m = length_m(plan_.waypoints_W);
       const double saved_m = worthwhile * (now_m - line_m);
       request_.shorter_than_m = now_m - saved_m;
-      const int iterations = now_m > line_m + least_detour_m ? iterations_worth(saved_m) : 0;
+      const int iterations = now_m > line_m + least_detour_m ? iterations_worth() : 0;
       if (iterations == 0 || !try_with(situation_.brief.narrow_body(), iterations)) {
         return;
       }
@@ -111,11 +111,10 @@ class Search {
   }
 
   /// As many iterations as take no longer than the time that a shorter path may save.
-  [[nodiscard]] int iterations_worth(double saved_m) const {
-    const double limit_m_s = std::min(situation_.speed_limit_m_s(query_.start_W),
-                                      situation_.knobs.value("mission.max_speed_m_s"));
+  [[nodiscard]] int iterations_worth() const {
+    const double saved_s = worthwhile * situation_.detour_s(plan_.waypoints_W);
     const double lost = query_.start_direction_W.isZero() ? 1.0 : lost_in_motion;
-    const double worth_s = finds_one * saved_m / limit_m_s / lost;
+    const double worth_s = finds_one * std::max(0.0, saved_s) / lost;
     return worth_s >= shorter_iterations * query_.iteration_s
                ? shorter_iterations
                : static_cast<int>(worth_s / query_.iteration_s);

@@ -84,6 +84,61 @@ TEST(NavigatorJoins, looks_once_for_a_shorter_path_than_a_detour_when_the_map_is
   }
 }
 
+/// Its trajectory leads past the goal and back, and so do its waypoints.
+PlannedPath detour_of(const PlanQuery& query, double more_m) {
+  PlannedPath planned{query.id, detour(query.start_W, query.goal_W, more_m), ""};
+  const Vec3 past_W = query.goal_W + 0.5 * more_m * (query.goal_W - query.start_W).normalized();
+  planned.path = {{query.start_W, past_W, query.goal_W}, {0.4, 0.2}};
+  return planned;
+}
+
+TEST(NavigatorJoins, does_not_fly_a_long_detour_before_it_has_seen_the_finer_map_that_is_to_come) {
+  for (const double more_m : {40.0, 400.0}) {
+    Trip trip;
+    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
+    trip.publish_map(std::chrono::milliseconds{100});
+    trip.set_goal(Vec3{20, 0, 1.5});
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.turn("map.resolution_m", 0.15);
+    trip.navigator.path_planned(trip.now, detour_of(*query, more_m));
+    EXPECT_EQ(trip.navigator.state().has_path(), more_m < 100.0);
+    if (trip.navigator.state().has_path()) {
+      continue;
+    }
+    trip.tick(10);
+    EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "the map is as it was";
+    trip.other_map = nullptr;
+    trip.tick(10);
+    const auto again = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(again.has_value());
+    trip.navigator.path_planned(trip.now, detour_of(*again, more_m));
+    EXPECT_TRUE(trip.navigator.state().has_path()) << "there is no door";
+  }
+}
+
+// While it flies on along the detour, it passes the place where the way through the door begins.
+TEST(NavigatorJoins, stops_on_a_long_detour_while_it_looks_for_a_shorter_path) {
+  for (const double more_m : {10.0, 400.0}) {
+    Trip trip;
+    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
+    trip.publish_map(std::chrono::milliseconds{100});
+    trip.set_goal(Vec3{20, 0, 1.5});
+    const auto query = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(query.has_value());
+    trip.navigator.path_planned(trip.now, {query->id, detour_of(*query, more_m).trajectory, ""});
+    trip.tick(50);
+    trip.other_map = nullptr;
+    trip.tick(10);
+    const auto again = trip.navigator.next_query(trip.now);
+    ASSERT_TRUE(again.has_value());
+    const PathFollower& follower = trip.navigator.follower();
+    ASSERT_GT(follower.speed_m_s(), 1.0);
+    const Vec3 stop_W = follower.path().at(follower.planned_stop_m()).p_W;
+    EXPECT_EQ((again->start_W - stop_W).norm() < 1e-6, more_m > 100.0) << more_m;
+  }
+}
+
 TEST(NavigatorJoins, plans_anew_where_a_known_path_does_not_join_and_counts_no_failure) {
   Trip trip;
   const auto late = trip.fly_until_blocked();

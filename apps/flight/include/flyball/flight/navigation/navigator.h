@@ -70,6 +70,8 @@ class Navigator {
   void note_map(MissionTime now, const PathClearance& clearance);
   void note_finer_map(MissionTime now);
   [[nodiscard]] bool is_detour() const;
+  [[nodiscard]] bool is_long_detour(const std::vector<Vec3>& path_W) const;
+  [[nodiscard]] bool needs_finer_map(const PlannedPath& planned) const;
   void note_rest(MissionTime now, double speed_m_s);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
@@ -121,6 +123,8 @@ class Navigator {
   bool knows_way_{};  ///< The way that was flown leads to the goal.
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
+  bool awaits_finer_{};    ///< That plan was a long detour.
+  double awaited_m_{};  ///< The smallest cells so far that were waited for on the way to the goal.
   PlanLead lead_{};
   double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};

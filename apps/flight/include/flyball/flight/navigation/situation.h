@@ -6,7 +6,10 @@
 
 #include "flyball/flight/brief.h"
 #include "flyball/flight/mission_topics.h"
+#include "flyball/runtime/geometry.h"
 #include "flyball/runtime/occupancy.h"
+
+#include <vector>
 
 namespace flyball {
 
@@ -19,6 +22,11 @@ struct Situation {
   [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const {
     return knobs.speed_limit_m_s(brief.site, p_W);
   }
+  /// The time that a path takes at the mission's speed limits.
+  [[nodiscard]] double least_s(const std::vector<Vec3>& path_W) const;
+  /// How much longer that is than the straight line between its ends takes; less than 0 where the
+  /// path leads past a slow zone, and 0 of no path.
+  [[nodiscard]] double detour_s(const std::vector<Vec3>& path_W) const;
   /// In a narrow passage or a room.
   [[nodiscard]] bool is_slow_at(const Vec3& p_W) const { return speed_limit_m_s(p_W) <= slow_m_s; }
 };

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/flight/navigation/situation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flyball {
+
+double Situation::least_s(const std::vector<Vec3>& path_W) const {
+  constexpr double step_m = 1.0;  // Chosen: shorter than any zone.
+  const double most_m_s = knobs.value("mission.max_speed_m_s");
+  double sum_s = 0.0;
+  for (std::size_t i = 1; i < path_W.size(); ++i) {
+    const Vec3 along_W = path_W[i] - path_W[i - 1];
+    const int steps = std::max(1, static_cast<int>(std::ceil(along_W.norm() / step_m)));
+    for (int step = 0; step < steps; ++step) {
+      const Vec3 middle_W = path_W[i - 1] + (step + 0.5) / steps * along_W;
+      sum_s += along_W.norm() / steps / std::min(speed_limit_m_s(middle_W), most_m_s);
+    }
+  }
+  return sum_s;
+}
+
+double Situation::detour_s(const std::vector<Vec3>& path_W) const {
+  return path_W.empty() ? 0.0 : least_s(path_W) - least_s({path_W.front(), path_W.back()});
+}
+
+}  // namespace flyball

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/flight/navigation/situation.h"
+
+#include "mission_rig.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(Situation, knows_what_a_path_takes_at_the_missions_speed_limits) {
+  Site with_a_house;
+  with_a_house.zones = {{{Vec3{10.0, -5.0, 0.0}, Vec3{20.0, 5.0, 5.0}}, 1.0}};
+  const kit::GridMap map{{Vec3{-1.0, -1.0, 0.0}, Vec3{1.0, 1.0, 1.0}}, 0.5, CellState::free};
+  kit::MissionRig rig{map, kit::MissionRig::one_core(), with_a_house};
+  ASSERT_TRUE(rig.set("mission.max_speed_m_s", 5.0));
+  const Situation situation = rig.situation();
+  const Vec3 before_W{0.0, 0.0, 1.0};
+  const Vec3 behind_W{30.0, 0.0, 1.0};
+  EXPECT_NEAR(situation.least_s({before_W, behind_W}), 2.0 + 10.0 + 2.0, 1e-9);
+  EXPECT_NEAR(situation.least_s({before_W, Vec3{10.0, 0.0, 1.0}, behind_W}), 14.0, 1e-9);
+  EXPECT_EQ(situation.least_s({before_W}), 0.0);
+
+  const std::vector<Vec3> around_W{before_W, Vec3{0.0, 8.0, 1.0}, Vec3{30.0, 8.0, 1.0}, behind_W};
+  EXPECT_NEAR(situation.detour_s(around_W), 46.0 / 5.0 - 14.0, 1e-9) << "16 m more, but sooner";
+  EXPECT_NEAR(situation.detour_s({before_W, behind_W}), 0.0, 1e-9);
+  EXPECT_EQ(situation.detour_s({}), 0.0);
+}
+
+}  // namespace
+}  // namespace flyball
