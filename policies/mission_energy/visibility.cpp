@@ -20,7 +20,12 @@ void Visibility::note(const Observation& seen, double range_m) {
     revision_ = seen.map_revision;
     captured_ = seen.now - std::max(seen.map_age, seen.latency);  // The age may be missing.
   }
-  const double seen_to_m = seen.map_range_m > 0.0 ? seen.map_range_m : range_m;
+  if (std::isfinite(range_m) && range_m != range_m_) {
+    last_range_m_ = range_m_ > 0.0 ? range_m_ : range_m;
+    range_m_ = range_m;
+    changed_ = seen.now;
+  }
+  const double seen_to_m = captured_ < changed_ ? last_range_m_ : range_m_;
   const double free_m = seen.known_free_m + seen.speed_m_s * to_seconds(seen.now - captured_);
   if (seen.phase != MissionPhase::cruise || !std::isfinite(free_m)) {
     return;

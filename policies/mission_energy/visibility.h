@@ -23,8 +23,8 @@ class Visibility {
 
   /// Ignores observations outside of cruise, and values that are not finite.
   ///
-  /// @param range_m  The map's range that is in force now, for a newest map that does not tell its
-  ///                 own.
+  /// @param range_m  The map's range that is in force now. The newest map has the range that was in
+  ///                 force when its frame was taken.
   void note(const Observation& seen, double range_m);
   [[nodiscard]] double distance_m() const { return visibility_m_; }
 
@@ -32,6 +32,9 @@ class Visibility {
   double visibility_m_;
   std::uint64_t revision_{};
   MissionTime captured_{};  ///< When the newest map's frame was taken.
+  double range_m_{};
+  double last_range_m_{};  ///< Until `changed_`.
+  MissionTime changed_{};
 };
 
 }  // namespace flyball

@@ -82,25 +82,24 @@ TEST(Visibility, coarse_cells_end_farther_before_the_range_than_fine_ones) {
   }
 }
 
-/// A map that was captured half a second ago with this range and is free up to 9 m.
-Observation half_a_second_old(double t_s, std::uint64_t revision, double range_m) {
+/// A map that was captured half a second ago and is free up to 9 m.
+Observation half_a_second_old(double t_s, std::uint64_t revision) {
   Observation seen = cruising(t_s, 9.0);
   seen.map_revision = revision;
   seen.latency = from_seconds(0.2);
   seen.map_age = from_seconds(0.5);
-  seen.map_range_m = range_m;
   return seen;
 }
 
 TEST(Visibility, a_frame_from_before_a_longer_range_does_not_say_that_the_world_ends_the_view) {
   Visibility visibility{9.0};
-  visibility.note(half_a_second_old(1.0, 1, 9.6), 9.6);
+  visibility.note(half_a_second_old(1.0, 1), 9.6);
   const double tried_m = visibility.distance_m();
   EXPECT_GT(tried_m, 9.6);
-  visibility.note(half_a_second_old(1.25, 2, 9.6), 13.2);  // Taken at .75 s.
+  visibility.note(half_a_second_old(1.25, 2), 13.2);  // Taken at .75 s.
   EXPECT_GE(visibility.distance_m(), tried_m);
   for (std::uint64_t i = 0; i < 20; ++i) {  // Now it is the world.
-    visibility.note(half_a_second_old(2.0 + 0.25 * static_cast<double>(i), 3 + i, 13.2), 13.2);
+    visibility.note(half_a_second_old(2.0 + 0.25 * static_cast<double>(i), 3 + i), 13.2);
   }
   EXPECT_NEAR(visibility.distance_m(), 9.0, 0.1);
 }
