@@ -5,17 +5,34 @@
 #include <cmath>
 
 namespace flyball {
+namespace {
+
+// Chosen: along the border of a zone a path is planned on its faster side, and flown on the other
+// as soon as the map shows more.
+constexpr double border_m = 3.0;
+
+double least_limit_m_s(const Situation& situation, const Vec3& p_W) {
+  double least_m_s =
+      std::min(situation.speed_limit_m_s(p_W), situation.knobs.value("mission.max_speed_m_s"));
+  for (const double aside_m : {-border_m, border_m}) {
+    for (const Vec3& axis_W : {Vec3{Vec3::UnitX()}, Vec3{Vec3::UnitY()}}) {
+      least_m_s = std::min(least_m_s, situation.speed_limit_m_s(p_W + aside_m * axis_W));
+    }
+  }
+  return least_m_s;
+}
+
+}  // namespace
 
 double Situation::least_s(const std::vector<Vec3>& path_W) const {
   constexpr double step_m = 1.0;  // Chosen: shorter than any zone.
-  const double most_m_s = knobs.value("mission.max_speed_m_s");
   double sum_s = 0.0;
   for (std::size_t i = 1; i < path_W.size(); ++i) {
     const Vec3 along_W = path_W[i] - path_W[i - 1];
     const int steps = std::max(1, static_cast<int>(std::ceil(along_W.norm() / step_m)));
     for (int step = 0; step < steps; ++step) {
       const Vec3 middle_W = path_W[i - 1] + (step + 0.5) / steps * along_W;
-      sum_s += along_W.norm() / steps / std::min(speed_limit_m_s(middle_W), most_m_s);
+      sum_s += along_W.norm() / steps / least_limit_m_s(*this, middle_W);
     }
   }
   return sum_s;

@@ -17,12 +17,12 @@ TEST(Situation, knows_what_a_path_takes_at_the_missions_speed_limits) {
   const Situation situation = rig.situation();
   const Vec3 before_W{0.0, 0.0, 1.0};
   const Vec3 behind_W{30.0, 0.0, 1.0};
-  EXPECT_NEAR(situation.least_s({before_W, behind_W}), 2.0 + 10.0 + 2.0, 1e-9);
-  EXPECT_NEAR(situation.least_s({before_W, Vec3{10.0, 0.0, 1.0}, behind_W}), 14.0, 1e-9);
+  EXPECT_NEAR(situation.least_s({before_W, behind_W}), 7.0 / 5.0 + 16.0 + 7.0 / 5.0, 1e-9);
+  EXPECT_NEAR(situation.least_s({before_W, Vec3{10.0, 0.0, 1.0}, behind_W}), 18.8, 1e-9);
   EXPECT_EQ(situation.least_s({before_W}), 0.0);
 
-  const std::vector<Vec3> around_W{before_W, Vec3{0.0, 8.0, 1.0}, Vec3{30.0, 8.0, 1.0}, behind_W};
-  EXPECT_NEAR(situation.detour_s(around_W), 46.0 / 5.0 - 14.0, 1e-9) << "16 m more, but sooner";
+  const std::vector<Vec3> around_W{before_W, Vec3{0.0, 9.0, 1.0}, Vec3{30.0, 9.0, 1.0}, behind_W};
+  EXPECT_NEAR(situation.detour_s(around_W), 48.0 / 5.0 - 18.8, 1e-9) << "18 m more, but sooner";
   EXPECT_NEAR(situation.detour_s({before_W, behind_W}), 0.0, 1e-9);
   EXPECT_EQ(situation.detour_s({}), 0.0);
 }
