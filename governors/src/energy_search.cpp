@@ -28,6 +28,11 @@ bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
 }
 
+/// Of whatever sensor; anything else is a fault of the observation.
+bool is_a_range(double x_m) {
+  return x_m > 0.01 && x_m < 1e4;
+}
+
 }  // namespace
 
 Result<EnergySearch> EnergySearch::make(const EnergySearchSettings& settings,
@@ -159,11 +164,12 @@ void EnergySearch::learn_latency(const Observation& seen) {
   clock_factors_ = 0.0;
   looks_ = 0;
   const MissionTime captured = seen.now - seen.latency;
-  // The first map after a change of cells may be made anew from the old one, which takes longer.
+  // The first map of other cells tells little: its frame has waited for one of the cells before, or
+  // its level has to be made.
   const bool is_of_these_cells =
       captured >= cells_since_ && std::abs(seen.map_resolution_m - in_force_.resolution_m) < 1e-9;
   const bool is_of_this_setting = is_of_these_cells && captured >= in_force_since_;
-  const bool tells_range = is_of_these_cells && is_positive(seen.map_range_m);
+  const bool tells_range = is_of_these_cells && is_a_range(seen.map_range_m);
   const bool learns =
       settings_.learn_s == 0.0 || to_seconds(seen.now.time_since_epoch()) < settings_.learn_s;
   if (learns && (tells_range || is_of_this_setting)) {

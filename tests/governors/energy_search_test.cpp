@@ -220,7 +220,14 @@ TEST(EnergySearch, learns_from_a_frame_of_the_range_before_what_that_range_takes
   one.put_in_force({0.80, 7.0, top_hz}, MissionTime{from_seconds(10.0)});
   const double before_s = one.estimate({0.80, 12.0, top_hz}, open_space()).response_s;
   Observation late = seen_map(10.2, 1, 0.80, 5.0);  // Captured at 5.2 s.
+  for (const double absurd_m : {-1.0, 0.0, 1e-300, 1e300, std::nan("")}) {
+    late.map_range_m = absurd_m;
+    late.map_revision += 10;
+    one.learn(late);
+    EXPECT_EQ(one.estimate({0.80, 12.0, top_hz}, open_space()).response_s, before_s) << absurd_m;
+  }
   late.map_range_m = 12.0;
+  late.map_revision = 1;
   one.learn(late);
   const double after_s = one.estimate({0.80, 12.0, top_hz}, open_space()).response_s;
   EXPECT_GT(after_s, 2.0 * before_s);

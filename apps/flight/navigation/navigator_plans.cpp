@@ -18,7 +18,7 @@ constexpr double room_to_turn_m = 3;  // Left before an obstacle: the radius of 
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
 constexpr double rounding_m = 1e-6;
-constexpr double long_detour_s = 10.0;  // Some ten times what a stop and a look cost.
+constexpr double long_detour_s = 10.0;  // Several times what a stop and a search cost.
 
 /// What is left of the path, every metre and at its end.
 std::vector<Vec3> rest_of(const PathFollower& follower) {
@@ -59,10 +59,12 @@ bool Navigator::is_long_detour(const std::vector<Vec3>& path_W) const {
 }
 
 // Along such a path the camera turns away from the door before the smaller cells are there. So the
-// vehicle stays where it looks at it, once for each size of cells.
+// vehicle does not turn into it, once for each size of cells that is asked for, and the next search
+// is made in a map of these.
 bool Navigator::needs_finer_map(const PlannedPath& planned) const {
   const double cells_m = knobs_->value("map.resolution_m");
-  return !joins_ && cells_m < std::min(planned_in_m_, awaited_m_) - rounding_m &&
+  return brief_->maps_obstacles && !joins_ &&
+         cells_m < std::min(planned_in_m_, awaited_m_) - rounding_m &&
          is_long_detour(planned.path.waypoints_W);
 }
 
@@ -91,8 +93,9 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   return query();
 }
 
-// A search that has failed in large cells would fail in them again and use up its whole budget.
-// When the governor has asked for smaller cells, the search waits for the first map of them.
+// A search that has failed in large cells would fail in them again and use up its whole budget, and
+// one that found a long detour would find it again. When the governor has asked for smaller cells,
+// the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
   return (failures_ > 0 || awaits_finer_) && now < not_before_ + finer_patience &&
          knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;

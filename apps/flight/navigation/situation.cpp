@@ -7,13 +7,11 @@
 namespace flyball {
 namespace {
 
-// Chosen: along the border of a zone a path is planned on its faster side, and flown on the other
-// as soon as the map shows more.
+// Chosen. A path may be planned just outside of a zone and flown inside it when the map shows more.
 constexpr double border_m = 3.0;
 
 double least_limit_m_s(const Situation& situation, const Vec3& p_W) {
-  double least_m_s =
-      std::min(situation.speed_limit_m_s(p_W), situation.knobs.value("mission.max_speed_m_s"));
+  double least_m_s = situation.speed_limit_m_s(p_W);
   for (const double aside_m : {-border_m, border_m}) {
     for (const Vec3& axis_W : {Vec3{Vec3::UnitX()}, Vec3{Vec3::UnitY()}}) {
       least_m_s = std::min(least_m_s, situation.speed_limit_m_s(p_W + aside_m * axis_W));

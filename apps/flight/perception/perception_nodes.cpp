@@ -123,7 +123,8 @@ class Map {
     }
     mapper_->commit();
     MapRevision revision{++number_, frame.captured, settings.resolution_m, mapper_->revision()};
-    revision.range_m = std::min(frame.range_m, settings.range_m);
+    revision.range_m =
+        frame.range_m > 0.0 ? std::min(frame.range_m, settings.range_m) : settings.range_m;
     if (brief_->settings.has_edge) {
       revision.bytes = octree_bytes(*mapper_, settings.resolution_m);
     }

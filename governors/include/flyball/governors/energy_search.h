@@ -105,8 +105,8 @@ class EnergySearch {
                                    const KnobSettings& knobs,
                                    const PowerCost& computer);
 
-  /// Learns from what the newest map, the rotors, the cores and the thermometer show of the setting
-  /// in force.
+  /// Learns from what the newest map shows of its cells and range, and from what the rotors, the
+  /// cores and the thermometer show.
   void learn(const Observation& seen);
   /// The best setting. It counts as in force from now on.
   [[nodiscard]] EnergyEstimate choose(const Surroundings& around, MissionTime now);
@@ -180,7 +180,7 @@ class EnergySearch {
   std::vector<double> expected_s_{};  ///< Response of each point before anything was learned.
   MapSetting in_force_{};
   MissionTime in_force_since_{};
-  MissionTime cells_since_{};
+  MissionTime cells_since_{};  ///< Since when these cells have been in force, with any range.
   std::uint64_t revision_{};
   LatencyBound::Ticket ticket_{};  ///< The next map's, issued when the last one came.
   MissionTime issued_{};

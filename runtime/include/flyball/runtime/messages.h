@@ -73,7 +73,7 @@ struct PointCloudFrame {
   std::uint64_t sequence{};
   Deferred<PointCloud> cloud_C{};
   std::optional<RangeImage> pixels{};  ///< Where they are all that the cloud is made of.
-  double range_m{};                    ///< Hits up to here are in it; 0: all.
+  double range_m{};                    ///< It holds no hits beyond; 0: nobody says.
 };
 
 /// On a link: 16 bits of millimetres for each pixel, as RGB-D cameras send them.

@@ -75,6 +75,7 @@ TEST(GovernorLoop, sees_the_missions_progress_and_what_its_stages_take) {
   EXPECT_GT(last["plan_job_s"], 0.0);
   EXPECT_EQ(last["detect_job_s"], 0.0);
   EXPECT_GT(last["headroom_m"], 0.0);
+  EXPECT_EQ(last["map_range_m"], scenario.map.range_m) << "nobody turns it";
 }
 
 TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_own_pace) {

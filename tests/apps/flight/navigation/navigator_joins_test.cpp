@@ -58,79 +58,91 @@ TEST(NavigatorJoins, joins_a_detour_that_costs_no_more_than_the_search_for_it) {
   }
 }
 
+/// In larger cells than the corridor's own, the first plan has been asked for.
+struct TripWithLargeCells : Trip {
+  TripWithLargeCells() {
+    other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
+    publish_map(std::chrono::milliseconds{100});
+    set_goal(Vec3{20, 0, 1.5});
+    query = navigator.next_query(now).value();
+  }
+  /// Its trajectory leads past the goal and back, and so do its waypoints.
+  void answer_with_detour(const PlanQuery& to, double more_m) {
+    PlannedPath planned{to.id, detour(to.start_W, to.goal_W, more_m), ""};
+    const Vec3 past_W = to.goal_W + 0.5 * more_m * (to.goal_W - to.start_W).normalized();
+    planned.path = {{to.start_W, past_W, to.goal_W}, {0.4, 0.2}};
+    navigator.path_planned(now, planned);
+  }
+  std::optional<PlanQuery> query_in_small_cells() {
+    other_map = nullptr;
+    tick(10);
+    return navigator.next_query(now);
+  }
+  PlanQuery query{};
+};
+
 // In larger cells the door was closed.
 TEST(NavigatorJoins, looks_once_for_a_shorter_path_than_a_detour_when_the_map_is_finer) {
   for (const double more_m : {1.0, 10.0}) {
-    Trip trip;
-    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
-    trip.publish_map(std::chrono::milliseconds{100});
-    trip.set_goal(Vec3{20, 0, 1.5});
-    const auto query = trip.navigator.next_query(trip.now);
-    ASSERT_TRUE(query.has_value());
-    trip.navigator.path_planned(trip.now,
-                                {query->id, detour(query->start_W, query->goal_W, more_m), ""});
+    TripWithLargeCells trip;
+    trip.answer_with_detour(trip.query, more_m);
     trip.tick(50);
     EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "the map is as it was";
-    trip.other_map = nullptr;
-    trip.tick(10);
-    const auto again = trip.navigator.next_query(trip.now);
+    const auto again = trip.query_in_small_cells();
     ASSERT_EQ(again.has_value(), more_m > 5.0);
     if (again) {
-      trip.navigator.path_planned(trip.now,
-                                  {again->id, detour(again->start_W, again->goal_W, more_m), ""});
+      trip.answer_with_detour(*again, more_m);
       trip.tick(50);
       EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "it has looked";
     }
   }
 }
 
-/// Its trajectory leads past the goal and back, and so do its waypoints.
-PlannedPath detour_of(const PlanQuery& query, double more_m) {
-  PlannedPath planned{query.id, detour(query.start_W, query.goal_W, more_m), ""};
-  const Vec3 past_W = query.goal_W + 0.5 * more_m * (query.goal_W - query.start_W).normalized();
-  planned.path = {{query.start_W, past_W, query.goal_W}, {0.4, 0.2}};
-  return planned;
-}
-
 TEST(NavigatorJoins, does_not_fly_a_long_detour_before_it_has_seen_the_finer_map_that_is_to_come) {
   for (const double more_m : {40.0, 400.0}) {
-    Trip trip;
-    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
-    trip.publish_map(std::chrono::milliseconds{100});
-    trip.set_goal(Vec3{20, 0, 1.5});
-    const auto query = trip.navigator.next_query(trip.now);
-    ASSERT_TRUE(query.has_value());
+    TripWithLargeCells trip;
     trip.turn("map.resolution_m", 0.15);
-    trip.navigator.path_planned(trip.now, detour_of(*query, more_m));
+    trip.answer_with_detour(trip.query, more_m);
     EXPECT_EQ(trip.navigator.state().has_path(), more_m < 100.0);
     if (trip.navigator.state().has_path()) {
       continue;
     }
     trip.tick(10);
     EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "the map is as it was";
-    trip.other_map = nullptr;
-    trip.tick(10);
-    const auto again = trip.navigator.next_query(trip.now);
+    const auto again = trip.query_in_small_cells();
     ASSERT_TRUE(again.has_value());
-    trip.navigator.path_planned(trip.now, detour_of(*again, more_m));
+    trip.answer_with_detour(*again, more_m);
     EXPECT_TRUE(trip.navigator.state().has_path()) << "there is no door";
   }
+}
+
+TEST(NavigatorJoins, waits_three_seconds_for_the_finer_map_and_once_only) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.15);
+  trip.answer_with_detour(trip.query, 400.0);
+  trip.tick(140);  // 2.8 s.
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+  trip.tick(20);
+  const auto late = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(late.has_value());
+  trip.answer_with_detour(*late, 400.0);
+  EXPECT_TRUE(trip.navigator.state().has_path()) << "no such map has come";
+
+  trip.set_goal(Vec3{25, 0, 1.5});
+  const auto next = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(next.has_value());
+  trip.answer_with_detour(*next, 400.0);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "another goal: it waits again";
 }
 
 // While it flies on along the detour, it passes the place where the way through the door begins.
 TEST(NavigatorJoins, stops_on_a_long_detour_while_it_looks_for_a_shorter_path) {
   for (const double more_m : {10.0, 400.0}) {
-    Trip trip;
-    trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.3));
-    trip.publish_map(std::chrono::milliseconds{100});
-    trip.set_goal(Vec3{20, 0, 1.5});
-    const auto query = trip.navigator.next_query(trip.now);
-    ASSERT_TRUE(query.has_value());
-    trip.navigator.path_planned(trip.now, {query->id, detour_of(*query, more_m).trajectory, ""});
+    TripWithLargeCells trip;
+    trip.turn("map.resolution_m", 0.3);  // It waits for none yet.
+    trip.answer_with_detour(trip.query, more_m);
     trip.tick(50);
-    trip.other_map = nullptr;
-    trip.tick(10);
-    const auto again = trip.navigator.next_query(trip.now);
+    const auto again = trip.query_in_small_cells();
     ASSERT_TRUE(again.has_value());
     const PathFollower& follower = trip.navigator.follower();
     ASSERT_GT(follower.speed_m_s(), 1.0);

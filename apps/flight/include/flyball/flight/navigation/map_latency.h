@@ -74,8 +74,8 @@ class MeasuredShares {
 /// A bound is the largest measured share times the price of the settings in force, so that it
 /// depends on these settings and on what was measured, and not on how often a knob was turned. A
 /// map counts for the range of its newest frame, whatever range is in force when it is published.
-/// One that was begun with other cells or at another clock is not counted: a frame that was begun
-/// at a low clock would hold the vehicle back for twenty maps.
+/// One that was begun under other terms than that is not counted: a frame that was begun at a low
+/// clock would hold the vehicle back for twenty maps.
 class MapLatency {
  public:
   explicit MapLatency(FramePrice price);
@@ -114,8 +114,8 @@ class MapLatency {
   MeasuredShares intervals_{};
   MapTerms terms_{};
   bool known_terms_{};
-  MissionTime since_{};  ///< Since when the terms but for the range hold; the first ones hold from
-                         ///< the beginning.
+  MissionTime since_{};  ///< Since when all terms but the range hold; the first ones hold from the
+                         ///< beginning.
   std::optional<MissionTime> last_published_{};
   Bounds bounds_{};
   double budget_use_{};

@@ -19,6 +19,7 @@
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/work.h"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -116,15 +117,17 @@ class Navigator {
   std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
   bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
-  int failures_{};  ///< Searches that found no path since one was last adopted.
+  int failures_{};  ///< Searches that found no path since one was last found.
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
   bool knows_way_{};  ///< The way that was flown leads to the goal.
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
-  bool awaits_finer_{};    ///< That plan was a long detour.
-  double awaited_m_{};  ///< The smallest cells so far that were waited for on the way to the goal.
+  /// The last plan was a long detour and was dropped; the next one waits for smaller cells.
+  bool awaits_finer_{};
+  /// The smallest cells that were waited for on the way to this goal; infinite: none.
+  double awaited_m_{std::numeric_limits<double>::infinity()};
   PlanLead lead_{};
   double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
