@@ -51,7 +51,7 @@ struct Observation {
   Duration latency_bound{};          ///< In force for the speed limit.
   std::uint32_t deadline_misses{};   ///< Since the last decision.
   std::uint32_t queue_drops{};       ///< Since the last decision.
-  std::uint32_t planner_failures{};  ///< Searches without a path since one was last adopted.
+  std::uint32_t planner_failures{};  ///< Searches without a path since one was last found.
   int cores{};
   Hertz frequency{};
   double busy_cores{};         ///< Mean since the last decision.

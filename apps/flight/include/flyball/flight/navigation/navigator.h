@@ -117,7 +117,7 @@ class Navigator {
   std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
   bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
-  int failures_{};  ///< Searches that found no path since one was last found.
+  int failures_{};  ///< Searches in a row that found no path.
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
