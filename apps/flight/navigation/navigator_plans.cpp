@@ -47,8 +47,9 @@ void Navigator::note_finer_map(MissionTime now) {
   if (pending_id_ == 0 && map_->resolution_m() < planned_in_m_ - rounding_m) {
     planned_in_m_ = map_->resolution_m();
     if (is_detour()) {
-      // The shorter path must not come too late: the vehicle stops for it.
-      refusals_ += refusals_ == 0 && is_long_detour(rest_of(follower_)) ? 1 : 0;
+      if (is_long_detour(rest_of(follower_))) {
+        refusals_ = std::max(refusals_, 1);  // It must not come too late: the vehicle stops for it.
+      }
       want_plan(now, "a finer map may show a shorter path");
     }
   }
