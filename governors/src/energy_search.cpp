@@ -90,7 +90,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
 
 MapSetting EnergySearch::setting(std::size_t point) const {
   const double* values = points_.values(point);
-  return {values[0], values[1], values[2]};
+  return {values[cell_axis], values[range_axis], values[clock_axis]};
 }
 
 // The nearest level, because somebody else may have set the cells of the map.

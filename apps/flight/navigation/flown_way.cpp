@@ -13,14 +13,6 @@ constexpr std::size_t least_loop = 30;  // Chosen: 3 m; a vehicle that hovers ma
 constexpr double jump_m = 0.5;          // Chosen: farther than the vehicle flies between two ticks.
 constexpr double joint_m = 3.0;         // Chosen: so far from the way a search may have led.
 
-std::size_t nearest(const std::vector<Vec3>& places_W, const Vec3& p_W) {
-  const auto is_nearer = [&p_W](const Vec3& a_W, const Vec3& b_W) {
-    return (a_W - p_W).squaredNorm() < (b_W - p_W).squaredNorm();
-  };
-  return static_cast<std::size_t>(std::min_element(places_W.begin(), places_W.end(), is_nearer) -
-                                  places_W.begin());
-}
-
 }  // namespace
 
 void FlownWay::flew(const Vec3& p_W) {
@@ -47,29 +39,36 @@ void FlownWay::flew(const Vec3& p_W) {
 
 // The vehicle has come here without a record of its way: it went back, was lost or flew home.
 void FlownWay::go_on_from(const Vec3& p_W) {
-  const std::size_t last = nearest(places_W_, p_W);
-  const bool is_beside = (places_W_[last] - p_W).norm() < beside_way_m;
-  places_W_.resize(is_beside ? last + 1 : 0);
+  const auto last = nearest(p_W, beside_way_m);
+  places_W_.resize(last ? *last + 1 : 0);
+}
+
+std::optional<std::size_t> FlownWay::nearest(const Vec3& p_W, double within_m) const {
+  const auto is_nearer = [&p_W](const Vec3& a_W, const Vec3& b_W) {
+    return (a_W - p_W).squaredNorm() < (b_W - p_W).squaredNorm();
+  };
+  const auto place = std::min_element(places_W_.begin(), places_W_.end(), is_nearer);
+  if (place == places_W_.end() || (*place - p_W).norm() > within_m) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(place - places_W_.begin());
 }
 
 bool FlownWay::leads_to(const Vec3& goal_W) const {
-  return !places_W_.empty() &&
-         (places_W_[nearest(places_W_, goal_W)] - goal_W).norm() < beside_way_m;
+  return nearest(goal_W, beside_way_m).has_value();
 }
 
 std::vector<Vec3> FlownWay::between(const Vec3& start_W, const Vec3& goal_W, double most_m) const {
-  if (!leads_to(goal_W)) {
+  const auto from = nearest(start_W, joint_m);
+  const auto to = nearest(goal_W, beside_way_m);
+  if (!from || !to) {
     return {};
   }
-  std::size_t at = nearest(places_W_, start_W);
-  const std::size_t to = nearest(places_W_, goal_W);
-  if ((places_W_[at] - start_W).norm() > joint_m) {
-    return {};
-  }
+  std::size_t at = *from;
   std::vector<Vec3> way_W{start_W, places_W_[at]};
   double length_m = (way_W[1] - way_W[0]).norm();
-  while (at != to && (most_m <= 0.0 || length_m < most_m)) {
-    at = at < to ? at + 1 : at - 1;
+  while (at != *to && (most_m <= 0.0 || length_m < most_m)) {
+    at = at < *to ? at + 1 : at - 1;
     length_m += (places_W_[at] - way_W.back()).norm();
     way_W.push_back(places_W_[at]);
   }

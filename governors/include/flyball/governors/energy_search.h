@@ -139,15 +139,23 @@ class EnergySearch {
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const;
   /// What it compares. Axes: cells [m], ranges [m], clocks [Hz], all ascending.
   [[nodiscard]] const OperatingPoints& points() const { return points_; }
-  [[nodiscard]] const std::vector<double>& cells_m() const { return points_.axes()[0].values; }
-  [[nodiscard]] const std::vector<double>& ranges_m() const { return points_.axes()[1].values; }
-  [[nodiscard]] const std::vector<double>& clocks_hz() const { return points_.axes()[2].values; }
+  [[nodiscard]] const std::vector<double>& cells_m() const {
+    return points_.axes()[cell_axis].values;
+  }
+  [[nodiscard]] const std::vector<double>& ranges_m() const {
+    return points_.axes()[range_axis].values;
+  }
+  [[nodiscard]] const std::vector<double>& clocks_hz() const {
+    return points_.axes()[clock_axis].values;
+  }
   /// `SearchLevel::most_range_m` of these cells.
   [[nodiscard]] double most_range_m(double resolution_m) const {
     return most_range_m_[level(resolution_m)];
   }
 
  private:
+  enum Axis : std::size_t { cell_axis, range_axis, clock_axis };  ///< Of the points.
+
   EnergySearch(const EnergySearchSettings& settings,
                const std::vector<SearchLevel>& levels,
                OperatingPoints points,

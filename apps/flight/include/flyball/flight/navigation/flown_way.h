@@ -6,6 +6,8 @@
 
 #include "flyball/runtime/geometry.h"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -31,6 +33,8 @@ class FlownWay {
 
  private:
   void go_on_from(const Vec3& p_W);
+  /// The place on it that is nearest to `p_W`, if it is no farther away than this.
+  [[nodiscard]] std::optional<std::size_t> nearest(const Vec3& p_W, double within_m) const;
 
   std::vector<Vec3> places_W_{};  ///< Oldest first.
 };
