@@ -51,6 +51,17 @@ TEST(LibraryPolicy, is_told_what_the_computer_draws_and_where_it_gets_too_hot) {
   EXPECT_EQ(0.0, kit::wish_for(wished, "map.range_m"));
 }
 
+TEST(LibraryPolicy, is_told_the_cells_and_the_range_of_the_newest_map) {
+  const auto policy = opened("culprit");
+  ASSERT_TRUE(kit::start(*policy, {{"crime", 12.0}}).ok());
+  Observation seen = at_speed(1.0);
+  seen.map_resolution_m = 0.3;
+  seen.map_range_m = 7.0;
+  const Decision wished = policy->decide(seen);
+  EXPECT_EQ(0.3, kit::wish_for(wished, "map.resolution_m"));
+  EXPECT_EQ(7.0, kit::wish_for(wished, "map.range_m"));
+}
+
 TEST(LibraryPolicy, says_why_it_does_not_start) {
   const auto policy = opened("culprit");
   const Status refused = kit::start(*policy, {{"crime", 8.0}});

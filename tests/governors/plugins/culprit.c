@@ -22,7 +22,10 @@ enum {
   crime_refuse,
   crime_random,
   crime_exit,
-  crime_watts /* None: it wishes for what the computer draws, with a core busy at the top clock. */
+  /* These are none. It wishes for what the computer draws, with a core busy at the top clock, ... */
+  crime_watts,
+  /* ... and for what it is told of the map. */
+  crime_map
 };
 
 typedef struct Culprit {
@@ -105,6 +108,12 @@ static int32_t decide(void* policy, const FlyballObservation* seen, FlyballDecis
       decision->wishes[0].value = self->top_w;
       decision->wishes[1].knob = 1;
       decision->wishes[1].value = self->trip_c;
+      break;
+    case crime_map:
+      decision->wish_count = 2;
+      decision->wishes[0].value = seen->map_resolution_m;
+      decision->wishes[1].knob = 1;
+      decision->wishes[1].value = seen->map_range_m;
       break;
     case crime_exit:
       _exit(7);
