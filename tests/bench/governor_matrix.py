@@ -9,6 +9,9 @@ photography it is energy per second in which the person was tracked.
 The best opponent of a cell is the one with the most successes, and among those the one that
 mission_energy comes off worst against. fixed_best, the best single setting in hindsight, is one of them.
 
+With --floor, both fly again on a computer whose kernels cost a fiftieth, and the better of the two is
+held against the best opponent at the real price: what no governor can be much better than.
+
 Each cell is a `flyball tournament` in a folder of its own, so the same command goes on where it was
 stopped, and a subset first makes the whole go faster later. Seeds from 9000 on are not for development.
 Exits with 1 where a cell misses a bar, with 2 where one could not be flown.
@@ -19,6 +22,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import sqlite3
 import statistics
 import subprocess
@@ -28,6 +32,8 @@ import time
 GOVERNOR = "mission_energy"
 BAR_OF_A_CELL = 1.03
 BAR_OF_ALL = 0.95
+# At a fiftieth, a map of the finest cells takes milliseconds: a hundredth gains nothing more.
+FREE = 0.02
 
 WORLDS = {
     "office_as_built": ("delivery_office_as_built", []),
@@ -81,17 +87,33 @@ class Cell:
         self.folder = options.out / self.name.replace(" ", "-")
 
     def command(self, options):
-        command = [options.flyball, "tournament", "--worlds", self.scenario, "--seeds",
-                   options.seeds, "--policies", ",".join([GOVERNOR, *self.rivals]), "--jobs",
-                   str(options.jobs), "--json", "--out", self.folder]
-        command += [word for setting in self.settings for word in ("--set", setting)]
+        command = self.tournament(options, self.rivals, self.settings, self.folder)
         return command + (["--hindsight"] if options.hindsight else [])
+
+    def tournament(self, options, rivals, settings, folder):
+        command = [options.flyball, "tournament", "--worlds", self.scenario, "--seeds",
+                   options.seeds, "--policies", ",".join([GOVERNOR, *rivals]), "--jobs",
+                   str(options.jobs), "--json", "--out", folder]
+        return command + [word for setting in settings for word in ("--set", setting)]
 
     def fly(self, options):
         """The tournament's table, or None, with the reason on standard error. Progress goes there,
         too, where somebody watches it."""
-        ended = subprocess.run(self.command(options), stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, text=True, check=False)
+        return self.flown(self.command(options))
+
+    def floor(self, options, seeds, best):
+        """By seed, the energy of the better of both on a computer whose kernels are nearly free."""
+        settings = [*self.settings, f"platform.name={options.out / 'free.toml'}"]
+        folder = self.folder.with_name(self.folder.name + "-free")
+        if self.flown(self.tournament(options, [best], settings, folder)) is None:
+            return {}
+        both = [self.flights(policy, seeds, folder) for policy in (GOVERNOR, best)]
+        return {seed: min(flights[seed][2] for flights in both if flights[seed][0])
+                for seed in seeds if any(flights[seed][0] for flights in both)}
+
+    def flown(self, command):
+        ended = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
+                               check=False)
         if ended.returncode == 130:
             raise KeyboardInterrupt
         if ended.returncode != 0:
@@ -99,10 +121,10 @@ class Cell:
             return None
         return json.loads(ended.stdout)[0]
 
-    def flights(self, policy, seeds):
+    def flights(self, policy, seeds, folder=None):
         """The flights of a policy by seed, as the tournament's store keeps them: whether it
         succeeded, its failure, and its energy over its progress."""
-        database = sqlite3.connect(self.folder / "tournament.db")
+        database = sqlite3.connect((folder or self.folder) / "tournament.db")
         rows = database.execute(
             "SELECT f.seed, f.status, f.failure, f.energy_total_j, q.value FROM flights f LEFT JOIN "
             "quality q ON q.world = f.world AND q.policy = f.policy AND q.seed = f.seed AND "
@@ -135,7 +157,15 @@ def ratios(mine, other):
             if seed in other and mine[seed][0] and other[seed][0]]
 
 
-def judged(cell, table):
+def write_free_platform(options):
+    """The scenarios' platform, but for the scale of its kernels."""
+    source = pathlib.Path(__file__).resolve().parents[2] / "sim/platforms/jetson_tx2.toml"
+    text = re.sub(r'(?m)^name = .*', 'name = "free"', source.read_text(), count=1)
+    (options.out / "free.toml").write_text(re.sub(
+        r"(?m)^scale = ([0-9.e-]+)", lambda found: f"scale = {FREE * float(found[1]):g}", text))
+
+
+def judged(cell, table, options):
     """What is said of a cell."""
     seeds = set(table["seeds"])
     mine = cell.flights(GOVERNOR, seeds)
@@ -156,6 +186,11 @@ def judged(cell, table):
                               "successes": successes(rivals[name]),
                               "collisions": collisions(rivals[name])} for name in rivals},
             "fixed_best": table.get("fixed_best")}
+    if options.floor and best != "fixed_best":
+        free = cell.floor(options, seeds, best)
+        flown = rivals[best]
+        shares = [free[seed] / flown[seed][2] for seed in sorted(free) if flown[seed][0]]
+        told["floor"] = statistics.median(shares) if shares else None
     told["missed"] = [bar for bar, is_missed in (
         ("energy", bool(values) and medians[best] > BAR_OF_A_CELL),
         ("success", told["successes"] < told["best_successes"]),
@@ -163,8 +198,8 @@ def judged(cell, table):
     return told
 
 
-HEADS = ["cell", "n", "over the best", "95 %", "best opponent", "success", "its", "collisions",
-         "misses"]
+HEADS = ["cell", "n", "over the best", "95 %", "floor", "best opponent", "success", "its",
+         "collisions", "misses"]
 
 
 def row(told):
@@ -173,7 +208,8 @@ def row(told):
     if best == "fixed_best":
         best += f" ({told['fixed_best']['setting']})"
     return [told["cell"], str(told["n"]), f"{told['ratio']:.3f}" if has else "-",
-            "[{:.3f}, {:.3f}]".format(*told["interval"]) if has else "-", best,
+            "[{:.3f}, {:.3f}]".format(*told["interval"]) if has else "-",
+            f"{told['floor']:.3f}" if told.get("floor") else "-", best,
             f"{told['successes']}/{told['n']}", f"{told['best_successes']}/{told['n']}",
             str(told["collisions"]), ", ".join(told["missed"]) or "-"]
 
@@ -214,6 +250,8 @@ def parsed():
                         help="other opponents than those that this file lists")
     parser.add_argument("--no-hindsight", dest="hindsight", action="store_false",
                         help="without fixed_best, which takes most of the time")
+    parser.add_argument("--floor", action="store_true",
+                        help="also flies on a computer whose kernels are nearly free")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                         help="as flyball's, in every cell (vehicle.airframe=spark, vehicle.payload_kg=0)")
     parser.add_argument("--jobs", type=int, default=1, help="flights at a time")
@@ -239,7 +277,7 @@ def fly_all(options, cells):
         table = cell.fly(options)
         took_s.append(time.monotonic() - begin)
         if table is not None:
-            done.append(judged(cell, table))
+            done.append(judged(cell, table, options))
             print(" | ".join(row(done[-1])), file=sys.stderr, flush=True)
     return done
 
@@ -256,7 +294,9 @@ def main():
         for cell in cells:
             print(" ".join(map(str, cell.command(options))))
         return 0
+    options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
+    write_free_platform(options)
     try:
         done = fly_all(options, cells)
     except KeyboardInterrupt:
