@@ -41,8 +41,10 @@ double PlanLead::lead_s() const {
 double PlanLead::iteration_s() const {
   Taken all;
   for (const Taken& plan : taken_) {
-    all.s += plan.s;
-    all.iterations += plan.iterations;
+    if (plan.iterations > 0.0) {  // Else a way that was known took the place of the search.
+      all.s += plan.s;
+      all.iterations += plan.iterations;
+    }
   }
   return all.iterations < least_iterations ? 0.0 : all.s / all.iterations;
 }

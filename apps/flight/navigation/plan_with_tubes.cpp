@@ -114,7 +114,10 @@ class Search {
   [[nodiscard]] int iterations_worth() const {
     const double saved_s = worthwhile * situation_.detour_s(plan_.waypoints_W);
     const double lost = query_.start_direction_W.isZero() ? 1.0 : lost_in_motion;
-    const double worth_s = finds_one * std::max(0.0, saved_s) / lost;
+    if (saved_s <= 0.0) {
+      return 0;
+    }
+    const double worth_s = finds_one * saved_s / lost;
     return worth_s >= shorter_iterations * query_.iteration_s
                ? shorter_iterations
                : static_cast<int>(worth_s / query_.iteration_s);

@@ -33,6 +33,8 @@ TEST(PlanLead, knows_an_iteration_once_there_were_some) {
   EXPECT_EQ(lead.iteration_s(), 0.0);
   lead.took(1.5, 390.0);
   EXPECT_NEAR(lead.iteration_s(), 2.0 / 400.0, 1e-12);
+  lead.took(0.3, 0.0);
+  EXPECT_NEAR(lead.iteration_s(), 2.0 / 400.0, 1e-12) << "a way that was known took no search";
 }
 
 }  // namespace

@@ -155,6 +155,22 @@ TEST(PlanWithTubes, searches_for_a_shorter_path_no_longer_than_that_may_save) {
   EXPECT_LT(iterations(1e-3), bare + 400.0);
 }
 
+// The line leads through the house: what is longer in metres takes less time.
+TEST(PlanWithTubes, searches_for_no_shorter_path_than_one_that_takes_no_longer_than_the_line) {
+  const auto iterations = [](double zone_m_s) {
+    kit::GridMap map{{Vec3{-3, -10, 0}, Vec3{9, 10, 3}}, 0.15, CellState::free};
+    map.fill({Vec3{3, -9, 0}, Vec3{3.15, 9.3, 3}}, CellState::occupied);
+    Planning planning{map};
+    planning.fly_within({Vec3{-2.5, -9.9, 1.0}, Vec3{8.5, 9.9, 1.6}});
+    planning.rig.brief->site.zones = {{{Vec3{2.9, -1, 0}, Vec3{3.2, 1, 3}}, zone_m_s}};
+    planning.query.start_W = Vec3{-2, 0, 1.3};
+    planning.query.goal_W = Vec3{8, 0, 1.3};
+    Cylinder body;
+    return planning.plan(body).work.count("iterations");
+  };
+  EXPECT_EQ(iterations(100.0), iterations(0.02) + 400.0);
+}
+
 TEST(PlanWithTubes, reports_a_wall_without_a_gap) {
   const kit::GridMap map = room_with_gap(0.0);
   Planning planning{map};
