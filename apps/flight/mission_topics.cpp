@@ -25,10 +25,10 @@ std::string text_of(const MissionEnd& end) {
 
 }  // namespace
 
-double KnobsInForce::speed_limit_m_s(const Site& site, const Vec3& p_W) const {
+double KnobsInForce::speed_limit_m_s(const Site& site, const Vec3& p_W, double within_m) const {
   double limit = value("mission.max_speed_m_s");
   for (const auto& zone : site.zones) {
-    if (zone.box_W.contains(p_W)) {
+    if (zone.box_W.distance_m(p_W) <= within_m) {
       limit = std::min(limit, zone.max_speed_m_s);
     }
   }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Geometry>
-
 namespace flyball {
 namespace {
 
@@ -42,8 +40,7 @@ double slower_zone_m(const NavigatorState& navigator, const KnobsInForce& knobs,
   double nearest_m = zone_limit_m;
   for (const SpeedZone& zone : site.zones) {
     if (zone.max_speed_m_s < here_m_s) {
-      const Eigen::AlignedBox3d box_W{zone.box_W.min, zone.box_W.max};
-      nearest_m = std::min(nearest_m, box_W.exteriorDistance(navigator.position_W));
+      nearest_m = std::min(nearest_m, zone.box_W.distance_m(navigator.position_W));
     }
   }
   return nearest_m;

@@ -10,16 +10,6 @@ namespace {
 // Chosen. A path may be planned just outside of a zone and flown inside it when the map shows more.
 constexpr double border_m = 3.0;
 
-double least_limit_m_s(const Situation& situation, const Vec3& p_W) {
-  double least_m_s = situation.speed_limit_m_s(p_W);
-  for (const double aside_m : {-border_m, border_m}) {
-    for (const Vec3& axis_W : {Vec3{Vec3::UnitX()}, Vec3{Vec3::UnitY()}}) {
-      least_m_s = std::min(least_m_s, situation.speed_limit_m_s(p_W + aside_m * axis_W));
-    }
-  }
-  return least_m_s;
-}
-
 }  // namespace
 
 double Situation::least_s(const std::vector<Vec3>& path_W) const {
@@ -30,7 +20,7 @@ double Situation::least_s(const std::vector<Vec3>& path_W) const {
     const int steps = std::max(1, static_cast<int>(std::ceil(along_W.norm() / step_m)));
     for (int step = 0; step < steps; ++step) {
       const Vec3 middle_W = path_W[i - 1] + (step + 0.5) / steps * along_W;
-      sum_s += along_W.norm() / steps / least_limit_m_s(*this, middle_W);
+      sum_s += along_W.norm() / steps / knobs.speed_limit_m_s(brief.site, middle_W, border_m);
     }
   }
   return sum_s;

@@ -20,6 +20,10 @@ struct Aabb {
   [[nodiscard]] bool contains(const Vec3& p) const {
     return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
   }
+  /// To the nearest point of the box [m]; 0 inside.
+  [[nodiscard]] double distance_m(const Vec3& p) const {
+    return (p - p.cwiseMax(min).cwiseMin(max)).norm();
+  }
 };
 
 /// Upright cylinder around a centre: the vehicle's body with or without its tracking tube [m].

@@ -24,7 +24,7 @@ TEST(Situation, knows_what_a_path_takes_at_the_missions_speed_limits) {
   const std::vector<Vec3> around_W{before_W, Vec3{0.0, 9.0, 1.0}, Vec3{30.0, 9.0, 1.0}, behind_W};
   EXPECT_NEAR(situation.detour_s(around_W), 48.0 / 5.0 - 18.8, 1e-9) << "18 m more, but sooner";
   const std::vector<Vec3> beside_W{before_W, Vec3{0.0, 6.0, 1.0}, Vec3{30.0, 6.0, 1.0}, behind_W};
-  EXPECT_NEAR(situation.least_s(beside_W), (6.0 + 10.0 + 10.0 + 6.0) / 5.0 + 10.0, 1e-9)
+  EXPECT_NEAR(situation.least_s(beside_W), (6.0 + 7.0 + 7.0 + 6.0) / 5.0 + 16.0, 1e-9)
       << "1 m beside the house it is as slow as inside";
   EXPECT_NEAR(situation.detour_s({before_W, behind_W}), 0.0, 1e-9);
   EXPECT_EQ(situation.detour_s({}), 0.0);

@@ -37,8 +37,11 @@ struct KnobsInForce {
   FlightRestraint restraint{};
 
   [[nodiscard]] double value(std::string_view knob) const { return knobs.value(knob); }
-  /// At a place: that of the slowest zone that contains `p_W`, at most the knob's limit.
-  [[nodiscard]] double speed_limit_m_s(const Site& site, const Vec3& p_W) const;
+  /// At a place: that of the slowest zone that is no farther from `p_W` than `within_m`, at most
+  /// the knob's limit.
+  [[nodiscard]] double speed_limit_m_s(const Site& site,
+                                       const Vec3& p_W,
+                                       double within_m = 0.0) const;
 };
 
 /// The knobs' defaults, at the clock and with the cores that the defaults say.

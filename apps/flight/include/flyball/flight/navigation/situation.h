@@ -22,8 +22,8 @@ struct Situation {
   [[nodiscard]] double speed_limit_m_s(const Vec3& p_W) const {
     return knobs.speed_limit_m_s(brief.site, p_W);
   }
-  /// The time that a path takes at the mission's speed limits. The limit of a zone counts from 3 m
-  /// before it, along both horizontal axes.
+  /// The time that a path takes at the mission's speed limits. The limit of a zone counts as far as
+  /// 3 m from it.
   [[nodiscard]] double least_s(const std::vector<Vec3>& path_W) const;
   /// How much longer that is than the straight line between its ends takes; less than 0 where the
   /// path leads past a slow zone, and 0 of no path.
