@@ -163,10 +163,6 @@ void GovernorLoop::look_around(JobContext& job, Work& asked) {
   if (navigator) {
     observe_flight(*navigator);
   }
-  if (map) {
-    seen_.map_resolution_m = map->map->resolution_m();
-    seen_.map_range_m = map->range_m;
-  }
   if (navigator && map) {
     const CountedMap counted{*map->map};
     observe_map(*navigator, counted);
@@ -197,6 +193,8 @@ void GovernorLoop::observe_flight(const NavigatorState& navigator) {
   seen_.latency = navigator.map_latency;
   seen_.latency_bound = navigator.latency_bound;
   seen_.map_revision = navigator.map_revision;
+  seen_.map_resolution_m = navigator.map_resolution_m;
+  seen_.map_range_m = navigator.map_range_m;
   seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator.map_captured : Duration{};
 }
 

@@ -64,7 +64,8 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
   pending_id_ = 0;
   known_.reset();
-  awaits_finer_ = false;
+  held_back_.reset();
+  stops_for_plan_ = false;
   awaited_m_ = std::numeric_limits<double>::infinity();
   knows_way_ = flown_.leads_to(goal_W);
   want_plan(now, "new goal");
@@ -88,6 +89,7 @@ void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
   map_ = revision.map;
   newest_latency_ = clearance.published - revision.captured;
   map_revision_ = revision.number;
+  map_range_m_ = revision.range_m;
   budget_use_ = map_latency_.budget_use();
   unused_capture_ = newest_capture_ = revision.captured;
   follower_.map_captured(revision.captured);
@@ -150,6 +152,13 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
   knows_way_ = knows_way_ && !patience_.comes_no_nearer(now);
 }
 
+// The same view would fail again, or show the same detour. A step back turns by itself.
+std::optional<Vec3> Navigator::way_to_look_for() const {
+  const bool fails = failures_ > 0 && !follower_.has_path();
+  const bool looks = fails || held_back_ || stops_for_plan_;
+  return looks && !back_.is_active() ? goal_W_ : std::nullopt;
+}
+
 Setpoint Navigator::tick(MissionTime now,
                          Duration dt,
                          const PoseEstimate& where,
@@ -161,8 +170,7 @@ Setpoint Navigator::tick(MissionTime now,
   resume_after_search(now, where);
   const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
-  // The same view would fail again. A step back turns by itself.
-  follower_.look_for_way_to(failures_ > 0 && !back_.is_active() ? goal_W_ : std::nullopt);
+  follower_.look_for_way_to(way_to_look_for());
   follower_.face(back_.is_active() ? std::nullopt : goal_yaw_rad_);
   const PathReference reference = follower_.tick(now, dt, error_W);
   if (back_.is_active()) {
@@ -207,6 +215,8 @@ NavigatorState Navigator::state() const {
   state.map_revision = map_revision_;
   state.map_latency = newest_latency_;
   state.map_captured = newest_capture_;
+  state.map_resolution_m = map_revision_ > 0 ? map_->resolution_m() : 0.0;
+  state.map_range_m = map_range_m_;
   return state;
 }
 

@@ -48,7 +48,7 @@ void Navigator::note_finer_map(MissionTime now) {
     planned_in_m_ = map_->resolution_m();
     if (is_detour()) {
       if (is_long_detour(rest_of(follower_))) {
-        refusals_ = std::max(refusals_, 1);  // It must not come too late: the vehicle stops for it.
+        stops_for_plan_ = true;  // So that it does not come too late.
       }
       want_plan(now, "a finer map may show a shorter path");
     }
@@ -67,6 +67,20 @@ bool Navigator::needs_finer_map(const PlannedPath& planned) const {
   return brief_->maps_obstacles && !joins_ &&
          cells_m < std::min(planned_in_m_, awaited_m_) - rounding_m &&
          is_long_detour(planned.path.waypoints_W);
+}
+
+void Navigator::hold_back(MissionTime now, const PlannedPath& planned) {
+  held_back_ = planned.path;
+  awaited_m_ = knobs_->value("map.resolution_m");
+  not_before_ = now;
+  want_plan(now, "a finer map may show a shorter path");
+}
+
+/// To be joined without a search, because there is no shorter way.
+void Navigator::take_held_back() {
+  if (held_back_) {
+    known_ = std::exchange(held_back_, std::nullopt);
+  }
 }
 
 bool Navigator::is_detour() const {
@@ -88,8 +102,11 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
+  if (map_->resolution_m() > awaited_m_ + rounding_m) {
+    take_held_back();  // No map of smaller cells has come: the search would find it again.
+  }
   asked_at_ = now;
-  wants_plan_ = awaits_finer_ = false;
+  wants_plan_ = false;
   ++replans_;
   return query();
 }
@@ -98,7 +115,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
 // one that found a long detour would find it again. When the governor has asked for smaller cells,
 // the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return (failures_ > 0 || awaits_finer_) && now < not_before_ + finer_patience &&
+  return (failures_ > 0 || held_back_) && now < not_before_ + finer_patience &&
          knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
 }
 
@@ -168,7 +185,8 @@ double Navigator::last_stop_m() const {
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
-  const bool leaves_moving = refusals_ == 0 && follower_.speed_m_s() >= creeps_below_m_s;
+  const bool leaves_moving =
+      refusals_ == 0 && !stops_for_plan_ && follower_.speed_m_s() >= creeps_below_m_s;
   const double stop_m = leaves_moving ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
   follower_.commit_stop(stop_m);
@@ -181,6 +199,11 @@ void Navigator::start_from_path(PlanQuery& query) {
 void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   if (joins_) {  // A known path could not be joined; no search has failed, so one is made now.
     want_plan(now, "the path cannot be joined: " + planned.failure);
+    return;
+  }
+  if (held_back_ && !planned.map_moved_on) {
+    take_held_back();
+    want_plan(now, "no shorter path: " + planned.failure);
     return;
   }
   failures_ += planned.map_moved_on ? 0 : 1;
@@ -228,20 +251,19 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     plan_failed(now, planned);
     return;
   }
-  failures_ = stalls_;
   if (needs_finer_map(planned)) {
-    awaits_finer_ = true;
-    awaited_m_ = knobs_->value("map.resolution_m");
-    not_before_ = now;
-    want_plan(now, "a finer map may show a shorter path");
+    hold_back(now, planned);
     return;
   }
+  failures_ = stalls_;
+  held_back_.reset();
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, splice_m_)) {
     plan_refused(now, planned);
     return;
   }
   refusals_ = 0;
+  stops_for_plan_ = false;
   blocked_at_m_.reset();
   ++path_number_;
   refresh_known_free();

@@ -107,6 +107,7 @@ bool PathFollower::adopt(const Path& tail, double splice_m) {
   s_m_ = 0.0;
   stop_at_m_ = path_->length_m();
   stalled_since_.reset();
+  looked_s_ = 0.0;
   return true;
 }
 
@@ -227,9 +228,12 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     travelled_m_ += moved;
     // The speed falls with the square root of the distance, so it would never quite reach zero.
     speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
-    turn(dt_s, now);
+    if (!looks_for_way()) {
+      turn_along_path(dt_s, now);
+    }
+    note_standstill(now);
   }
-  if (wants_way_to_W_ && !has_path()) {
+  if (looks_for_way()) {
     look_for_way(*wants_way_to_W_, dt_s);
   } else if (face_yaw_rad_ && stands_still()) {
     turn_towards(*face_yaw_rad_, dt_s);
@@ -263,17 +267,24 @@ void PathFollower::turn_towards(double yaw_rad, double dt_s) {
 
 // What lies in the way was perhaps seen in large cells, or not at all: it is looked at again.
 void PathFollower::look_for_way(const Vec3& to_W, double dt_s) {
-  const Vec3 direction_W = to_W - hover_W_;
+  const Vec3 direction_W = to_W - position_W();
   looked_s_ += dt_s;
   if (direction_W.head<2>().norm() > 0.1) {
     turn_towards(yaw_of(direction_W) + look_aside_rad * std::sin(looked_s_), dt_s);
   }
 }
 
-void PathFollower::turn(double dt_s, MissionTime now) {
+void PathFollower::turn_along_path(double dt_s, MissionTime now) {
   if (const auto wanted_rad = wanted_yaw_rad(now)) {
     turn_towards(*wanted_rad, dt_s);
   }
+}
+
+bool PathFollower::looks_for_way() const {
+  return wants_way_to_W_ && speed_m_s_ <= standing_m_s;
+}
+
+void PathFollower::note_standstill(MissionTime now) {
   const bool stands = speed_m_s_ <= standing_m_s;
   if (!stands || is_at_end()) {
     stalled_since_.reset();

@@ -3,6 +3,7 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,7 @@ TEST(NavigatorJoins, does_not_fly_a_long_detour_before_it_has_seen_the_finer_map
     EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "the map is as it was";
     const auto again = trip.query_in_small_cells();
     ASSERT_TRUE(again.has_value());
+    EXPECT_FALSE(again->known.has_value()) << "a search is made";
     trip.answer_with_detour(*again, more_m);
     EXPECT_TRUE(trip.navigator.state().has_path()) << "there is no door";
   }
@@ -125,14 +127,45 @@ TEST(NavigatorJoins, waits_three_seconds_for_the_finer_map_and_once_only) {
   trip.tick(20);
   const auto late = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(late.has_value());
+  ASSERT_TRUE(late->known.has_value()) << "no such map has come, and the detour is known";
+  EXPECT_NEAR(detour_m(late->known->waypoints_W), 400.0, 1e-6);
   trip.answer_with_detour(*late, 400.0);
-  EXPECT_TRUE(trip.navigator.state().has_path()) << "no such map has come";
+  EXPECT_TRUE(trip.navigator.state().has_path());
 
   trip.set_goal(Vec3{25, 0, 1.5});
   const auto next = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(next.has_value());
   trip.answer_with_detour(*next, 400.0);
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value()) << "another goal: it waits again";
+}
+
+TEST(NavigatorJoins, flies_the_long_detour_where_the_finer_map_shows_no_path_at_all) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.15);
+  trip.answer_with_detour(trip.query, 400.0);
+  const auto finer = trip.query_in_small_cells();
+  ASSERT_TRUE(finer.has_value());
+  EXPECT_FALSE(finer->known.has_value());
+  trip.navigator.path_planned(trip.now, {finer->id, {}, "no path"});
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0);
+  const auto around = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(around.has_value());
+  ASSERT_TRUE(around->known.has_value());
+  EXPECT_NEAR(detour_m(around->known->waypoints_W), 400.0, 1e-6);
+  trip.navigator.path_planned(trip.now, {around->id, {}, "edge 0 hits"});
+  const auto anew = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(anew.has_value());
+  EXPECT_FALSE(anew->known.has_value()) << "it is not tried again";
+}
+
+TEST(NavigatorJoins, looks_to_both_sides_of_the_goal_while_it_waits_for_the_finer_map) {
+  for (const double more_m : {40.0, 400.0}) {
+    TripWithLargeCells trip;
+    trip.turn("map.resolution_m", 0.15);
+    trip.answer_with_detour(trip.query, more_m);
+    trip.tick(50);
+    EXPECT_EQ(std::abs(trip.navigator.follower().yaw_rad()) > 0.5, more_m > 100.0);
+  }
 }
 
 // While it flies on along the detour, it passes the place where the way through the door begins.
@@ -148,6 +181,9 @@ TEST(NavigatorJoins, stops_on_a_long_detour_while_it_looks_for_a_shorter_path) {
     ASSERT_GT(follower.speed_m_s(), 1.0);
     const Vec3 stop_W = follower.path().at(follower.planned_stop_m()).p_W;
     EXPECT_EQ((again->start_W - stop_W).norm() < 1e-6, more_m > 100.0) << more_m;
+    trip.tick(150);
+    EXPECT_EQ(std::abs(trip.navigator.follower().yaw_rad()) > 0.1, more_m > 100.0)
+        << "where it stands, it looks for the way to the goal";
   }
 }
 

@@ -55,6 +55,8 @@ struct NavigatorState {
   std::uint64_t map_revision{};
   Duration map_latency{};      ///< Of that revision, from sensor to published map.
   MissionTime map_captured{};  ///< The newest frame in it.
+  double map_resolution_m{};   ///< Of that revision, as is the next; 0: there is none.
+  double map_range_m{};
 
   [[nodiscard]] bool has_path() const { return path && !path->empty(); }
 };

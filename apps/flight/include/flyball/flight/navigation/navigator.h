@@ -73,6 +73,9 @@ class Navigator {
   [[nodiscard]] bool is_detour() const;
   [[nodiscard]] bool is_long_detour(const std::vector<Vec3>& path_W) const;
   [[nodiscard]] bool needs_finer_map(const PlannedPath& planned) const;
+  void hold_back(MissionTime now, const PlannedPath& planned);
+  void take_held_back();
+  [[nodiscard]] std::optional<Vec3> way_to_look_for() const;
   void note_rest(MissionTime now, double speed_m_s);
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
@@ -124,8 +127,9 @@ class Navigator {
   bool knows_way_{};  ///< The way that was flown leads to the goal.
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
-  /// The last plan was a long detour and was dropped; the next one waits for smaller cells.
-  bool awaits_finer_{};
+  /// A long detour that is not flown before the way has been looked for in smaller cells.
+  std::optional<KnownPath> held_back_{};
+  bool stops_for_plan_{};  ///< On a long detour: the next path begins where the vehicle rests.
   /// The smallest cells that were waited for on the way to this goal; infinite: none.
   double awaited_m_{std::numeric_limits<double>::infinity()};
   PlanLead lead_{};
@@ -139,6 +143,7 @@ class Navigator {
   double budget_use_{};  ///< Of the newest map.
   Duration newest_latency_{};
   std::uint64_t map_revision_{};
+  double map_range_m_{};
   MissionTime newest_capture_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
   TrackingError tracking_error_{};

@@ -70,8 +70,8 @@ class PathFollower {
   /// At the path's end, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
-  /// While it hovers without a path, the camera looks towards this place and to both sides of it;
-  /// none: as `face` says.
+  /// While the vehicle stands, the camera looks towards this place and to both sides of it; none:
+  /// along the path, or as `face` says.
   void look_for_way_to(const std::optional<Vec3>& p_W) { wants_way_to_W_ = p_W; }
 
   /// Measures the known-free distance again, after the path has changed.
@@ -133,7 +133,9 @@ class PathFollower {
   [[nodiscard]] double next_speed(double dt_s, const Vec3& error_W);
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;
   [[nodiscard]] double braked_speed(double dt_s) const;
-  void turn(double dt_s, MissionTime now);
+  void turn_along_path(double dt_s, MissionTime now);
+  void note_standstill(MissionTime now);
+  [[nodiscard]] bool looks_for_way() const;
   [[nodiscard]] std::optional<double> wanted_yaw_rad(MissionTime now);
   void look_for_way(const Vec3& to_W, double dt_s);
   [[nodiscard]] double distance_since(MissionTime captured) const;
