@@ -33,7 +33,6 @@ constexpr int govern_priority = 90;  // The decision itself takes no time on the
 GovernorInputs governor_inputs(const Graph& graph) {
   GovernorInputs inputs;
   inputs.navigator = graph.find<NavigatorState>("navigator");
-  inputs.map = graph.find<MapRevision>("map_revision");
   for (std::size_t node = 0; node < graph.nodes().size(); ++node) {
     for (const auto& [name, stage] : stage_names) {
       if (graph.nodes()[node].spec.name == name) {
@@ -150,25 +149,22 @@ void GovernorLoop::record(JobContext& job, bool is_whole) {
   }
 }
 
-GovernorLoop::Surroundings GovernorLoop::newest(JobContext& job) const {
-  return {inputs_.navigator ? job.latest(*inputs_.navigator) : nullptr,
-          inputs_.map ? job.latest(*inputs_.map) : nullptr};
-}
-
 void GovernorLoop::look_around(JobContext& job, Work& asked) {
   const auto state = job.latest(parts_.mission.state);
   seen_.phase = state ? state->phase : MissionPhase::wait;
   observe_progress(job);
-  const auto [navigator, map] = newest(job);
-  if (navigator) {
-    observe_flight(*navigator);
+  const auto navigator = inputs_.navigator ? job.latest(*inputs_.navigator) : nullptr;
+  if (!navigator) {
+    return;
   }
-  if (navigator && map) {
-    const CountedMap counted{*map->map};
+  observe_flight(*navigator);
+  if (navigator->map) {
+    const CountedMap counted{*navigator->map};
     observe_map(*navigator, counted);
     counted.add_to(asked);
     if (inputs_.future != nullptr) {
-      governor_.foretell(inputs_.future->look(*navigator, {*parts_.brief, knobs_, *map->map}));
+      governor_.foretell(
+          inputs_.future->look(*navigator, {*parts_.brief, knobs_, *navigator->map}));
     }
   }
 }
@@ -193,13 +189,13 @@ void GovernorLoop::observe_flight(const NavigatorState& navigator) {
   seen_.latency = navigator.map_latency;
   seen_.latency_bound = navigator.latency_bound;
   seen_.map_revision = navigator.map_revision;
-  seen_.map_resolution_m = navigator.map_resolution_m;
   seen_.map_range_m = navigator.map_range_m;
   seen_.map_age = seen_.map_revision > 0 ? seen_.now - navigator.map_captured : Duration{};
 }
 
 void GovernorLoop::observe_map(const NavigatorState& navigator, const OccupancyView& map) {
   const Vec3& p_W = navigator.position_W;
+  seen_.map_resolution_m = map.resolution_m();
   seen_.obstacle_density = map.obstacle_density(p_W, density_radius_m, density_half_band_m);
   seen_.density_ahead = density_ahead(navigator, map);
   observe_gaps(navigator, map);
@@ -351,9 +347,6 @@ void add_governor(Graph& graph,
   spec.reads = {parts.mission.state.index, parts.mission.progress.index};
   if (inputs.navigator) {
     spec.reads.push_back(inputs.navigator->index);
-  }
-  if (inputs.map) {
-    spec.reads.push_back(inputs.map->index);
   }
   spec.writes = {parts.mission.knobs.index};
   declare_log(spec, parts.mission);

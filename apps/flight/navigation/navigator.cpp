@@ -215,8 +215,8 @@ NavigatorState Navigator::state() const {
   state.map_revision = map_revision_;
   state.map_latency = newest_latency_;
   state.map_captured = newest_capture_;
-  state.map_resolution_m = map_revision_ > 0 ? map_->resolution_m() : 0.0;
   state.map_range_m = map_range_m_;
+  state.map = map_revision_ > 0 ? map_ : nullptr;
   return state;
 }
 

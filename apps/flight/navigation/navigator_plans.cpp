@@ -60,8 +60,8 @@ bool Navigator::is_long_detour(const std::vector<Vec3>& path_W) const {
 }
 
 // Along such a path the camera turns away from the door before the smaller cells are there. So the
-// vehicle does not turn into it, once for each size of cells that is asked for, and the next search
-// is made in a map of these.
+// vehicle does not turn into it, once for each size of cells that is asked for. The next search is
+// made in a map of smaller cells, if one comes in time.
 bool Navigator::needs_finer_map(const PlannedPath& planned) const {
   const double cells_m = knobs_->value("map.resolution_m");
   return brief_->maps_obstacles && !joins_ &&
@@ -70,17 +70,26 @@ bool Navigator::needs_finer_map(const PlannedPath& planned) const {
 }
 
 void Navigator::hold_back(MissionTime now, const PlannedPath& planned) {
-  held_back_ = planned.path;
+  held_back_ = HeldBack{planned.path, planned_in_m_};
   awaited_m_ = knobs_->value("map.resolution_m");
   not_before_ = now;
   want_plan(now, "a finer map may show a shorter path");
 }
 
-/// To be joined without a search, because there is no shorter way.
+/// To be joined without a search, from where the vehicle stops: there, no bend is too sharp.
 void Navigator::take_held_back() {
-  if (held_back_) {
-    known_ = std::exchange(held_back_, std::nullopt);
+  known_ = std::exchange(held_back_, std::nullopt)->path;
+  stops_for_plan_ = true;
+}
+
+/// No shorter path was found than the long detour that it has stopped on, which is still free.
+bool Navigator::flies_detour_on() {
+  if (!std::exchange(stops_for_plan_, false) || blocked_at_m_ || !is_detour() ||
+      !is_long_detour(rest_of(follower_))) {
+    return false;
   }
+  follower_.commit_stop(follower_.path().length_m());
+  return true;
 }
 
 bool Navigator::is_detour() const {
@@ -102,7 +111,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
-  if (map_->resolution_m() > awaited_m_ + rounding_m) {
+  if (held_back_ && map_->resolution_m() > held_back_->cells_m - rounding_m) {
     take_held_back();  // No map of smaller cells has come: the search would find it again.
   }
   asked_at_ = now;
@@ -115,7 +124,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
 // one that found a long detour would find it again. When the governor has asked for smaller cells,
 // the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return (failures_ > 0 || held_back_) && now < not_before_ + finer_patience &&
+  return !known_ && (failures_ > 0 || held_back_) && now < not_before_ + finer_patience &&
          knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
 }
 
@@ -131,7 +140,8 @@ PlanQuery Navigator::query() {
     planned_in_m_ = map_->resolution_m();
   }
   query.known = std::exchange(known_, std::nullopt);
-  query.may_turn_back = lead_.lead_s() > 2.0 * follower_.speed_m_s() / turning_m_s2;
+  query.may_turn_back =
+      stops_for_plan_ || lead_.lead_s() > 2.0 * follower_.speed_m_s() / turning_m_s2;
   query.goal_W = *goal_W_;
   query.failures = failures_;
   // When no path was found twice with the narrow tube, none will be found with a wide one.
@@ -179,9 +189,9 @@ double Navigator::last_stop_m() const {
 
 // The first attempt lets the new path leave the old one ahead of the moving vehicle. If that path
 // bends too sharply for the vehicle's speed, or comes too late, the next attempts leave from the
-// place where the vehicle will soon come to rest. So do those of a vehicle that stands already: it
-// creeps forward with each cell that becomes known, and would have passed a splice at its present
-// place before the plan is ready.
+// place where the vehicle will soon come to rest, as a path does that the vehicle is to stop for.
+// So do those of a vehicle that stands already: it creeps forward with each cell that becomes
+// known, and would have passed a splice at its present place before the plan is ready.
 void Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
@@ -204,6 +214,9 @@ void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
   if (held_back_ && !planned.map_moved_on) {
     take_held_back();
     want_plan(now, "no shorter path: " + planned.failure);
+    return;
+  }
+  if (!planned.map_moved_on && flies_detour_on()) {
     return;
   }
   failures_ += planned.map_moved_on ? 0 : 1;

@@ -41,7 +41,7 @@ double PlanLead::lead_s() const {
 double PlanLead::iteration_s() const {
   Taken all;
   for (const Taken& plan : taken_) {
-    if (plan.iterations > 0.0) {  // Else a way that was known took the place of the search.
+    if (plan.iterations > 0.0) {  // Else nothing was searched through.
       all.s += plan.s;
       all.iterations += plan.iterations;
     }

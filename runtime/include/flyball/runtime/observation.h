@@ -45,13 +45,13 @@ struct Observation {
   double distance_to_goal_m{};
   double tracking_error_m{};
   double speed_limit_m_s{};          ///< The mission's least, here and 20 m on.
-  double map_resolution_m{};         ///< In force now.
+  double map_resolution_m{};         ///< Of the newest map.
   std::uint64_t map_revision{};      ///< Counts published maps; `latency` is the newest one's.
   Duration latency{};                ///< Newest sensor-to-command time.
   Duration latency_bound{};          ///< In force for the speed limit.
   std::uint32_t deadline_misses{};   ///< Since the last decision.
   std::uint32_t queue_drops{};       ///< Since the last decision.
-  std::uint32_t planner_failures{};  ///< Searches without a path since one was last found.
+  std::uint32_t planner_failures{};  ///< Searches without a path since one was last flown.
   int cores{};
   Hertz frequency{};
   double busy_cores{};         ///< Mean since the last decision.

@@ -158,7 +158,74 @@ TEST(NavigatorJoins, flies_the_long_detour_where_the_finer_map_shows_no_path_at_
   EXPECT_FALSE(anew->known.has_value()) << "it is not tried again";
 }
 
-TEST(NavigatorJoins, looks_to_both_sides_of_the_goal_while_it_waits_for_the_finer_map) {
+TEST(NavigatorJoins, holds_a_long_detour_back_for_one_goal_only) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.15);
+  trip.answer_with_detour(trip.query, 400.0);
+  trip.set_goal(Vec3{25, 0, 1.5});
+  const auto other = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(other.has_value());
+  EXPECT_FALSE(other->known.has_value());
+  trip.answer_with_detour(*other, 40.0);
+  EXPECT_TRUE(trip.navigator.state().has_path());
+  const auto finer = trip.query_in_small_cells();
+  ASSERT_TRUE(finer.has_value()) << "40 m are worth a look";
+  EXPECT_FALSE(finer->known.has_value());
+  trip.navigator.path_planned(trip.now, {finer->id, {}, "no path"});
+  EXPECT_EQ(trip.navigator.state().planner_failures, 1) << "nothing is held back any more";
+}
+
+TEST(NavigatorJoins, searches_in_any_cells_that_are_smaller_than_those_of_the_long_detour) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.15);
+  trip.answer_with_detour(trip.query, 400.0);
+  trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.2));
+  trip.tick(160);  // 3.2 s.
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_FALSE(again->known.has_value());
+  PlannedPath moved{again->id, {}, "edge 0 hits"};
+  moved.map_moved_on = true;
+  trip.navigator.path_planned(trip.now, moved);
+  trip.tick(170);
+  const auto on_newer = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(on_newer.has_value());
+  EXPECT_FALSE(on_newer->known.has_value()) << "only the map was too old";
+}
+
+// The policy is to see that no search has led to a path that is flown.
+TEST(NavigatorJoins, counts_failed_searches_on_while_it_waits_for_the_finer_map) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.15);
+  trip.navigator.path_planned(trip.now, {trip.query.id, {}, "no path"});
+  trip.tick(200);
+  trip.answer_with_detour(trip.navigator.next_query(trip.now).value(), 400.0);
+  EXPECT_FALSE(trip.navigator.state().has_path());
+  EXPECT_EQ(trip.navigator.state().planner_failures, 1);
+  trip.tick(160);
+  trip.answer_with_detour(trip.navigator.next_query(trip.now).value(), 400.0);
+  EXPECT_TRUE(trip.navigator.state().has_path());
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0);
+}
+
+TEST(NavigatorJoins, flies_a_long_detour_on_where_it_has_stopped_and_found_no_shorter_path) {
+  TripWithLargeCells trip;
+  trip.turn("map.resolution_m", 0.3);
+  trip.answer_with_detour(trip.query, 400.0);
+  trip.tick(50);
+  const auto again = trip.query_in_small_cells();
+  ASSERT_TRUE(again.has_value());
+  trip.tick(150);
+  ASSERT_LT(trip.navigator.follower().speed_m_s(), 0.1);
+  trip.navigator.path_planned(trip.now, {again->id, {}, "no path"});
+  EXPECT_EQ(trip.navigator.state().planner_failures, 0) << "a path is known";
+  trip.tick(100);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+  EXPECT_GT(trip.navigator.follower().speed_m_s(), 1.0);
+  EXPECT_LT(std::abs(trip.navigator.follower().yaw_rad()), 0.1) << "it looks ahead again";
+}
+
+TEST(NavigatorJoins, looks_beside_the_goal_while_it_waits_for_the_finer_map) {
   for (const double more_m : {40.0, 400.0}) {
     TripWithLargeCells trip;
     trip.turn("map.resolution_m", 0.15);

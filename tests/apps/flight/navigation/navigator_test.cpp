@@ -29,6 +29,24 @@ TEST(Navigator, asks_for_one_plan_per_goal_and_arrives) {
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
+// Governors compare its latency with what such a map was expected to take.
+TEST(Navigator, tells_of_one_map_with_its_range_and_latency) {
+  const kit::GridMap map{{Vec3{-1, -1, 0}, Vec3{1, 1, 1}}, 0.5, CellState::free};
+  kit::MissionRig rig{map};
+  Navigator navigator{rig.brief, rig.kernels.path_tracker};
+  navigator.set_knobs(MissionTime{1s}, rig.knobs);
+  EXPECT_EQ(navigator.state().map, nullptr);
+  EXPECT_EQ(navigator.state().map_range_m, 0.0);
+  PathClearance clearance;
+  clearance.revision = {7, MissionTime{1s}, 0.5, std::make_shared<const kit::GridMap>(map), 4.0};
+  clearance.published = MissionTime{1200ms};
+  navigator.path_checked(MissionTime{1300ms}, clearance);
+  const NavigatorState told = navigator.state();
+  EXPECT_EQ(told.map, clearance.revision.map);
+  EXPECT_EQ(told.map_range_m, 4.0);
+  EXPECT_EQ(told.map_latency, 200ms);
+}
+
 TEST(Navigator, has_arrived_where_a_path_ends_within_the_tolerance_of_the_goal) {
   for (const double tolerance_m : {0.3, 1.5}) {
     Scenario scenario = kit::MissionRig::one_core();

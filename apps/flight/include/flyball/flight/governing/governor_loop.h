@@ -9,7 +9,6 @@
 #include "flyball/flight/governing/node_places.h"
 #include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/situation.h"
-#include "flyball/flight/perception/map_revision.h"
 #include "flyball/governors/foresight.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
@@ -40,17 +39,15 @@ class ForesightSource {
                                               const Situation& situation) = 0;
 };
 
-/// What the governor looks at; without a navigator or a map it sees the computer alone.
+/// What the governor looks at; without a navigator it sees the computer alone.
 struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
-  std::optional<Topic<MapRevision>> map{};
   std::array<std::vector<int>, stage_count> stages{};  ///< The nodes of each.
   Duration period{};                                   ///< Between decisions.
   ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
-/// The topics `navigator` and `map_revision` of a graph and the nodes of its stages, where it has
-/// them.
+/// The topic `navigator` of a graph and the nodes of its stages, where it has them.
 [[nodiscard]] GovernorInputs governor_inputs(const Graph& graph);
 
 /// Belongs to the node `govern` while the graph runs; what it counted may be asked afterwards.
@@ -81,12 +78,6 @@ class GovernorLoop {
   /// Rows of the record, at the time of the decision.
   void note(JobContext& job, std::string_view channel, std::vector<Field> fields);
   void note_event(JobContext& job, const std::string& what);
-  /// Of the newest messages; empty while there is no map or no navigator.
-  struct Surroundings {
-    std::shared_ptr<const NavigatorState> navigator{};
-    std::shared_ptr<const MapRevision> map{};
-  };
-  [[nodiscard]] Surroundings newest(JobContext& job) const;
   void look_around(JobContext& job, Work& asked);
   void observe_flight(const NavigatorState& navigator);
   void observe_map(const NavigatorState& navigator, const OccupancyView& map);

@@ -5,6 +5,7 @@
 /// What the mission's node asks of the navigator, and what it is told.
 
 #include "flyball/flight/navigation/path_follower.h"
+#include "flyball/runtime/occupancy.h"
 
 #include <memory>
 #include <optional>
@@ -55,8 +56,9 @@ struct NavigatorState {
   std::uint64_t map_revision{};
   Duration map_latency{};      ///< Of that revision, from sensor to published map.
   MissionTime map_captured{};  ///< The newest frame in it.
-  double map_resolution_m{};   ///< Of that revision, as is the next; 0: there is none.
-  double map_range_m{};
+  double map_range_m{};        ///< That it was made with; 0: there is none.
+  /// The map of that revision; null: there is none. Owners: its readers.
+  std::shared_ptr<const OccupancyView> map{};
 
   [[nodiscard]] bool has_path() const { return path && !path->empty(); }
 };

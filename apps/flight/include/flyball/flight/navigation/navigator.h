@@ -75,6 +75,7 @@ class Navigator {
   [[nodiscard]] bool needs_finer_map(const PlannedPath& planned) const;
   void hold_back(MissionTime now, const PlannedPath& planned);
   void take_held_back();
+  [[nodiscard]] bool flies_detour_on();
   [[nodiscard]] std::optional<Vec3> way_to_look_for() const;
   void note_rest(MissionTime now, double speed_m_s);
   void tell_map_use(MissionTime now);
@@ -117,7 +118,7 @@ class Navigator {
   double splice_m_{};
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
-  std::optional<KnownPath> known_{};  ///< The path of the last of these plans.
+  std::optional<KnownPath> known_{};  ///< The path of the last of these, or one held back before.
   bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
   int failures_{};  ///< Searches in a row that found no path.
@@ -128,8 +129,12 @@ class Navigator {
   MissionTime asked_at_{};
   double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
   /// A long detour that is not flown before the way has been looked for in smaller cells.
-  std::optional<KnownPath> held_back_{};
-  bool stops_for_plan_{};  ///< On a long detour: the next path begins where the vehicle rests.
+  struct HeldBack {
+    KnownPath path{};
+    double cells_m{};  ///< In which it was found.
+  };
+  std::optional<HeldBack> held_back_{};
+  bool stops_for_plan_{};  ///< The next path begins where the vehicle comes to rest.
   /// The smallest cells that were waited for on the way to this goal; infinite: none.
   double awaited_m_{std::numeric_limits<double>::infinity()};
   PlanLead lead_{};
