@@ -3,7 +3,6 @@
 
 #include "flyball/flight/perception/counted_map.h"
 
-#include <limits>
 #include <utility>
 
 namespace flyball {
@@ -62,11 +61,10 @@ void Navigator::leave_path_at(const Vec3& p_W, double yaw_rad) {
 
 void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
-  pending_id_ = 0;
+  asked_.reset();
   known_.reset();
-  held_back_.reset();
+  detours_.begin();
   stops_for_plan_ = false;
-  awaited_m_ = std::numeric_limits<double>::infinity();
   knows_way_ = flown_.leads_to(goal_W);
   want_plan(now, "new goal");
 }
@@ -74,7 +72,7 @@ void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
 void Navigator::clear_goal() {
   goal_W_.reset();
   wants_plan_ = false;
-  pending_id_ = 0;
+  asked_.reset();
 }
 
 bool Navigator::has_arrived() const {
@@ -83,22 +81,18 @@ bool Navigator::has_arrived() const {
 }
 
 void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
-  const MapRevision& revision = clearance.revision;
+  newest_ = clearance.revision;
+  newest_latency_ = clearance.published - newest_.captured;
+  unused_capture_ = newest_.captured;
   (void)map_latency_.note_terms(now, terms_of(*knobs_, *brief_));
-  map_latency_.published(revision, clearance.published);
-  map_ = revision.map;
-  newest_latency_ = clearance.published - revision.captured;
-  map_revision_ = revision.number;
-  map_range_m_ = revision.range_m;
-  budget_use_ = map_latency_.budget_use();
-  unused_capture_ = newest_capture_ = revision.captured;
-  follower_.map_captured(revision.captured);
+  map_latency_.published(newest_, clearance.published);
+  follower_.map_captured(newest_.captured);
   follower_.set_latency_bound(map_latency_.age_bound());
 }
 
 void Navigator::refresh_known_free() {
-  if (map_) {
-    const CountedMap map{*map_};
+  if (newest_.map) {
+    const CountedMap map{*newest_.map};
     follower_.refresh_known_free(map);
     map.add_to(news_.asked);
   }
@@ -112,7 +106,7 @@ void Navigator::path_checked(MissionTime now, const PathClearance& clearance) {
   }
   follower_.set_known_free(clearance.free_until_m);
   blocked_at_m_ = clearance.blocked_at_m;
-  if (blocked_at_m_ && pending_id_ == 0) {
+  if (blocked_at_m_ && !asked_) {
     want_plan(now, "path blocked");
   }
   note_finer_map(now);
@@ -131,7 +125,7 @@ void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) 
 
 void Navigator::tell_map_use(MissionTime now) {
   if (unused_capture_) {
-    news_.map_use = MapUse{budget_use_, to_seconds(now - *unused_capture_)};
+    news_.map_use = MapUse{map_latency_.budget_use(), to_seconds(now - *unused_capture_)};
     unused_capture_.reset();
   }
 }
@@ -155,7 +149,7 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
 // The same view would fail again, or show the same detour. A step back turns by itself.
 std::optional<Vec3> Navigator::way_to_look_for() const {
   const bool fails = failures_ > 0 && !follower_.has_path();
-  const bool looks = fails || held_back_ || stops_for_plan_;
+  const bool looks = fails || detours_.holds_back() || stops_for_plan_;
   return looks && !back_.is_active() ? goal_W_ : std::nullopt;
 }
 
@@ -212,11 +206,11 @@ NavigatorState Navigator::state() const {
   state.tracking_error = tracking_error_;
   state.planner_failures = failures_;
   state.replans = replans_;
-  state.map_revision = map_revision_;
+  state.map_revision = newest_.number;
   state.map_latency = newest_latency_;
-  state.map_captured = newest_capture_;
-  state.map_range_m = map_range_m_;
-  state.map = map_revision_ > 0 ? map_ : nullptr;
+  state.map_captured = newest_.captured;
+  state.map_range_m = newest_.range_m;
+  state.map = newest_.number > 0 ? newest_.map : nullptr;
   return state;
 }
 

@@ -17,8 +17,7 @@ constexpr int most_refusals = 3;      // A path that cannot be joined so often i
 constexpr double room_to_turn_m = 3;  // Left before an obstacle: the radius of a turn at 3 m/s.
 constexpr double creeps_below_m_s = 0.05;  // The speed at which a corner is passed (SpeedProfile).
 constexpr double turning_m_s2 = 3.0;       // To turn back, it brakes and speeds up again like this.
-constexpr double rounding_m = 1e-6;
-constexpr double long_detour_s = 10.0;  // Several times what a stop and a search cost.
+constexpr double long_detour_s = 10.0;     // Several times what a stop and a search cost.
 
 /// What is left of the path, every metre and at its end.
 std::vector<Vec3> rest_of(const PathFollower& follower) {
@@ -44,14 +43,11 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
 // In larger cells a door may have been closed, and the path is the way around. The way through the
 // door is looked for once, when the first map of smaller cells is there.
 void Navigator::note_finer_map(MissionTime now) {
-  if (pending_id_ == 0 && map_->resolution_m() < planned_in_m_ - rounding_m) {
-    planned_in_m_ = map_->resolution_m();
-    if (is_detour()) {
-      if (is_long_detour(rest_of(follower_))) {
-        stops_for_plan_ = true;  // So that it does not come too late.
-      }
-      want_plan(now, "a finer map may show a shorter path");
+  if (!asked_ && detours_.shows_more(newest_.map->resolution_m()) && is_detour()) {
+    if (is_long_detour(rest_of(follower_))) {
+      stops_for_plan_ = true;  // So that it does not come too late.
     }
+    want_plan(now, "a finer map may show a shorter path");
   }
 }
 
@@ -63,22 +59,19 @@ bool Navigator::is_long_detour(const std::vector<Vec3>& path_W) const {
 // vehicle does not turn into it, once for each size of cells that is asked for. The next search is
 // made in a map of smaller cells, if one comes in time.
 bool Navigator::needs_finer_map(const PlannedPath& planned) const {
-  const double cells_m = knobs_->value("map.resolution_m");
-  return brief_->maps_obstacles && !joins_ &&
-         cells_m < std::min(planned_in_m_, awaited_m_) - rounding_m &&
+  return brief_->maps_obstacles && detours_.may_await(knobs_->value("map.resolution_m")) &&
          is_long_detour(planned.path.waypoints_W);
 }
 
-void Navigator::hold_back(MissionTime now, const PlannedPath& planned) {
-  held_back_ = HeldBack{planned.path, planned_in_m_};
-  awaited_m_ = knobs_->value("map.resolution_m");
+void Navigator::wait_for_finer_map(MissionTime now, const PlannedPath& planned) {
+  detours_.hold_back(planned.path, knobs_->value("map.resolution_m"));
   not_before_ = now;
   want_plan(now, "a finer map may show a shorter path");
 }
 
 /// To be joined without a search, from where the vehicle stops: there, no bend is too sharp.
 void Navigator::take_held_back() {
-  known_ = std::exchange(held_back_, std::nullopt)->path;
+  known_ = detours_.take();
   stops_for_plan_ = true;
 }
 
@@ -101,7 +94,7 @@ bool Navigator::is_detour() const {
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
-  if (!goal_W_ || !map_ || pending_id_ != 0 || back_.is_active()) {
+  if (!goal_W_ || !newest_.map || asked_ || back_.is_active()) {
     return std::nullopt;
   }
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
@@ -111,33 +104,32 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
-  if (held_back_ && map_->resolution_m() > held_back_->cells_m - rounding_m) {
-    take_held_back();  // No map of smaller cells has come: the search would find it again.
+  if (detours_.is_found_again(newest_.map->resolution_m())) {
+    take_held_back();  // No map of smaller cells has come.
   }
-  asked_at_ = now;
   wants_plan_ = false;
   ++replans_;
-  return query();
+  return query(now);
 }
 
 // A search that has failed in large cells would fail in them again and use up its whole budget, and
 // one that found a long detour would find it again. When the governor has asked for smaller cells,
 // the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return !known_ && (failures_ > 0 || held_back_) && now < not_before_ + finer_patience &&
-         knobs_->value("map.resolution_m") < map_->resolution_m() - rounding_m;
+  constexpr double rounding_m = 1e-6;
+  return !known_ && (failures_ > 0 || detours_.holds_back()) &&
+         now < not_before_ + finer_patience &&
+         knobs_->value("map.resolution_m") < newest_.map->resolution_m() - rounding_m;
 }
 
-PlanQuery Navigator::query() {
+PlanQuery Navigator::query(MissionTime now) {
   PlanQuery query;
-  query.id = pending_id_ = next_id_++;
+  query.id = next_id_++;
   query.start_W = follower_.position_W();
-  if (follower_.has_path()) {
-    start_from_path(query);
-  }
-  joins_ = known_.has_value();
-  if (!joins_) {
-    planned_in_m_ = map_->resolution_m();
+  const double splice_m = follower_.has_path() ? start_from_path(query) : 0.0;
+  asked_ = Asked{query.id, now, splice_m, known_.has_value()};
+  if (!asked_->joins) {
+    detours_.searched(newest_.map->resolution_m());
   }
   query.known = std::exchange(known_, std::nullopt);
   query.may_turn_back =
@@ -147,7 +139,7 @@ PlanQuery Navigator::query() {
   // When no path was found twice with the narrow tube, none will be found with a wide one.
   query.may_be_tight = situation().is_slow_at(query.start_W) || failures_ > 1;
   query.iteration_s = lead_.iteration_s();
-  if (needs_known_way(query)) {
+  if (needs_flown_way(query)) {
     query.flown_W = flown_.between(query.start_W, query.goal_W, brief_->settings.planner.horizon_m);
   }
   return query;
@@ -156,10 +148,10 @@ PlanQuery Navigator::query() {
 // Where a search may take long or find nothing, the way that was flown takes its place. In a
 // forest, a search finds a shorter one at once. Each third plan after failures is made without it,
 // because the way may be what has failed.
-bool Navigator::needs_known_way(const PlanQuery& query) const {
+bool Navigator::needs_flown_way(const PlanQuery& query) const {
   const bool may_search_long = failures_ > 0 || brief_->settings.planner.horizon_m > 0.0 ||
                                situation().is_slow_at(query.start_W);
-  return knows_way_ && !joins_ && may_search_long && failures_ % 3 != 2;
+  return knows_way_ && !query.known && may_search_long && failures_ % 3 != 2;
 }
 
 // The next plan is asked for so early that the vehicle need not stop, and so late that the next
@@ -192,7 +184,7 @@ double Navigator::last_stop_m() const {
 // place where the vehicle will soon come to rest, as a path does that the vehicle is to stop for.
 // So do those of a vehicle that stands already: it creeps forward with each cell that becomes
 // known, and would have passed a splice at its present place before the plan is ready.
-void Navigator::start_from_path(PlanQuery& query) {
+double Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
   const bool leaves_moving =
@@ -200,18 +192,19 @@ void Navigator::start_from_path(PlanQuery& query) {
   const double stop_m = leaves_moving ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
   follower_.commit_stop(stop_m);
-  splice_m_ = leaves_moving ? moving_m : stop_m;
-  query.start_W = path.at(splice_m_).p_W;
+  const double splice_m = leaves_moving ? moving_m : stop_m;
+  query.start_W = path.at(splice_m).p_W;
   query.start_direction_W =
-      follower_.speed_m_s() > 0.2 ? path.at(splice_m_).tangent_W : Vec3::Zero();
+      follower_.speed_m_s() > 0.2 ? path.at(splice_m).tangent_W : Vec3::Zero();
+  return splice_m;
 }
 
-void Navigator::plan_failed(MissionTime now, const PlannedPath& planned) {
-  if (joins_) {  // A known path could not be joined; no search has failed, so one is made now.
+void Navigator::plan_failed(MissionTime now, const Asked& asked, const PlannedPath& planned) {
+  if (asked.joins) {  // A known path could not be joined; no search has failed, so one is made now.
     want_plan(now, "the path cannot be joined: " + planned.failure);
     return;
   }
-  if (held_back_ && !planned.map_moved_on) {
+  if (detours_.holds_back() && !planned.map_moved_on) {
     take_held_back();
     want_plan(now, "no shorter path: " + planned.failure);
     return;
@@ -242,9 +235,9 @@ bool Navigator::is_worth_joining(const std::vector<Vec3>& path_W) const {
 // A path that took seconds to find is not thrown away because the vehicle has passed its start or
 // is too fast for its first bend. Instead the vehicle joins it from another place. The first such
 // place is a point ahead again, since that takes no search.
-void Navigator::plan_refused(MissionTime now, const PlannedPath& planned) {
-  const bool is_late = follower_.s_m() > splice_m_;
-  refusals_ += is_late && !joins_ && refusals_ == 0 ? 0 : 1;
+void Navigator::plan_refused(MissionTime now, const Asked& asked, const PlannedPath& planned) {
+  const bool is_late = follower_.s_m() > asked.splice_m;
+  refusals_ += is_late && !asked.joins && refusals_ == 0 ? 0 : 1;
   if (refusals_ < most_refusals && is_worth_joining(planned.path.waypoints_W)) {
     known_ = planned.path;
   }
@@ -252,27 +245,27 @@ void Navigator::plan_refused(MissionTime now, const PlannedPath& planned) {
 }
 
 void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
-  if (planned.id != pending_id_) {
+  if (!asked_ || planned.id != asked_->id) {
     return;
   }
-  pending_id_ = 0;
-  if (!joins_) {
-    searched_s_ = to_seconds(now - asked_at_);
+  const Asked asked = *std::exchange(asked_, std::nullopt);
+  if (!asked.joins) {
+    searched_s_ = to_seconds(now - asked.at);
     lead_.took(searched_s_, planned.iterations);
   }
   if (!planned.failure.empty()) {
-    plan_failed(now, planned);
+    plan_failed(now, asked, planned);
     return;
   }
-  if (needs_finer_map(planned)) {
-    hold_back(now, planned);
+  if (!asked.joins && needs_finer_map(planned)) {
+    wait_for_finer_map(now, planned);
     return;
   }
   failures_ = stalls_;
-  held_back_.reset();
+  detours_.drop();
   const Path path{planned.trajectory};
-  if (!follower_.adopt(path, splice_m_)) {
-    plan_refused(now, planned);
+  if (!follower_.adopt(path, asked.splice_m)) {
+    plan_refused(now, asked, planned);
     return;
   }
   refusals_ = 0;

@@ -67,7 +67,7 @@ bool Navigator::steps_back(double away_m, double yaw_rad) {
 
 bool Navigator::leaves_blind_zone() {
   const Intrinsics camera = brief_->settings.camera.intrinsics();
-  const double away_m = blind_m(map_->resolution_m(), brief_->narrow_body(),
+  const double away_m = blind_m(newest_.map->resolution_m(), brief_->narrow_body(),
                                 0.5 * camera.height_px / camera.focal_px);
   if (!steps_back(away_m, yaw_ahead_rad())) {
     return false;
@@ -95,7 +95,7 @@ void Navigator::go_back(MissionTime now, Duration dt, double error_m) {
   const StepBack::Hover next =
       back_.tick(now, dt, {follower_.position_W(), follower_.yaw_rad()}, error_m);
   follower_.hover_at(next.p_W, next.yaw_rad);
-  if (back_.has_looked(newest_capture_)) {
+  if (back_.has_looked(newest_.captured)) {
     want_plan(now, "has looked from farther back");
   }
 }

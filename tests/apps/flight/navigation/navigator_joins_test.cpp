@@ -82,6 +82,14 @@ struct TripWithLargeCells : Trip {
   PlanQuery query{};
 };
 
+/// The plan was a way around, which it holds back because smaller cells have been asked for.
+struct TripWithHeldDetour : TripWithLargeCells {
+  TripWithHeldDetour() {
+    turn("map.resolution_m", 0.15);
+    answer_with_detour(query, 400.0);
+  }
+};
+
 // In larger cells the door was closed.
 TEST(NavigatorJoins, looks_once_for_a_shorter_path_than_a_detour_when_the_map_is_finer) {
   for (const double more_m : {1.0, 10.0}) {
@@ -119,9 +127,7 @@ TEST(NavigatorJoins, does_not_fly_a_long_detour_before_it_has_seen_the_finer_map
 }
 
 TEST(NavigatorJoins, waits_three_seconds_for_the_finer_map_and_once_only) {
-  TripWithLargeCells trip;
-  trip.turn("map.resolution_m", 0.15);
-  trip.answer_with_detour(trip.query, 400.0);
+  TripWithHeldDetour trip;
   trip.tick(140);  // 2.8 s.
   EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
   trip.tick(20);
@@ -140,9 +146,7 @@ TEST(NavigatorJoins, waits_three_seconds_for_the_finer_map_and_once_only) {
 }
 
 TEST(NavigatorJoins, flies_the_long_detour_where_the_finer_map_shows_no_path_at_all) {
-  TripWithLargeCells trip;
-  trip.turn("map.resolution_m", 0.15);
-  trip.answer_with_detour(trip.query, 400.0);
+  TripWithHeldDetour trip;
   const auto finer = trip.query_in_small_cells();
   ASSERT_TRUE(finer.has_value());
   EXPECT_FALSE(finer->known.has_value());
@@ -159,9 +163,7 @@ TEST(NavigatorJoins, flies_the_long_detour_where_the_finer_map_shows_no_path_at_
 }
 
 TEST(NavigatorJoins, holds_a_long_detour_back_for_one_goal_only) {
-  TripWithLargeCells trip;
-  trip.turn("map.resolution_m", 0.15);
-  trip.answer_with_detour(trip.query, 400.0);
+  TripWithHeldDetour trip;
   trip.set_goal(Vec3{25, 0, 1.5});
   const auto other = trip.navigator.next_query(trip.now);
   ASSERT_TRUE(other.has_value());
@@ -176,9 +178,7 @@ TEST(NavigatorJoins, holds_a_long_detour_back_for_one_goal_only) {
 }
 
 TEST(NavigatorJoins, searches_in_any_cells_that_are_smaller_than_those_of_the_long_detour) {
-  TripWithLargeCells trip;
-  trip.turn("map.resolution_m", 0.15);
-  trip.answer_with_detour(trip.query, 400.0);
+  TripWithHeldDetour trip;
   trip.other_map = std::make_shared<const kit::GridMap>(kit::corridor(60.0, 0.2));
   trip.tick(160);  // 3.2 s.
   const auto again = trip.navigator.next_query(trip.now);

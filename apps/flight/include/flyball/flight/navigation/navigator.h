@@ -5,6 +5,7 @@
 /// Flies the vehicle to a goal through the known map: requests plans, splices them into the
 /// committed path, and keeps the bound on latency from which the speed limit follows.
 
+#include "flyball/flight/navigation/detour_watch.h"
 #include "flyball/flight/navigation/flown_way.h"
 #include "flyball/flight/navigation/goal_patience.h"
 #include "flyball/flight/navigation/guidance.h"
@@ -19,7 +20,6 @@
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/work.h"
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,7 +43,7 @@ class Navigator {
   /// The knobs in force from now on; to be called before anything else.
   void set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs);
   /// Where nothing maps obstacles: the space that is declared free.
-  void set_declared_map(std::shared_ptr<const OccupancyView> map) { map_ = std::move(map); }
+  void set_declared_map(std::shared_ptr<const OccupancyView> map) { newest_.map = std::move(map); }
   void obey(MissionTime now, const GuidanceCommand& command);
   /// A map has been published, and the path was held against it.
   void path_checked(MissionTime now, const PathClearance& clearance);
@@ -64,6 +64,13 @@ class Navigator {
   [[nodiscard]] bool has_arrived() const;
 
  private:
+  /// A plan that has been asked for.
+  struct Asked {
+    std::uint64_t id{};
+    MissionTime at{};
+    double splice_m{};  ///< Where its path leaves the one that is flown; arc length of that one.
+    bool joins{};       ///< A known path is joined from elsewhere; nothing is searched for.
+  };
   void hover_at(const Vec3& p_W, double yaw_rad);
   void set_goal(MissionTime now, const Vec3& goal_W);
   void clear_goal();
@@ -73,13 +80,13 @@ class Navigator {
   [[nodiscard]] bool is_detour() const;
   [[nodiscard]] bool is_long_detour(const std::vector<Vec3>& path_W) const;
   [[nodiscard]] bool needs_finer_map(const PlannedPath& planned) const;
-  void hold_back(MissionTime now, const PlannedPath& planned);
+  void wait_for_finer_map(MissionTime now, const PlannedPath& planned);
   void take_held_back();
   [[nodiscard]] bool flies_detour_on();
   [[nodiscard]] std::optional<Vec3> way_to_look_for() const;
   void note_rest(MissionTime now, double speed_m_s);
   void tell_map_use(MissionTime now);
-  [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *map_}; }
+  [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *newest_.map}; }
   [[nodiscard]] bool is_leg_ending() const;
   void resume_after_search(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
@@ -91,20 +98,20 @@ class Navigator {
   [[nodiscard]] bool leaves_blind_zone();
   void look_from_elsewhere();
   void go_back(MissionTime now, Duration dt, double error_m);
-  void plan_failed(MissionTime now, const PlannedPath& planned);
+  void plan_failed(MissionTime now, const Asked& asked, const PlannedPath& planned);
   [[nodiscard]] bool is_worth_joining(const std::vector<Vec3>& path_W) const;
-  void plan_refused(MissionTime now, const PlannedPath& planned);
+  void plan_refused(MissionTime now, const Asked& asked, const PlannedPath& planned);
   [[nodiscard]] bool awaits_finer_map(MissionTime now) const;
-  [[nodiscard]] PlanQuery query();
-  [[nodiscard]] bool needs_known_way(const PlanQuery& query) const;
+  [[nodiscard]] PlanQuery query(MissionTime now);
+  [[nodiscard]] bool needs_flown_way(const PlanQuery& query) const;
   [[nodiscard]] double last_stop_m() const;
-  void start_from_path(PlanQuery& query);
+  /// @return  Where the plan is to leave the path: see `Asked`.
+  [[nodiscard]] double start_from_path(PlanQuery& query);
   void want_plan(MissionTime now, const std::string& why);
 
   std::shared_ptr<const Brief> brief_;           ///< Owners: all nodes.
   std::shared_ptr<PathTracker> path_tracker_;    ///< See MissionKernels.
   std::shared_ptr<const KnobsInForce> knobs_{};  ///< Owners: whoever reads this snapshot.
-  std::shared_ptr<const OccupancyView> map_{};   ///< The newest one. Owners: its readers.
   PathFollower follower_;
   NavigatorNews news_{};
   std::uint64_t obeyed_{};
@@ -114,29 +121,18 @@ class Navigator {
   GoalPatience patience_;
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
-  std::uint64_t pending_id_{};  ///< 0: none.
-  double splice_m_{};
+  std::optional<Asked> asked_{};
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
   std::optional<KnownPath> known_{};  ///< The path of the last of these, or one held back before.
-  bool joins_{};                      ///< The pending plan is that path, joined from elsewhere.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
   int failures_{};  ///< Searches in a row that found no path.
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
   bool knows_way_{};  ///< The way that was flown leads to the goal.
-  MissionTime asked_at_{};
-  double planned_in_m_{};  ///< Size of the cells of the map in which the last plan was asked for.
-  /// A long detour that is not flown before the way has been looked for in smaller cells.
-  struct HeldBack {
-    KnownPath path{};
-    double cells_m{};  ///< In which it was found.
-  };
-  std::optional<HeldBack> held_back_{};
+  DetourWatch detours_{};
   bool stops_for_plan_{};  ///< The next path begins where the vehicle comes to rest.
-  /// The smallest cells that were waited for on the way to this goal; infinite: none.
-  double awaited_m_{std::numeric_limits<double>::infinity()};
   PlanLead lead_{};
   double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
@@ -145,11 +141,8 @@ class Navigator {
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
   MapLatency map_latency_;
-  double budget_use_{};  ///< Of the newest map.
+  MapRevision newest_{};  ///< Its number is 0 before the first map; the map may be declared.
   Duration newest_latency_{};
-  std::uint64_t map_revision_{};
-  double map_range_m_{};
-  MissionTime newest_capture_{};
   std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
   TrackingError tracking_error_{};
 };
