@@ -62,8 +62,8 @@ class DenseMap final : public OccupancyView {
       worst = CellState::unknown;
     }
     for_cells({p_WB - half, p_WB + half}, [&](std::size_t index, const Aabb& cube) {
-      if (hits(p_WB, p_WB, body, cube)) {
-        worst = std::max(worst, cells_[index]);
+      if (cells_[index] > worst && hits(p_WB, p_WB, body, cube)) {  // Most cells are free.
+        worst = cells_[index];
       }
       return worst == CellState::occupied;
     });
