@@ -21,7 +21,7 @@ enum { side_max = 94 }; /* Cells on a side of 14 m, at .15 m. */
 /* The loop's own setting. */
 static double cell_m = 0.15;
 
-/* Whether a pillar stands on this metre of ground: one in 16 in the open, every second one in the
+/* Whether a pillar stands on this metre of ground: one in 64 in the open, every second one in the
  * thicket. */
 static int is_pillar(int x_m, int y_m) {
   const unsigned mixed =

@@ -26,7 +26,7 @@ class Density final : public flyball::Policy {
             {"leave_density", 0.045, 0.0, 1.0, "At or below this share of columns: coarse."},
             {"min_fine_s", 2.0, 0.0, 3600.0, "Fine lasts at least this long."},
             {"failures_to_fine", 3.0, 0.0, 1000.0,
-             "After so many failed plans in a row: fine, whatever the density. 0: never."},
+             "After so many searches without a path: fine, whatever the density. 0: never."},
             // The first plan in fine cells leads through a gap that coarse cells close, so a switch
             // back before that gap would block the path again. 15 s at some 2 m/s are more than the
             // 20 m range of a long sensor.

@@ -8,16 +8,25 @@
 namespace flyball {
 namespace {
 
-Status check_price(const Scenario& scenario, const Platform& platform) {
-  const std::string priced_as = detector_cost(flight_settings(scenario));
-  if (platform.knows(priced_as)) {
-    return Done{};
+Status check_prices(const Scenario& scenario, const Platform& platform) {
+  const std::string detector = detector_cost(flight_settings(scenario));
+  if (!platform.knows(detector)) {
+    return Error{ErrorCode::invalid_input, "platform \"" + scenario.platform.name +
+                                               "\" has no price for detector \"" + detector +
+                                               "\", so looking for people would cost no time; " +
+                                               "set detector.cost_of to \"hog\", or add " +
+                                               "[kernels." + detector + "] to the platform file"};
   }
-  return Error{ErrorCode::invalid_input, "platform \"" + scenario.platform.name +
-                                             "\" has no price for detector \"" + priced_as +
-                                             "\", so looking for people would cost no time; set " +
-                                             "detector.cost_of to \"hog\", or add [kernels." +
-                                             priced_as + "] to the platform file"};
+  for (const std::string use : {"_buffered", "_real_time"}) {
+    const std::string tracker = scenario.kernels.tracker + use;
+    if (!platform.knows(tracker)) {
+      return Error{ErrorCode::invalid_input,
+                   "platform \"" + scenario.platform.name + "\" has no price for tracker \"" +
+                       scenario.kernels.tracker + "\", so tracking would cost no time; add " +
+                       "[kernels." + tracker + "] to the platform file"};
+    }
+  }
+  return Done{};
 }
 
 /// Null with a localizer that takes no images.
@@ -65,7 +74,7 @@ Result<ColourCameras> equip_to_see(const Scenario& scenario,
   if (!workload || !workload->looks_for_people()) {
     return cameras;
   }
-  if (const Status priced = check_price(scenario, platform); !priced) {
+  if (const Status priced = check_prices(scenario, platform); !priced) {
     return priced.error();
   }
   const FindModel find_model = model_finder(scenario);

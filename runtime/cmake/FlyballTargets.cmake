@@ -80,7 +80,7 @@ function(flyball_module name)
 endfunction()
 
 # flyball_unity_groups(<target> <source>...): which sources are compiled as one where CMAKE_UNITY_BUILD is on
-# (everywhere but in the preset `dev`: headers take most of the time): neighbours, so that a new file moves
+# (everywhere but in the presets `dev` and `fuzz`: headers take most of the time): neighbours, so that a new file moves
 # no file of another folder. Their names without linkage must differ.
 function(flyball_unity_groups target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The messages of a graph whose jobs run on threads: what is newest on each topic, and what each
+/// The messages of a graph whose jobs run: what is newest on each topic, and what each
 /// node has not read yet.
 
 #include "flyball/runtime/graph.h"

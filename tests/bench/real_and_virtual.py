@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Flies the five workloads on the real-time executor of this computer, and simulated with the platform
+"""Flies MAVBench's five missions on the real-time executor of this computer, and simulated with the platform
 file that `flyball calibrate` wrote here, and prints how far the two are apart: means over the seeds.
 Nothing else should run: the five take as long as their missions do, some ten minutes for each seed.
 

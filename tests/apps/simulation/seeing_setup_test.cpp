@@ -45,6 +45,8 @@ class Photographer : public testing::Test {
     scenario.mission.workload = "aerial_photography";
     scenario.platform.name = "mine";
     model.kernels["hog"].seconds_per["images"] = 0.1;
+    model.kernels["kcf_buffered"].seconds_per["pixels"] = 1e-7;
+    model.kernels["kcf_real_time"].seconds_per["pixels"] = 1e-7;
   }
   Result<ColourCameras> equip() {
     const ModeledPlatform platform{model};
@@ -72,6 +74,18 @@ TEST_F(Photographer, does_not_look_for_free) {
   EXPECT_NE(status.error().message.find("\"haar\""), std::string::npos);
   scenario.detector.cost_of = "hog";
   EXPECT_TRUE(equip().ok());
+}
+
+TEST_F(Photographer, does_not_track_for_free) {
+  for (const std::string use : {"kcf_buffered", "kcf_real_time"}) {
+    const KernelCost price = model.kernels.at(use);
+    model.kernels.erase(use);
+    const auto status = equip();
+    ASSERT_FALSE(status.ok());
+    EXPECT_NE(status.error().message.find("[kernels." + use + "]"), std::string::npos)
+        << status.error().message;
+    model.kernels[use] = price;
+  }
 }
 
 TEST_F(Photographer, is_told_which_package_has_the_people) {
