@@ -2,8 +2,8 @@
 //
 // The two-level switch as a shared library: a fine map where obstacles stand close, a coarse one in
 // the open. It is built against two headers and links nothing of Flyball.
-//   flyball policy check build/dev/examples/libdensity_switch.so
-//   flyball run delivery_forest --policy build/dev/examples/libdensity_switch.so
+//   flyball policy check build/ci/examples/libdensity_switch.so
+//   flyball run delivery_forest --policy build/ci/examples/libdensity_switch.so
 
 #include "flyball/governors/plugin_policy.h"
 

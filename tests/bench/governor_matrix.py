@@ -7,7 +7,8 @@ the geometric mean over all cells and the cells that miss a bar. Energy is that 
 photography it is energy per second in which the person was tracked.
 
 The best opponent of a cell is the one with the most successes, and among those the one that
-mission_energy comes off worst against. fixed_best, the best single setting in hindsight, is one of them.
+mission_energy comes off worst against. fixed_best, the best single setting in hindsight, is one of them
+unless --no-hindsight. A cell has no ratio where there is no seed with which both succeed.
 
 With --floor, both fly again on a computer whose kernels cost a fiftieth, and the better of the two is
 held against the best opponent at the real price: what no governor can be much better than. A cell
@@ -15,6 +16,8 @@ has no floor where fixed_best is the best.
 
 Each cell is a `flyball tournament` in a folder of its own, so the same command goes on where it was
 stopped, and a subset first makes the whole go faster later. Seeds from 9000 on are not for development.
+The table is written to OUT/matrix.md, too. policies/MATRIX.md is one.
+
 Exits with 1 where a cell misses a bar, with 2 where one could not be flown.
 """
 
@@ -228,6 +231,23 @@ def report(cells):
     return "\n".join(lines) + "\n"
 
 
+def document(cells, options):
+    """The table as a page of its own, with how it was made."""
+    asked = ["governor_matrix.py", "--seeds", options.seeds, "--worlds", ",".join(options.worlds)]
+    asked += ["--maps", ",".join(options.maps)] if options.maps != list(MAPS) else []
+    asked += ["--noise", ",".join(options.noise)] if options.noise != list(NOISE) else []
+    asked += ["--against", ",".join(options.against)] if options.against else []
+    asked += [] if options.hindsight else ["--no-hindsight"]
+    asked += ["--floor"] if options.floor else []
+    asked += [word for setting in options.asked_set for word in ("--set", setting)]
+    return (f"# {GOVERNOR} against the best opponent of each cell\n\n"
+            f"Written by `{' '.join(asked)}` (`tests/bench`). Each cell is a world, the price of its map (stock "
+            "OctoMap; a lattice at stock's price; our own map's) and a camera with or without RGB-D noise. The ratio "
+            f"is the median of {GOVERNOR}'s energy over the best opponent's, with its 95 % interval, over the seeds "
+            "where both succeed; below 1 it takes less. The best opponent is the one with the most successes, and "
+            f"among those the one that {GOVERNOR} comes off worst against.\n\n" + report(cells))
+
+
 def names(known):
     def read(text):
         chosen = text.split(",")
@@ -291,6 +311,7 @@ def main():
     if options.floor and any(setting.startswith("platform.name=") for setting in options.set):
         sys.exit("--floor flies on jetson_tx2 with cheap kernels, so it takes no platform.name; "
                  "leave one of them out")
+    options.asked_set = options.set
     options.set = ["vehicle.physics_step_s=0.004", *options.set]
     cells = [Cell(options, world, mapper, noise) for world in options.worlds
              for mapper in options.maps for noise in options.noise]
@@ -308,7 +329,7 @@ def main():
         print("interrupted; the same command goes on from here", file=sys.stderr)
         return 130
     (options.out / "matrix.json").write_text(json.dumps(done, indent=2) + "\n")
-    (options.out / "matrix.md").write_text(report(done))
+    (options.out / "matrix.md").write_text(document(done, options))
     print(report(done), end="")
     if len(done) < len(cells):
         return 2
