@@ -139,9 +139,9 @@ TEST(SwitchedKernels, fly_with_mission_energy) {
 Result<MissionRecord> photograph() {
   auto loaded = load_scenario(
       "photography_park",
-      {"photography.limit_s=8", "photography.success_s=3", "photography.lost_after_detections=90",
-       "kernels.slam_load=false", "detector.cost_of=own", "knobs.detector_kinds=haar",
-       "governor.policy=" + std::string{to_and_fro}});
+      {"mission.time_limit_s=90", "photography.limit_s=8", "photography.success_s=3",
+       "photography.lost_after_detections=90", "kernels.slam_load=false", "detector.cost_of=own",
+       "knobs.detector_kinds=haar", "governor.policy=" + std::string{to_and_fro}});
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return errors->front();
   }
