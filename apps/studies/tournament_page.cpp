@@ -139,8 +139,8 @@ std::string hindsight_html(const WorldResult& world) {
 std::string world_html(const WorldResult& world) {
   return "<h2>" + html_text(world.comparison.scenario) + "</h2>\n<div class=\"panel\">" +
          to_html(world.comparison) + hindsight_html(world) +
-         differences_html("Less " + world.comparison.rows.front().policy, world.differences,
-                          false) +
+         differences_html("Difference from " + world.comparison.rows.front().policy,
+                          world.differences, false) +
          differences_html("Pairs", world.pairs, true) + decisions_html(world) + bounds_html(world) +
          "</div>\n<div class=\"panel\"><h3>Energy over time; dashed: what nothing beats in "
          "both</h3>" +
