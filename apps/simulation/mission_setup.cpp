@@ -12,6 +12,7 @@
 #include "scenario/scenario_edge.h"
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
+#include "simulation/kernel_price.h"
 #include "simulation/seeing_setup.h"
 #include <cmath>
 
@@ -200,12 +201,12 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
     return joined(errors);
   }
   const std::string priced_as = mapper_cost(scenario.kernels);
-  if (!setup.platform->knows(priced_as)) {
-    return Error{ErrorCode::invalid_input,
-                 "platform \"" + scenario.platform.name + "\" has no price for mapper \"" +
-                     priced_as + "\", so its map would cost no time; set " +
-                     "kernels.mapper_parameters.cost_of to \"octomap\", or add [kernels." +
-                     priced_as + "] to the platform file"};
+  if (const Status priced =
+          check_price(scenario, *setup.platform,
+                      {priced_as, "mapper \"" + priced_as + "\"", "its map",
+                       "set kernels.mapper_parameters.cost_of to \"octomap\", or "});
+      !priced) {
+    return priced.error();
   }
   auto knobs = standard_knobs(scenario, *setup.platform);
   if (!knobs) {

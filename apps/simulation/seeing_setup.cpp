@@ -4,29 +4,24 @@
 #include "flyball/flight/workload.h"
 
 #include "scenario/kernel_choice.h"
+#include "simulation/kernel_price.h"
 
 namespace flyball {
 namespace {
 
 Status check_prices(const Scenario& scenario, const Platform& platform) {
   const std::string detector = detector_cost(flight_settings(scenario));
-  if (!platform.knows(detector)) {
-    return Error{ErrorCode::invalid_input, "platform \"" + scenario.platform.name +
-                                               "\" has no price for detector \"" + detector +
-                                               "\", so looking for people would cost no time; " +
-                                               "set detector.cost_of to \"hog\", or add " +
-                                               "[kernels." + detector + "] to the platform file"};
-  }
+  Status priced = check_price(scenario, platform,
+                              {detector, "detector \"" + detector + "\"", "looking for people",
+                               "set detector.cost_of to \"hog\", or "});
   for (const std::string use : {"_buffered", "_real_time"}) {
-    const std::string tracker = scenario.kernels.tracker + use;
-    if (!platform.knows(tracker)) {
-      return Error{ErrorCode::invalid_input,
-                   "platform \"" + scenario.platform.name + "\" has no price for tracker \"" +
-                       scenario.kernels.tracker + "\", so tracking would cost no time; add " +
-                       "[kernels." + tracker + "] to the platform file"};
+    const std::string& tracker = scenario.kernels.tracker;
+    if (priced) {
+      priced = check_price(scenario, platform,
+                           {tracker + use, "tracker \"" + tracker + "\"", "tracking", ""});
     }
   }
-  return Done{};
+  return priced;
 }
 
 /// Null with a localizer that takes no images.
@@ -39,11 +34,11 @@ Result<std::unique_ptr<ColourCamera>> make_forward_camera(const Scenario& scenar
     return std::unique_ptr<ColourCamera>{};
   }
   const std::string priced_as = frame_cost(scenario.kernels.localizer);
-  if (!platform.knows(priced_as)) {
-    return Error{ErrorCode::invalid_input,
-                 "platform \"" + scenario.platform.name + "\" has no price for localizer \"" +
-                     scenario.kernels.localizer + "\", so its frames would cost no time; add " +
-                     "[kernels." + priced_as + "] to the platform file"};
+  if (const Status priced = check_price(
+          scenario, platform,
+          {priced_as, "localizer \"" + scenario.kernels.localizer + "\"", "its frames", ""});
+      !priced) {
+    return priced.error();
   }
   return ColourCamera::make(world, colour_beside(scenario.camera));
 }

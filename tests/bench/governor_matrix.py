@@ -62,6 +62,7 @@ MAPS = {
     "own": ["kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"],
 }
 NOISE = {"clean": ["camera.rgbd_noise=false"], "noisy": ["camera.rgbd_noise=true"]}
+STEP = "vehicle.physics_step_s=0.004"
 # What a mission makes progress in, where flights that succeed do not all make as much of it.
 PROGRESS = {"photography": "tracked_s"}
 
@@ -86,7 +87,7 @@ class Cell:
         self.name = f"{world} {mapper} {noise}"
         self.world, self.noise = world, noise
         self.scenario, settings = WORLDS[world]
-        self.settings = [*settings, *MAPS[mapper], *NOISE[noise], *options.set]
+        self.settings = [*settings, *MAPS[mapper], *NOISE[noise], STEP, *options.set]
         self.rivals = options.against or opponents(world, mapper, noise)
         self.folder = options.out / self.name.replace(" ", "-")
 
@@ -241,7 +242,7 @@ def document(cells, options):
     asked += ["--against", ",".join(options.against)] if options.against else []
     asked += [] if options.hindsight else ["--no-hindsight"]
     asked += ["--floor"] if options.floor else []
-    asked += [word for setting in options.asked_set for word in ("--set", setting)]
+    asked += [word for setting in options.set for word in ("--set", setting)]
     return (f"# {GOVERNOR} against the best opponent of each cell\n\n"
             f"Written by `{' '.join(asked)}` (`tests/bench`). Each cell is a world, the price of its map (stock "
             "OctoMap; a lattice at stock's price; our own map's) and a camera with or without RGB-D noise. The ratio "
@@ -313,8 +314,6 @@ def main():
     if options.floor and any(setting.startswith("platform.name=") for setting in options.set):
         sys.exit("--floor flies on jetson_tx2 with cheap kernels, so it takes no platform.name; "
                  "leave one of them out")
-    options.asked_set = options.set
-    options.set = ["vehicle.physics_step_s=0.004", *options.set]
     cells = [Cell(options, world, mapper, noise) for world in options.worlds
              for mapper in options.maps for noise in options.noise]
     if options.list:

@@ -7,14 +7,11 @@
 #include <utility>
 
 namespace flyball {
-namespace {
 
-bool are_smaller(double cells_m, double than_m) {
+bool are_smaller_cells(double cells_m, double than_m) {
   constexpr double rounding_m = 1e-6;
   return cells_m < than_m - rounding_m;
 }
-
-}  // namespace
 
 void DetourWatch::begin() {
   drop();
@@ -22,13 +19,13 @@ void DetourWatch::begin() {
 }
 
 bool DetourWatch::shows_more(double cells_m) {
-  const bool shows = are_smaller(cells_m, searched_m_);
+  const bool shows = are_smaller_cells(cells_m, searched_m_);
   searched_m_ = shows ? cells_m : searched_m_;
   return shows;
 }
 
 bool DetourWatch::may_await(double asked_m) const {
-  return are_smaller(asked_m, std::min(searched_m_, awaited_m_));
+  return are_smaller_cells(asked_m, std::min(searched_m_, awaited_m_));
 }
 
 void DetourWatch::hold_back(KnownPath detour, double asked_m) {
@@ -37,7 +34,7 @@ void DetourWatch::hold_back(KnownPath detour, double asked_m) {
 }
 
 bool DetourWatch::is_found_again(double cells_m) const {
-  return held_back_ && !are_smaller(cells_m, held_back_->cells_m);
+  return held_back_ && !are_smaller_cells(cells_m, held_back_->cells_m);
 }
 
 KnownPath DetourWatch::take() {

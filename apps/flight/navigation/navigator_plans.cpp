@@ -116,10 +116,9 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
 // one that found a long detour would find it again. When the governor has asked for smaller cells,
 // the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  constexpr double rounding_m = 1e-6;
   return !known_ && (failures_ > 0 || detours_.holds_back()) &&
          now < not_before_ + finer_patience &&
-         knobs_->value("map.resolution_m") < newest_.map->resolution_m() - rounding_m;
+         are_smaller_cells(knobs_->value("map.resolution_m"), newest_.map->resolution_m());
 }
 
 PlanQuery Navigator::query(MissionTime now) {

@@ -11,6 +11,9 @@
 
 namespace flyball {
 
+/// Whether cells are smaller than others by more than rounding, by the length of their edges.
+[[nodiscard]] bool are_smaller_cells(double cells_m, double than_m);
+
 /// In large cells a door may be closed, so that the path that is found is a way around. This class
 /// knows in which cells was searched and which were waited for, and it keeps a long detour back
 /// while smaller cells are to come. Cells are given by the length of their edges.
