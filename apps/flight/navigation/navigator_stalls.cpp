@@ -10,6 +10,7 @@ using namespace std::chrono_literals;
 
 // Chosen: by then the vehicle has looked left and right (PathFollower), and it has not helped.
 constexpr auto stall_patience = 6s;
+constexpr auto some_maps = 500ms;    // Chosen: ten frames of what lies ahead.
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
 constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
@@ -22,15 +23,33 @@ void Navigator::trust_own_place() {
   news_.map_hints.push_back(ClearSpace{follower_.position_W(), brief_->narrow_body()});
 }
 
-// The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, a
-// plan from here may lead elsewhere.
+double Navigator::blind_ahead_m() const {
+  const Intrinsics camera = brief_->settings.camera.intrinsics();
+  return blind_m(newest_.map->resolution_m(), brief_->narrow_body(),
+                 0.5 * camera.height_px / camera.focal_px);
+}
+
+// What is unknown lies too near, below or above the camera's field, so that looking to both sides
+// would not show it.
+bool Navigator::sees_no_more() const {
+  const auto faces_path_since = follower_.faces_path_since();
+  return faces_path_since && newest_.captured >= *faces_path_since + some_maps &&
+         follower_.known_free_m() < blind_ahead_m();
+}
+
+// The camera cannot see the space ahead from here, so the vehicle steps back. Where it cannot, it
+// looks to both sides, and then a plan from here may lead elsewhere.
 void Navigator::note_stall(MissionTime now) {
-  if (follower_.stalled(now) <= stall_patience || wants_plan_) {
+  const bool has_looked_aside = follower_.stalled(now) > stall_patience;
+  if (wants_plan_ || !(has_looked_aside || sees_no_more())) {
     return;
   }
-  trust_own_place();
-  failures_ = ++stalls_;
-  if (!leaves_blind_zone()) {
+  const bool leaves = leaves_blind_zone();
+  if (leaves || has_looked_aside) {
+    trust_own_place();
+    failures_ = ++stalls_;
+  }
+  if (!leaves && has_looked_aside) {
     want_plan(now, "stalled before unknown space");
   }
 }
@@ -47,8 +66,10 @@ void Navigator::leave_blocked_place() {
   trust_own_place();
 }
 
+// The camera is to see what the vehicle stands before. Towards a place farther ahead, around the
+// next corner, it would look past that.
 double Navigator::yaw_ahead_rad() const {
-  constexpr double ahead_m = 3.0;  // Chosen: the camera turns to this place on the path.
+  constexpr double ahead_m = 1.0;  // Chosen: a little beyond the zone that the camera is blind in.
   if (!follower_.has_path()) {
     return follower_.yaw_rad();
   }
@@ -66,10 +87,7 @@ bool Navigator::steps_back(double away_m, double yaw_rad) {
 }
 
 bool Navigator::leaves_blind_zone() {
-  const Intrinsics camera = brief_->settings.camera.intrinsics();
-  const double away_m = blind_m(newest_.map->resolution_m(), brief_->narrow_body(),
-                                0.5 * camera.height_px / camera.focal_px);
-  if (!steps_back(away_m, yaw_ahead_rad())) {
+  if (!steps_back(blind_ahead_m(), yaw_ahead_rad())) {
     return false;
   }
   news_.events.push_back("steps back to see what is before it");

@@ -24,6 +24,7 @@ constexpr double stop_margin_m = 0.1;
 constexpr double look_aside_rad = 0.8;  // To both sides, when the vehicle has stalled.
 constexpr double look_aside_after_s = 2.0;
 constexpr double standing_m_s = 0.02;
+constexpr double facing_rad = 0.05;  // Chosen: a small part of a camera's field.
 constexpr double range_reserve_m =
     2.0;                               // The cells of the farthest returns reach beyond the range.
 constexpr auto odometer_memory = 10s;  // Chosen: an older map would stop the vehicle anyway.
@@ -81,7 +82,7 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   yaw_rad_ = yaw_rad;
   s_m_ = speed_m_s_ = target_m_s_ = stop_at_m_ = 0.0;
   free_until_m_ = {};
-  stalled_since_.reset();
+  stall_.reset();
   looked_s_ = 0.0;
 }
 
@@ -106,7 +107,7 @@ bool PathFollower::adopt(const Path& tail, double splice_m) {
   path_ = std::make_shared<const Path>(std::move(path));
   s_m_ = 0.0;
   stop_at_m_ = path_->length_m();
-  stalled_since_.reset();
+  stall_.reset();
   looked_s_ = 0.0;
   return true;
 }
@@ -277,6 +278,10 @@ void PathFollower::look_for_way(const Vec3& to_W, double dt_s) {
 void PathFollower::turn_along_path(double dt_s, MissionTime now) {
   if (const auto wanted_rad = wanted_yaw_rad(now)) {
     turn_towards(*wanted_rad, dt_s);
+    const bool faces_path = std::abs(wrap_angle(*wanted_rad - yaw_rad_)) < facing_rad;
+    if (stall_ && !stall_->faces_path_since && faces_path) {
+      stall_->faces_path_since = now;
+    }
   }
 }
 
@@ -287,9 +292,9 @@ bool PathFollower::looks_for_way() const {
 void PathFollower::note_standstill(MissionTime now) {
   const bool stands = speed_m_s_ <= standing_m_s;
   if (!stands || is_at_end()) {
-    stalled_since_.reset();
-  } else if (!stalled_since_) {
-    stalled_since_ = now;
+    stall_.reset();
+  } else if (!stall_) {
+    stall_ = Stall{now, std::nullopt};
   }
 }
 
@@ -327,7 +332,11 @@ bool PathFollower::is_at_end() const {
 }
 
 Duration PathFollower::stalled(MissionTime now) const {
-  return stalled_since_ ? now - *stalled_since_ : Duration{0};
+  return stall_ ? now - stall_->since : Duration{0};
+}
+
+std::optional<MissionTime> PathFollower::faces_path_since() const {
+  return stall_ ? stall_->faces_path_since : std::nullopt;
 }
 
 }  // namespace flyball

@@ -3,7 +3,9 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "navigator_trip.h"
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +161,68 @@ TEST(NavigatorFailures, stays_and_keeps_its_map_where_the_mission_has_other_goal
   trip.is_one_of_many = true;
   EXPECT_NEAR(goes_back_m(trip, 4), 0.0, 0.01);
   EXPECT_TRUE(trip.doubted.empty());
+}
+
+void tick_until_it_stands(Trip& trip) {
+  while (trip.navigator.follower().stalled(trip.now) == Duration::zero()) {
+    trip.tick(1);
+    ASSERT_LT(to_seconds(trip.now), 60.0);
+  }
+}
+
+/// Flies along this path until the vehicle stands before what is unknown from x = 5 m on.
+void fly_to_the_unknown(Trip& trip, const std::vector<Vec3>& corners_W) {
+  trip.map.fill({Vec3{5, -3, 0}, Vec3{60, 3, 3}}, CellState::unknown);
+  trip.set_goal(corners_W.back());
+  const auto query = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(query.has_value());
+  trip.navigator.path_planned(trip.now, {query->id, kit::along(corners_W), ""});
+  tick_until_it_stands(trip);
+}
+
+/// @return  How long it has stood when it begins to step back [s].
+double stands_before_it_steps_back_s(Trip& trip) {
+  const MissionTime stands = trip.now;
+  while (trip.navigator.follower().has_path() && to_seconds(trip.now - stands) < 60.0) {
+    EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+    trip.tick(1);
+  }
+  return to_seconds(trip.now - stands);
+}
+
+// To both sides it would see nothing more of what lies below its camera's field.
+TEST(NavigatorFailures, steps_back_when_some_maps_have_not_shown_what_it_stands_too_near_to_see) {
+  Trip trip;
+  fly_to_the_unknown(trip, {Vec3{0, 0, 1.5}, Vec3{40, 0, 1.5}});
+  const double stands_s = stands_before_it_steps_back_s(trip);
+  EXPECT_GT(stands_s, 0.5);
+  EXPECT_LT(stands_s, 1.0);
+}
+
+// From one place a few are enough; then it takes its time, and a plan may lead elsewhere.
+TEST(NavigatorFailures, looks_to_both_sides_before_it_plans_where_it_has_stepped_back_three_times) {
+  Trip trip;
+  fly_to_the_unknown(trip, {Vec3{0, 0, 1.5}, Vec3{40, 0, 1.5}});
+  for (int times = 0; times < 4; ++times) {
+    const MissionTime stands = trip.now;
+    auto query = trip.navigator.next_query(trip.now);
+    while (!query && to_seconds(trip.now - stands) < 60.0) {
+      trip.tick(1);
+      query = trip.navigator.next_query(trip.now);
+    }
+    ASSERT_TRUE(query.has_value());
+    EXPECT_EQ(to_seconds(trip.now - stands) > 5.9, times == 3) << times;
+    trip.answer(*query);
+    tick_until_it_stands(trip);
+  }
+}
+
+TEST(NavigatorFailures, looks_at_what_it_stands_before_and_not_around_the_next_corner) {
+  Trip trip;
+  fly_to_the_unknown(trip, {Vec3{0, 0, 1.5}, Vec3{6, 0, 1.5}, Vec3{6, 2.5, 1.5}});
+  (void)stands_before_it_steps_back_s(trip);
+  trip.tick(50);
+  EXPECT_LT(std::abs(trip.navigator.follower().yaw_rad()), 0.4);
 }
 
 }  // namespace

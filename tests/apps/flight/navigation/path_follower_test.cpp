@@ -179,10 +179,19 @@ TEST(PathFollower, turns_in_place_towards_a_path_behind_it) {
   follower.hover_at(Vec3{10, 0, 1.5}, 0.0);
   ASSERT_TRUE(follower.adopt(Path::polyline({Vec3{10, 0, 1.5}, Vec3{0, 0.5, 1.5}}), 0.0));
   MissionTime now{};
-  for (int i = 0; i < 150; ++i) {
-    follower.tick(now += 20ms, 20ms, Vec3::Zero());
-  }
+  const auto tick = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      follower.tick(now += 20ms, 20ms, Vec3::Zero());
+    }
+  };
+  tick(75);
+  EXPECT_FALSE(follower.faces_path_since().has_value());
+  tick(75);
   EXPECT_GT(std::abs(follower.yaw_rad()), 2.5);
+  ASSERT_TRUE(follower.faces_path_since().has_value());
+  EXPECT_NEAR(to_seconds(follower.faces_path_since()->time_since_epoch()), 2.0, 0.1);
+  follower.hover_at(Vec3{10, 0, 1.5}, 0.0);
+  EXPECT_FALSE(follower.faces_path_since().has_value());
 }
 
 }  // namespace

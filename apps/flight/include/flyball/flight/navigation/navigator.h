@@ -95,6 +95,8 @@ class Navigator {
   void leave_path_at(const Vec3& p_W, double yaw_rad);
   [[nodiscard]] double yaw_ahead_rad() const;
   [[nodiscard]] bool steps_back(double away_m, double yaw_rad);
+  [[nodiscard]] double blind_ahead_m() const;
+  [[nodiscard]] bool sees_no_more() const;
   [[nodiscard]] bool leaves_blind_zone();
   void look_from_elsewhere();
   void go_back(MissionTime now, Duration dt, double error_m);

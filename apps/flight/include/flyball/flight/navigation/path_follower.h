@@ -117,11 +117,18 @@ class PathFollower {
   [[nodiscard]] bool stands_still() const { return !has_path() || is_at_end(); }
   /// How long the reference has stood still on a path that goes on.
   [[nodiscard]] Duration stalled(MissionTime now) const;
+  /// Since when the camera of a reference that stands so has looked along its path.
+  [[nodiscard]] std::optional<MissionTime> faces_path_since() const;
   [[nodiscard]] const Guard& guard() const { return guard_; }
   /// The bound in force; it is wider while the governor's fallback asks for that.
   [[nodiscard]] Duration latency_bound() const;
 
  private:
+  /// The reference stands still on a path that goes on.
+  struct Stall {
+    MissionTime since{};
+    std::optional<MissionTime> faces_path_since{};  ///< None: the camera has not turned to it yet.
+  };
   void turn_towards(double yaw_rad, double dt_s);
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
   [[nodiscard]] double room_m(std::size_t tier) const;
@@ -159,7 +166,7 @@ class PathFollower {
   double travelled_m_{};
   Duration latency_bound_{};
   MissionTime newest_capture_{};
-  std::optional<MissionTime> stalled_since_{};
+  std::optional<Stall> stall_{};
   std::optional<double> face_yaw_rad_{};
   std::optional<Vec3> wants_way_to_W_{};
   double looked_s_{};  ///< For how long it has looked for a way.
