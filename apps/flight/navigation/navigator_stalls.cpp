@@ -45,11 +45,12 @@ void Navigator::note_stall(MissionTime now) {
     return;
   }
   const bool leaves = leaves_blind_zone();
-  if (leaves || has_looked_aside) {
-    trust_own_place();
-    failures_ = ++stalls_;
+  if (!leaves && !has_looked_aside) {
+    return;
   }
-  if (!leaves && has_looked_aside) {
+  trust_own_place();
+  failures_ = ++stalls_;
+  if (!leaves) {
     want_plan(now, "stalled before unknown space");
   }
 }
