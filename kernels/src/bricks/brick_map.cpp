@@ -70,7 +70,7 @@ void BrickMap::show(const std::vector<BrickStates>& bricks) {
 
 bool BrickMap::is_beyond(const CellKey& chunk, const Vec3& p_W, double radius_m) const {
   const Aabb cube = lattice().cube(chunk, chunk_level);
-  const Vec3 nearest = p_W.cwiseMax(cube.min).cwiseMin(cube.max);
+  const Vec3 nearest = cube.nearest(p_W);
   return (p_W - nearest).squaredNorm() > radius_m * radius_m;
 }
 

@@ -32,9 +32,9 @@ Vec3 PlanSampler::draw() {
     return draw_at_passage();
   }
   // The ellipsoid of short paths may hold little of the box, but never nothing.
-  Vec3 p_W = clamped(draw_anywhere());
+  Vec3 p_W = region_.box_W.nearest(draw_anywhere());
   for (int i = 1; i < most_redraws && !is_wanted(p_W); ++i) {
-    p_W = clamped(draw_anywhere());
+    p_W = region_.box_W.nearest(draw_anywhere());
   }
   return p_W;
 }
@@ -79,10 +79,6 @@ Vec3 PlanSampler::draw_at_passage() {
   Vec3 p_W = next_.back();
   next_.pop_back();
   return p_W;
-}
-
-Vec3 PlanSampler::clamped(const Vec3& p_W) const {
-  return p_W.cwiseMax(region_.box_W.min).cwiseMin(region_.box_W.max);
 }
 
 void PlanSampler::find_passages() {

@@ -42,7 +42,6 @@ class PlanSampler {
   [[nodiscard]] bool is_wanted(const Vec3& p_W) const;
   [[nodiscard]] Vec3 draw_anywhere();
   [[nodiscard]] Vec3 draw_at_passage();
-  [[nodiscard]] Vec3 clamped(const Vec3& p_W) const;
   void find_passages();
   void add_passages(const GapGroup& gaps);
 

@@ -36,7 +36,7 @@ void ClearCells::declare(const Vec3& centre_W, const Cylinder& space) {
   const CellKey last = lattice.cell(centre_W + half);
   const auto is_inside = [&](const CellKey& cell) {
     const Aabb box = lattice.cube(cell, 0);
-    const Vec3 nearest_W = centre_W.cwiseMax(box.min).cwiseMin(box.max);
+    const Vec3 nearest_W = box.nearest(centre_W);
     return (nearest_W - centre_W).head<2>().norm() < space.radius_m;
   };
   const auto declare_row = [&](int y, int z) {

@@ -32,7 +32,7 @@ constexpr double person_room_m = 1.0;  // Kept free around the person.
 constexpr int tries = 60;
 
 double apart_m(const Aabb& box, const Vec3& place_W) {
-  const Vec3 nearest = place_W.cwiseMax(box.min).cwiseMin(box.max);
+  const Vec3 nearest = box.nearest(place_W);
   return (nearest - place_W).head<2>().norm();
 }
 

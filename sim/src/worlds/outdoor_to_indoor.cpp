@@ -103,9 +103,8 @@ class OutdoorToIndoor final : public flyball::WorldGenerator {
       corner.x() = x_m + random.uniform(margin_m, spacing_m - size.x() - margin_m);
       corner.y() = y_m + random.uniform(margin_m, pitch_y_m - size.y() - margin_m);
       const Aabb block{corner, corner + size};
-      const Vec3 nearest = world.start_W.cwiseMax(block.min).cwiseMin(block.max);
-      const double to_start_m = (nearest - world.start_W).norm();
-      if (to_start_m >= clear_of_blocks_m && block.max.x() <= facade_x_m - clear_of_blocks_m) {
+      if (block.distance_m(world.start_W) >= clear_of_blocks_m &&
+          block.max.x() <= facade_x_m - clear_of_blocks_m) {
         world.boxes.push_back(block);
       }
     }

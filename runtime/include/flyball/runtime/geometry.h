@@ -20,10 +20,10 @@ struct Aabb {
   [[nodiscard]] bool contains(const Vec3& p) const {
     return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
   }
+  /// The point of the box that is nearest; p itself inside.
+  [[nodiscard]] Vec3 nearest(const Vec3& p) const { return p.cwiseMax(min).cwiseMin(max); }
   /// To the nearest point of the box [m]; 0 inside.
-  [[nodiscard]] double distance_m(const Vec3& p) const {
-    return (p - p.cwiseMax(min).cwiseMin(max)).norm();
-  }
+  [[nodiscard]] double distance_m(const Vec3& p) const { return (p - nearest(p)).norm(); }
 };
 
 /// Upright cylinder around a centre: the vehicle's body with or without its tracking tube [m].

@@ -44,14 +44,15 @@ struct Observation {
   double nearest_obstacle_m{};  ///< In the map, from the body's centre; 20 when none is nearer.
   double distance_to_goal_m{};
   double tracking_error_m{};
-  double speed_limit_m_s{};          ///< The mission's least, here and 20 m on.
-  double map_resolution_m{};         ///< Of the newest map.
-  std::uint64_t map_revision{};      ///< Counts published maps; `latency` is the newest one's.
-  Duration latency{};                ///< Newest sensor-to-command time.
-  Duration latency_bound{};          ///< In force for the speed limit.
-  std::uint32_t deadline_misses{};   ///< Since the last decision.
-  std::uint32_t queue_drops{};       ///< Since the last decision.
-  std::uint32_t planner_failures{};  ///< Searches without a path since one was last flown.
+  double speed_limit_m_s{};         ///< The mission's least, here and 20 m on.
+  double map_resolution_m{};        ///< Of the newest map.
+  std::uint64_t map_revision{};     ///< Counts published maps; `latency` is the newest one's.
+  Duration latency{};               ///< Newest sensor-to-command time.
+  Duration latency_bound{};         ///< In force for the speed limit.
+  std::uint32_t deadline_misses{};  ///< Since the last decision.
+  std::uint32_t queue_drops{};      ///< Since the last decision.
+  /// Searches without a path since one was found, and stalls since the vehicle last moved.
+  std::uint32_t planner_failures{};
   int cores{};
   Hertz frequency{};
   double busy_cores{};         ///< Mean since the last decision.

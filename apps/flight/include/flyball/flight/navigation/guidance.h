@@ -51,8 +51,9 @@ struct NavigatorState {
   double known_free_m{};
   Duration latency_bound{};
   TrackingError tracking_error{};
-  int planner_failures{};  ///< In a row.
-  int replans{};           ///< Since the start.
+  /// Searches without a path since one was found, and stalls since the vehicle last moved.
+  int planner_failures{};
+  int replans{};  ///< Since the start.
   std::uint64_t map_revision{};
   Duration map_latency{};      ///< Of that revision, from sensor to published map.
   MissionTime map_captured{};  ///< The newest frame in it.

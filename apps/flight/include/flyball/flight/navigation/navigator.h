@@ -128,7 +128,7 @@ class Navigator {
   int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
   std::optional<KnownPath> known_{};  ///< The path of the last of these, or one held back before.
   int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
-  int failures_{};  ///< Searches in a row that found no path.
+  int failures_{};  ///< See NavigatorState::planner_failures.
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
