@@ -151,8 +151,9 @@ std::vector<ObservationField> flight_fields() {
       field<&O::deadline_misses>("deadline_misses", "1",
                                  "Deadlines missed since the last decision"),
       field<&O::queue_drops>("queue_drops", "1", "Messages dropped since the last decision"),
-      field<&O::planner_failures>("planner_failures", "1",
-                                  "Searches without a path, and stalls, since one was found"),
+      field<&O::planner_failures>(
+          "planner_failures", "1",
+          "Searches without a path since one was found, and stalls since the vehicle last moved"),
       field<&O::cores>("cores", "1", "Cores that the computer grants"),
       scalar<&O::frequency>("frequency_hz", "Hz", "Clock that the computer grants"),
       field<&O::busy_cores>("busy_cores", "1", "Mean number of busy cores since the last decision"),
