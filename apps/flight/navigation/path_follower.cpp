@@ -24,6 +24,7 @@ constexpr double stop_margin_m = 0.1;
 constexpr double look_aside_rad = 0.8;  // To both sides, when the vehicle has stalled.
 constexpr double look_aside_after_s = 2.0;
 constexpr double standing_m_s = 0.02;
+constexpr double at_end_m = 0.01;
 constexpr double facing_rad = 0.05;  // Chosen: a small part of a camera's field.
 constexpr double range_reserve_m =
     2.0;                               // The cells of the farthest returns reach beyond the range.
@@ -206,7 +207,13 @@ double PathFollower::wait_for_vehicle(const Vec3& error_W) const {
   return std::clamp(1.0 - out_m / patience_m, slowest, 1.0);
 }
 
+// The last centimetre is for braking alone: with the latency of a map as reaction time, the speed
+// falls as the distance does, and would never quite reach zero.
 double PathFollower::next_speed(double dt_s, const Vec3& error_W) {
+  if (stop_at_m_ - s_m_ < at_end_m) {
+    target_m_s_ = 0.0;
+    return towards(speed_m_s_, target_m_s_, stopping(), dt_s);
+  }
   const double braking = guard_.settings().max_deceleration_m_s2;
   const double waiting = wait_for_vehicle(error_W);
   const double cruise = waiting * safe_cruise();
@@ -227,8 +234,7 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
         std::min(0.5 * (next + speed_m_s_) * dt_s, std::max(0.0, stop_at_m_ - s_m_));
     s_m_ += moved;
     travelled_m_ += moved;
-    // The speed falls with the square root of the distance, so it would never quite reach zero.
-    speed_m_s_ = stop_at_m_ - s_m_ < 1e-3 ? 0.0 : next;
+    speed_m_s_ = next;
     if (!looks_for_way()) {
       turn_along_path(dt_s, now);
     }
@@ -328,7 +334,7 @@ double PathFollower::farthest_stop_m() const {
 }
 
 bool PathFollower::is_at_end() const {
-  return has_path() && speed_m_s_ == 0.0 && path_->length_m() - s_m_ < 0.01;
+  return has_path() && speed_m_s_ == 0.0 && path_->length_m() - s_m_ < at_end_m;
 }
 
 Duration PathFollower::stalled(MissionTime now) const {

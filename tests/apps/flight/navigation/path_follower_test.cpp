@@ -83,6 +83,18 @@ TEST(PathFollower, arrives_at_the_end_of_a_known_path) {
   EXPECT_EQ(ride.follower.speed_m_s(), 0.0);
 }
 
+// With a second of latency as reaction time the last decimetre but one centimetre takes 2.5 s, the
+// last centimetre but one millimetre as long again.
+TEST(PathFollower, does_not_creep_to_the_end_of_a_known_path_when_maps_are_late) {
+  Ride ride{60.0};
+  ride.follower.set_latency_bound(1s);
+  while (ride.follower.s_m() < ride.follower.path().length_m() - 0.1) {
+    ride.tick(1);
+  }
+  ride.tick(125);  // 2.5 s.
+  EXPECT_TRUE(ride.follower.is_at_end());
+}
+
 TEST(PathFollower, stops_at_a_committed_stop_and_goes_on_with_the_next_plan) {
   Ride ride{60.0};
   ride.tick(50);
