@@ -25,6 +25,7 @@ constexpr double look_aside_rad = 0.8;  // To both sides, when the vehicle has s
 constexpr double look_aside_after_s = 2.0;
 constexpr double standing_m_s = 0.02;
 constexpr double at_end_m = 0.01;
+constexpr double arrival_m = 0.3;    // From here a vehicle brakes that flies in rooms, at 1 m/s.
 constexpr double facing_rad = 0.05;  // Chosen: a small part of a camera's field.
 constexpr double range_reserve_m =
     2.0;                               // The cells of the farthest returns reach beyond the range.
@@ -235,15 +236,10 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     s_m_ += moved;
     travelled_m_ += moved;
     speed_m_s_ = next;
-    if (!looks_for_way()) {
-      turn_along_path(dt_s, now);
-    }
-    note_standstill(now);
   }
-  if (looks_for_way()) {
-    look_for_way(*wants_way_to_W_, dt_s);
-  } else if (face_yaw_rad_ && stands_still()) {
-    turn_towards(*face_yaw_rad_, dt_s);
+  turn(now, dt_s);
+  if (has_path()) {
+    note_standstill(now);
   }
   odometer_.emplace_back(now, travelled_m_);
   while (odometer_.front().first + odometer_memory < now) {
@@ -264,6 +260,22 @@ std::optional<double> PathFollower::wanted_yaw_rad(MissionTime now) {
   // A vehicle that has stalled before unknown space looks left and right of it.
   const double stalled_s = std::max(0.0, to_seconds(stalled(now)) - look_aside_after_s);
   return yaw_of(direction) + look_aside_rad * std::sin(stalled_s);
+}
+
+void PathFollower::turn(MissionTime now, double dt_s) {
+  if (looks_for_way()) {
+    look_for_way(*wants_way_to_W_, dt_s);
+  } else if (face_yaw_rad_ && (stands_still() || arrives())) {
+    turn_towards(*face_yaw_rad_, dt_s);
+  } else if (has_path()) {
+    turn_along_path(dt_s, now);
+  }
+}
+
+// Nothing is left to be looked at on the way, which is known to be free to its end.
+bool PathFollower::arrives() const {
+  return path_->length_m() - s_m_ < arrival_m && stop_at_m_ == path_->length_m() &&
+         free_until_m_.front() > path_->length_m() - at_end_m;
 }
 
 void PathFollower::turn_towards(double yaw_rad, double dt_s) {

@@ -56,6 +56,16 @@ TEST(PathFollower, faces_a_heading_where_it_comes_to_stand_and_where_it_hovers) 
   EXPECT_NEAR(ride.follower.yaw_rad(), -1.0, 0.01);
 }
 
+TEST(PathFollower, turns_to_its_heading_while_it_brakes_at_the_end_of_a_known_path) {
+  Ride ride{60.0};
+  ride.follower.face(0.3);
+  while (!ride.follower.stands_still()) {
+    EXPECT_TRUE(ride.follower.yaw_rad() == 0.0 || ride.follower.s_m() > 49.5);
+    ride.tick(1);
+  }
+  EXPECT_NEAR(ride.follower.yaw_rad(), 0.3, 0.01);
+}
+
 TEST(PathFollower, flies_slower_with_a_larger_latency) {
   Ride quick{60.0};
   Ride slow{60.0};

@@ -67,7 +67,7 @@ class PathFollower {
   /// stop.
   void commit_stop(double s_m);
 
-  /// At the path's end, or hovering, the camera turns to this heading.
+  /// At the path's end, shortly before it, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
   /// While the vehicle stands, the camera looks towards this place and to both sides of it; none:
@@ -129,6 +129,8 @@ class PathFollower {
     MissionTime since{};
     std::optional<MissionTime> faces_path_since{};  ///< None: the camera has not turned to it yet.
   };
+  void turn(MissionTime now, double dt_s);
+  [[nodiscard]] bool arrives() const;
   void turn_towards(double yaw_rad, double dt_s);
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
   [[nodiscard]] double room_m(std::size_t tier) const;
