@@ -72,6 +72,26 @@ TEST(PlanSampler, looks_for_passages_only_when_the_plan_is_not_easy) {
   EXPECT_GT(count_beside_door(500), 20);
 }
 
+/// Of 500 samples between ends at this height, those beside the first door, which is 2.1 m high.
+int hits_beside_door(Office office, double ends_z_m) {
+  office.region.start_W.z() = office.region.goal_W.z() = ends_z_m;
+  MotionChecker checker{office.scene.map, office.scene.request.body, 0.35};
+  PlanSampler sampler{checker, office.region, 1};
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    hits += office.is_beside_first_door(sampler.draw()) ? 1 : 0;
+  }
+  return hits;
+}
+
+TEST(PlanSampler, looks_below_lintels_from_right_under_a_ceiling) {
+  Office office;
+  EXPECT_GT(hits_beside_door(office, 1.5), 20);
+  EXPECT_EQ(hits_beside_door(office, 2.3), 0) << "nothing is above it";
+  office.scene.map.fill({{0, -15, 2.85}, {45, 15, 3}}, flyball::CellState::occupied);
+  EXPECT_GT(hits_beside_door(office, 2.3), 20);
+}
+
 TEST(PlanSampler, draws_where_short_paths_can_be_and_from_passages_at_once) {
   Office office;
   const Vec3 line = office.region.goal_W - office.region.start_W;
