@@ -233,7 +233,8 @@ class Nbvp final : public flyball::Explorer {
                 ExploreStep& step) {
     const flyball::StandingPlaces places{grid, request.body, request.bounds_W, request.from.p_W};
     double ray_cells = 0.0;
-    const auto found = flyball::best_frontier_view(request, places, gain, least_m3, ray_cells);
+    const auto found =
+        flyball::best_frontier_view(request, places, gain, {least_m3, worthwhile_m3_}, ray_cells);
     step.work.add("cells", places.cells() + static_cast<double>(grid.size()));
     step.work.add("ray_cells", ray_cells);
     branch_.clear();

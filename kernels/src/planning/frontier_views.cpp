@@ -16,8 +16,7 @@ constexpr double given_up_m = 0.5;  // Views this near to a place that was given
 // A view also takes time for turning, mapping and the next decision. Together that is as long as a
 // path of this length at indoor speed.
 constexpr double fixed_path_m = 3.0;
-constexpr std::size_t looked_at_together =
-    12;  // In batches; the first with a view worth taking ends it.
+constexpr std::size_t looked_at_together = 12;
 
 struct Gathered {
   double faces{};
@@ -123,7 +122,7 @@ bool is_spent(const ExploreRequest& request, const Viewpoint& view) {
 std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
                                                const StandingPlaces& places,
                                                ViewGain& gain,
-                                               double least_gain_m3,
+                                               const WantedGain& wanted,
                                                double& ray_cells) {
   const StateGrid& grid = places.grid();
   Search search{request, grid, places};
@@ -138,12 +137,12 @@ std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::optional<FrontierView> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (best && i % looked_at_together == 0) {
+    if (i % looked_at_together == 0 && best && best->gain_m3 >= wanted.enough_m3) {
       break;
     }
     FrontierView& view = candidates[i].second;
     view.gain_m3 = gain.gain_m3(view.view);
-    if (view.gain_m3 >= least_gain_m3 &&
+    if (view.gain_m3 >= wanted.least_m3 &&
         (!best || worth(view.gain_m3, view.path_m) > worth(best->gain_m3, best->path_m))) {
       best = view;
     }

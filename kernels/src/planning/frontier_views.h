@@ -25,14 +25,19 @@ struct FrontierView {
   double gain_m3{};
 };
 
-/// The view that shows most per metre flown.
+struct WantedGain {
+  double least_m3{};   ///< Less is not worth going for.
+  double enough_m3{};  ///< With as much, frontiers that promise less are not looked at.
+};
+
+/// The view that shows most per metre flown. Frontiers are looked at in batches, those with most
+/// unknown faces per metre first; faces promise little where a wall stands behind them.
 ///
-/// @param least_gain_m3  Less is not worth going for.
-/// @return               Empty when no place shows a frontier; adds to `gain`'s counts.
+/// @return  Empty when no place shows a frontier; adds to `gain`'s counts.
 [[nodiscard]] std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
                                                              const StandingPlaces& places,
                                                              ViewGain& gain,
-                                                             double least_gain_m3,
+                                                             const WantedGain& wanted,
                                                              double& ray_cells);
 
 /// Whether the view was had already, or cannot be got to.

@@ -8,12 +8,14 @@
 namespace flyball {
 namespace {
 
-std::optional<FrontierView> best_view(const kit::GridMap& map, const ExploreRequest& request) {
+std::optional<FrontierView> best_view(const kit::GridMap& map,
+                                      const ExploreRequest& request,
+                                      const WantedGain& wanted = {0.1, 1.0}) {
   const StateGrid grid{map, request.volume_W};
   const StandingPlaces places{grid, request.body, request.bounds_W, request.from.p_W};
   ViewGain gain{grid, request.volume_W, request.field};
   double ray_cells = 0.0;
-  return best_frontier_view(request, places, gain, 0.1, ray_cells);
+  return best_frontier_view(request, places, gain, wanted, ray_cells);
 }
 
 TEST(Frontiers, are_the_door_between_a_known_room_and_an_unknown_one) {
@@ -65,6 +67,24 @@ TEST(FrontierView, is_not_taken_twice_nor_where_nobody_gets) {
   const auto third = best_view(map, request);
   ASSERT_TRUE(third);
   EXPECT_GE((third->view.p_W - first->view.p_W).norm(), 0.5);
+}
+
+TEST(FrontierView, looks_at_more_frontiers_until_one_shows_enough) {
+  kit::GridMap map = kit::two_rooms();
+  constexpr double pocket_m = 0.45;  // Under the ceiling, one in each cube of 1.2 m.
+  for (double x_m = 0.45; x_m < 5.5; x_m += 1.2) {
+    for (double y_m = 0.45; y_m < 5.5; y_m += 1.2) {
+      const Vec3 low_W{x_m, y_m, 2.55};
+      map.fill({low_W, low_W + Vec3::Constant(pocket_m)}, CellState::unknown);
+    }
+  }
+  const ExploreRequest request = kit::request_from({1.0, 1.0, 1.2}, 0.0);
+  constexpr double room_m3 = 5.0;
+  const auto any = best_view(map, request, {0.1, 0.1});
+  const auto good = best_view(map, request, {0.1, room_m3});
+  ASSERT_TRUE(any && good);
+  EXPECT_LT(any->gain_m3, room_m3) << "pockets have more faces a metre than the door";
+  EXPECT_GT(good->gain_m3, room_m3);
 }
 
 TEST(FrontierView, is_none_when_all_is_known) {
