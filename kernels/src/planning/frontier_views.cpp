@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace flyball {
@@ -48,22 +49,31 @@ class Search {
   Search(const ExploreRequest& request, const StateGrid& grid, const StandingPlaces& places)
       : request_{request}, grid_{grid}, places_{places} {}
 
-  /// The nearest place from which the frontier is visible.
-  [[nodiscard]] std::optional<FrontierView> view_of(const Frontier& frontier) {
+  /// From two of the places that see the frontier: the first one on the way, and the one nearest to
+  /// the frontier. The first sees it past the edge of a door, the nearest also what is behind it.
+  [[nodiscard]] std::vector<FrontierView> views_of(const Frontier& frontier) {
     const Vec3 target_W = grid_.centre(frontier.cell);
+    std::vector<FrontierView> views;
+    double nearest_m = std::numeric_limits<double>::infinity();
     for (const Place& place : places_.thinned()) {
-      const Vec3 camera_W = grid_.centre(place.cell);
-      const Viewpoint view{camera_W, yaw_of(target_W - camera_W)};
-      if (is_in_view(target_W - camera_W) && !is_spent(request_, view) &&
-          grid_.sees(camera_W, frontier.cell, ray_cells_)) {
-        return FrontierView{view, place.path_m, 0.0};
+      const Vec3 to = target_W - grid_.centre(place.cell);
+      if (to.norm() < nearest_m && shows(place, to, frontier)) {
+        views.resize(std::min<std::size_t>(views.size(), 1));
+        views.push_back({{grid_.centre(place.cell), yaw_of(to)}, place.path_m, 0.0});
+        nearest_m = to.norm();
       }
     }
-    return std::nullopt;
+    return views;
   }
   [[nodiscard]] double ray_cells() const { return ray_cells_; }
 
  private:
+  [[nodiscard]] bool shows(const Place& place, const Vec3& to, const Frontier& frontier) {
+    const Vec3 camera_W = grid_.centre(place.cell);
+    return is_in_view(to) && !is_spent(request_, {camera_W, yaw_of(to)}) &&
+           grid_.sees(camera_W, frontier.cell, ray_cells_);
+  }
+
   // The middle of the frontier and some space behind it must lie in the field of view. A frontier
   // nearer than half a metre does not count, because its cells lie in too many directions.
   [[nodiscard]] bool is_in_view(const Vec3& to) const {
@@ -128,8 +138,8 @@ std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
   Search search{request, grid, places};
   std::vector<std::pair<double, FrontierView>> candidates;
   for (const Frontier& frontier : find_frontiers(grid, request.volume_W)) {
-    if (const auto view = search.view_of(frontier)) {
-      candidates.emplace_back(worth(frontier.faces, view->path_m), *view);
+    for (const FrontierView& view : search.views_of(frontier)) {
+      candidates.emplace_back(worth(frontier.faces, view.path_m), view);
     }
   }
   ray_cells += search.ray_cells();

@@ -87,6 +87,17 @@ TEST(FrontierView, looks_at_more_frontiers_until_one_shows_enough) {
   EXPECT_GT(good->gain_m3, room_m3);
 }
 
+// From where the body stands, the door is seen past its edge, which shows next to nothing.
+TEST(FrontierView, is_from_nearer_by_where_the_first_place_shows_little) {
+  kit::GridMap map = kit::two_rooms();
+  map.fill({{6, 2.55, 0}, {6.15, 3.6, 3}}, CellState::occupied);
+  map.fill({{6, 5.1, 0}, {6.15, 5.85, 2.1}}, CellState::free);
+  const auto found = best_view(map, kit::request_from({5.4, 0.5, 1.2}, 0.0));
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->gain_m3, 5.0);
+  EXPECT_GT(found->path_m, 2.0);
+}
+
 TEST(FrontierView, is_none_when_all_is_known) {
   const kit::GridMap map{{{0, 0, 0}, {12, 6, 3}}, 0.15, CellState::free};
   EXPECT_FALSE(best_view(map, kit::request_from({3.0, 3.0, 1.2}, 0.0)));
