@@ -36,7 +36,7 @@ class MissionEnergy final : public flyball::Policy,
         {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
         {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
-        {"half_view_nodes", 3.0, 0.0, 1000.0,
+        {"half_view_nodes", 1.0, 0.0, 1000.0,
          "Nodes with which an explorer's view shows half of what the best would; 0: as set."},
         {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
     all.insert(all.end(), own.begin(), own.end());
@@ -55,9 +55,9 @@ class MissionEnergy final : public flyball::Policy,
     if (!made) {
       return made.error();
     }
-    const flyball::KnobSpec* nodes = knobs.spec("explore.iterations");
-    if (const double half = given.number("half_view_nodes"); nodes != nullptr && half > 0.0) {
-      views_.emplace(half, knobs.value(nodes->name));
+    const bool can_explore = knobs.spec("explore.iterations") != nullptr;
+    if (const double half = given.number("half_view_nodes"); can_explore && half > 0.0) {
+      views_.emplace(half);
     }
     limits_.emplace(std::move(made->limits));
     search_.emplace(std::move(made->search));
@@ -76,11 +76,9 @@ class MissionEnergy final : public flyball::Policy,
         within_s ? search_->idle(home.resolution_m, home.range_m, *within_s, raised_by, seen.now)
                  : search_->choose(surroundings(seen), seen.now).setting;
     flyball::Decision wish = flyball::decision_for(best);
-    if (views_) {
+    if (views_ && flyball::explores(seen)) {
       views_->note(seen);
-      if (const auto nodes = views_->nodes()) {
-        wish.set("explore.iterations", *nodes);
-      }
+      wish.set("explore.iterations", views_->nodes());
     }
     return wish;
   }

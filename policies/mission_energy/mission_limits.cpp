@@ -29,12 +29,6 @@ double largest_cells_m(const std::vector<double>& lattice_m, const VehicleModel&
   return too_large != lattice_m.begin() ? *std::prev(too_large) : lattice_m.front();
 }
 
-/// Whether the mission makes progress by what its views show, not by the way that it flies.
-bool explores(const Observation& seen) {
-  return seen.progress_unit == ProgressUnit::cubic_metre ||
-         seen.progress_unit == ProgressUnit::square_metre;
-}
-
 /// All cells of a lattice between the finest and the coarsest one. A mapper that takes any cells
 /// gets some that are about half as large as the next ones, with equal ratios between them.
 std::vector<double> levels_of(const Parameters& given,
@@ -62,6 +56,11 @@ std::vector<double> levels_of(const Parameters& given,
 }
 
 }  // namespace
+
+bool explores(const Observation& seen) {
+  return seen.progress_unit == ProgressUnit::cubic_metre ||
+         seen.progress_unit == ProgressUnit::square_metre;
+}
 
 std::vector<ParameterSpec> MissionLimits::parameters() {
   return {

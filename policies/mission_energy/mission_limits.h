@@ -19,6 +19,9 @@
 
 namespace flyball {
 
+/// Whether the mission makes progress by what its views show, not by the way that it flies.
+[[nodiscard]] bool explores(const Observation& seen);
+
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
 /// - The ceiling above the vehicle, which larger cells would fill down to it.
 /// - The camera's noise: a level ends where noise is half a cell. A mapper with a lattice keeps all

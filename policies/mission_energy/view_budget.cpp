@@ -6,6 +6,15 @@
 
 namespace flyball {
 
+ViewBudget::ViewBudget(double half_nodes) : half_nodes_{half_nodes} {
+  constexpr double usually_in_all_else = 25.0;  // Measured: six seconds, and .25 s a node.
+  nodes_ = best_nodes(usually_in_all_else);
+}
+
+double ViewBudget::best_nodes(double nodes_in_all_else) const {
+  return std::max(1.0, std::round(std::sqrt(half_nodes_ * nodes_in_all_else)));
+}
+
 // A job's load counts when it ends, so a decision that sees some comes right after a search.
 void ViewBudget::note(const Observation& seen) {
   const StageUse& search = seen.stage(Stage::explore);
@@ -18,12 +27,12 @@ void ViewBudget::note(const Observation& seen) {
     return;
   }
   searching_s_ += search_s;
-  searched_nodes_ += wished_.value_or(first_);
+  searched_nodes_ += nodes_;
   searches_ += 1.0;
   const double else_s =
       std::max(0.0, to_seconds(seen.now - *first_over_) - searching_s_) / searches_;
   const double node_s = searching_s_ / searched_nodes_;
-  wished_ = std::max(1.0, std::round(std::sqrt(half_nodes_ * else_s / node_s)));
+  nodes_ = best_nodes(else_s / node_s);
 }
 
 }  // namespace flyball

@@ -16,21 +16,22 @@ namespace flyball {
 /// about n / (n + k). A search of n nodes at c seconds each, with T seconds of all else, shows the
 /// most per second at n = sqrt(k T / c). Both times are measured in flight, so a faster computer,
 /// or a higher clock, gets more nodes. What a search takes beside its nodes counts as theirs, which
-/// makes n smaller than it should be. Nothing allocates.
+/// makes n smaller than it should be. Until two searches are over, T / c is taken to be as in an
+/// office on a TX2. Nothing allocates.
 class ViewBudget {
  public:
   /// @param half_nodes  k: with so many nodes a view shows half of what the best one would.
-  /// @param nodes       In force for the first search.
-  ViewBudget(double half_nodes, double nodes) : half_nodes_{half_nodes}, first_{nodes} {}
+  explicit ViewBudget(double half_nodes);
 
   void note(const Observation& seen);
-  /// Of the next search; empty until two of them are over, and where nobody explores.
-  [[nodiscard]] std::optional<double> nodes() const { return wished_; }
+  /// Of the next search.
+  [[nodiscard]] double nodes() const { return nodes_; }
 
  private:
+  [[nodiscard]] double best_nodes(double nodes_in_all_else) const;
+
   double half_nodes_;
-  double first_;  ///< In force until nodes are wished.
-  std::optional<double> wished_{};
+  double nodes_;
   std::optional<MissionTime> first_over_{};  ///< From here on, time is counted.
   double searching_s_{};
   double searched_nodes_{};

@@ -26,25 +26,27 @@ Observation flying(double t_s, double last_search_s) {
 
 /// Of a vehicle that searches for so long for each node, and needs so long for all else.
 double settled_nodes(double node_s, double else_s) {
-  ViewBudget views{half_nodes, 15.0};
+  ViewBudget views{half_nodes};
   double t_s = 0.0;
   for (int view = 0; view < 50; ++view) {
-    const double search_s = node_s * views.nodes().value_or(15.0);
+    const double search_s = node_s * views.nodes();
     t_s += search_s + else_s;
     views.note(searched(t_s, search_s));
   }
-  return views.nodes().value_or(0.0);
+  return views.nodes();
 }
 
-TEST(ViewBudget, is_as_the_mission_set_it_until_two_searches_are_over) {
-  ViewBudget views{half_nodes, 15.0};
+TEST(ViewBudget, is_as_usual_until_two_searches_are_over) {
+  ViewBudget views{half_nodes};
+  const double usual = views.nodes();
+  EXPECT_DOUBLE_EQ(usual, 9.0);
   views.note(flying(0.0, 0.0));
-  views.note(searched(4.0, 3.0));
-  views.note(flying(4.25, 3.0));
-  EXPECT_FALSE(views.nodes());
-  views.note(searched(12.0, 3.0));
-  // 3 s for 15 nodes, 5 s for all else.
-  EXPECT_DOUBLE_EQ(views.nodes().value_or(0.0), 9.0);
+  views.note(searched(4.0, 1.8));
+  views.note(flying(4.25, 1.8));
+  EXPECT_EQ(views.nodes(), usual);
+  views.note(searched(21.8, 1.8));
+  // .2 s for each of 9 nodes, 16 s for all else.
+  EXPECT_DOUBLE_EQ(views.nodes(), 15.0);
 }
 
 TEST(ViewBudget, shows_the_most_a_second) {
@@ -67,12 +69,13 @@ TEST(ViewBudget, is_never_below_one_node) {
   EXPECT_EQ(settled_nodes(100.0, 0.0), 1.0);
 }
 
-TEST(ViewBudget, says_nothing_where_nobody_explores) {
-  ViewBudget views{half_nodes, 15.0};
+TEST(ViewBudget, stays_as_it_is_while_nothing_is_searched_for) {
+  ViewBudget views{half_nodes};
+  const double usual = views.nodes();
   for (int i = 0; i < 100; ++i) {
     views.note(flying(i, 0.0));
   }
-  EXPECT_FALSE(views.nodes());
+  EXPECT_EQ(views.nodes(), usual);
 }
 
 }  // namespace
