@@ -24,8 +24,8 @@ constexpr double stop_margin_m = 0.1;
 constexpr double look_aside_rad = 0.8;  // To both sides, when the vehicle has stalled.
 constexpr double look_aside_after_s = 2.0;
 constexpr double standing_m_s = 0.02;
-constexpr double at_end_m = 0.01;
-constexpr double arrival_m = 0.3;    // From here a vehicle brakes that flies in rooms, at 1 m/s.
+constexpr double at_end_m = 0.01;    // Chosen: small beside every tracking tube.
+constexpr double arrival_m = 0.3;    // Chosen: from here a vehicle brakes that flies at 1 m/s.
 constexpr double facing_rad = 0.05;  // Chosen: a small part of a camera's field.
 constexpr double range_reserve_m =
     2.0;                               // The cells of the farthest returns reach beyond the range.
@@ -238,9 +238,7 @@ PathReference PathFollower::tick(MissionTime now, Duration dt, const Vec3& error
     speed_m_s_ = next;
   }
   turn(now, dt_s);
-  if (has_path()) {
-    note_standstill(now);
-  }
+  note_standstill(now);
   odometer_.emplace_back(now, travelled_m_);
   while (odometer_.front().first + odometer_memory < now) {
     odometer_.pop_front();
@@ -309,7 +307,7 @@ bool PathFollower::looks_for_way() const {
 
 void PathFollower::note_standstill(MissionTime now) {
   const bool stands = speed_m_s_ <= standing_m_s;
-  if (!stands || is_at_end()) {
+  if (!stands || stands_still()) {
     stall_.reset();
   } else if (!stall_) {
     stall_ = Stall{now, std::nullopt};

@@ -56,10 +56,17 @@ class Search {
     std::vector<FrontierView> views;
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const Place& place : places_.thinned()) {
-      const Vec3 to = target_W - grid_.centre(place.cell);
-      if (to.norm() < nearest_m && shows(place, to, frontier)) {
-        views.resize(std::min<std::size_t>(views.size(), 1));
-        views.push_back({{grid_.centre(place.cell), yaw_of(to)}, place.path_m, 0.0});
+      const Vec3 camera_W = grid_.centre(place.cell);
+      const Vec3 to = target_W - camera_W;
+      if (to.norm() >= nearest_m || !is_in_view(to)) {
+        continue;
+      }
+      const Viewpoint view{camera_W, yaw_of(to)};
+      if (!is_spent(request_, view) && grid_.sees(camera_W, frontier.cell, ray_cells_)) {
+        if (views.size() == 2) {
+          views.pop_back();
+        }
+        views.push_back({view, place.path_m, 0.0});
         nearest_m = to.norm();
       }
     }
@@ -68,12 +75,6 @@ class Search {
   [[nodiscard]] double ray_cells() const { return ray_cells_; }
 
  private:
-  [[nodiscard]] bool shows(const Place& place, const Vec3& to, const Frontier& frontier) {
-    const Vec3 camera_W = grid_.centre(place.cell);
-    return is_in_view(to) && !is_spent(request_, {camera_W, yaw_of(to)}) &&
-           grid_.sees(camera_W, frontier.cell, ray_cells_);
-  }
-
   // The middle of the frontier and some space behind it must lie in the field of view. A frontier
   // nearer than half a metre does not count, because its cells lie in too many directions.
   [[nodiscard]] bool is_in_view(const Vec3& to) const {

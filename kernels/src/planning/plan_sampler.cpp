@@ -89,28 +89,24 @@ void PlanSampler::find_passages() {
   if (std::abs(region_.goal_W.z() - region_.start_W.z()) > same_height_m) {
     heights_m.push_back(region_.goal_W.z());
   }
-  for (const double height_m : heights_m) {
-    find_passages_at(height_m);
-  }
   // A door ends below the ceiling, and a vehicle right under the ceiling would see none.
   const double lower_z_m = std::min(heights_m.front(), heights_m.back()) - lower_m;
   if (lower_z_m > region_.box_W.min.z() && has_ceiling(region_.start_W)) {
-    find_passages_at(lower_z_m);
+    heights_m.push_back(lower_z_m);
+  }
+  for (const double height_m : heights_m) {
+    Aabb layer = region_.box_W;
+    layer.min.z() = height_m - checker_.body().half_height_m;
+    layer.max.z() = height_m + checker_.body().half_height_m;
+    for (const GapGroup& gaps : find_gaps(checker_, layer)) {
+      add_passages(gaps);
+    }
   }
 }
 
 bool PlanSampler::has_ceiling(const Vec3& over_W) {
   const Vec3 body{checker_.body().radius_m, checker_.body().radius_m, 0.0};
   return checker_.has_occupied({over_W - body, over_W + body + ceiling_m * Vec3::UnitZ()});
-}
-
-void PlanSampler::find_passages_at(double z_m) {
-  Aabb layer = region_.box_W;
-  layer.min.z() = z_m - checker_.body().half_height_m;
-  layer.max.z() = z_m + checker_.body().half_height_m;
-  for (const GapGroup& gaps : find_gaps(checker_, layer)) {
-    add_passages(gaps);
-  }
 }
 
 /// Those of a group that the body passes; the narrowest stays first.

@@ -43,7 +43,6 @@ class PlanSampler {
   [[nodiscard]] Vec3 draw_anywhere();
   [[nodiscard]] Vec3 draw_at_passage();
   void find_passages();
-  void find_passages_at(double z_m);
   [[nodiscard]] bool has_ceiling(const Vec3& over_W);
   void add_passages(const GapGroup& gaps);
 
