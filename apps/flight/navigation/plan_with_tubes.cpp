@@ -41,6 +41,7 @@ class Search {
     request_.start_W = query.start_W;
     request_.goal_W = query.goal_W;
     request_.bounds_W = situation.brief.site.bounds_W;
+    request_.slow_W = situation.slow_zones_W();
     request_.seed = RandomStream{situation.brief.settings.seed, "planner", query.id}.next();
   }
 

@@ -30,4 +30,14 @@ double Situation::detour_s(const std::vector<Vec3>& path_W) const {
   return path_W.empty() ? 0.0 : least_s(path_W) - least_s({path_W.front(), path_W.back()});
 }
 
+std::vector<Aabb> Situation::slow_zones_W() const {
+  std::vector<Aabb> slow_W;
+  for (const SpeedZone& zone : brief.site.zones) {
+    if (zone.max_speed_m_s <= slow_m_s) {
+      slow_W.push_back(zone.box_W);
+    }
+  }
+  return slow_W;
+}
+
 }  // namespace flyball

@@ -4,8 +4,7 @@
 /// @file
 /// A planner's zigzag in, few way-points out.
 
-#include "flyball/runtime/geometry.h"
-#include "flyball/runtime/random.h"
+#include "flyball/kernels/path_planner.h"
 
 #include "planning/motion_checker.h"
 #include <vector>
@@ -13,14 +12,14 @@
 namespace flyball {
 
 /// Shortcuts, drops superfluous way-points, then moves the rest away from obstacles where that
-/// blocks nothing. Start and goal stay exactly; every piece of the result is flyable if every
-/// piece of `points_W` is. Points closer than .2 m are merged where their neighbours allow it.
+/// blocks nothing, unless the vehicle is slow there in any case. Start and goal stay exactly; every
+/// piece of the result is flyable if every piece of `points_W` is. Points closer than .2 m are
+/// merged where their neighbours allow it.
 ///
-/// @param bounds_W  Points are moved only to places inside.
+/// @param request  Points are moved only to places inside its bounds.
 /// @pre At least two points.
 [[nodiscard]] std::vector<Vec3> simplify(std::vector<Vec3> points_W,
                                          MotionChecker& checker,
-                                         const Aabb& bounds_W,
-                                         RandomStream random);
+                                         const PlanRequest& request);
 
 }  // namespace flyball

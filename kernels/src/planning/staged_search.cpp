@@ -132,8 +132,7 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
       plan.searching.add("collision_queries", checker.queries() - before);
     }
     if (!found.points_W.empty()) {
-      plan.waypoints_W = simplify(std::move(found.points_W), checker, request.bounds_W,
-                                  RandomStream{request.seed, "path_simplifier"});
+      plan.waypoints_W = simplify(std::move(found.points_W), checker, request);
     }
   }
   plan.work.add("iterations", found.iterations);

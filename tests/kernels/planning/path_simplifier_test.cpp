@@ -10,7 +10,7 @@ namespace {
 
 using flyball::CellState;
 using flyball::MotionChecker;
-using flyball::RandomStream;
+using flyball::PlanRequest;
 using flyball::Vec3;
 using flyball::kit::GridMap;
 
@@ -21,9 +21,14 @@ const flyball::Aabb everywhere{{-far_m, -far_m, -far_m}, {far_m, far_m, far_m}};
 
 Polygon simplified(const GridMap& map,
                    const Polygon& points,
-                   const flyball::Aabb& bounds_W = everywhere) {
+                   const flyball::Aabb& bounds_W = everywhere,
+                   const std::vector<flyball::Aabb>& slow_W = {}) {
+  PlanRequest request;
+  request.bounds_W = bounds_W;
+  request.slow_W = slow_W;
+  request.seed = 1;
   MotionChecker checker{map, flyball::kit::slow_body(), 0.35};
-  Polygon result = flyball::simplify(points, checker, bounds_W, RandomStream{1, "test"});
+  Polygon result = flyball::simplify(points, checker, request);
   EXPECT_EQ(result.front(), points.front());
   EXPECT_EQ(result.back(), points.back());
   for (std::size_t i = 0; i + 1 < result.size(); ++i) {
@@ -61,6 +66,17 @@ TEST(PathSimplifier, goes_round_a_block_with_room_to_spare) {
   }
 }
 
+// Around a corner of a room, and past a wall behind it.
+TEST(PathSimplifier, lengthens_no_path_for_room_where_the_vehicle_is_slow) {
+  GridMap map{{{0, 0, 0}, {9, 9, 3}}, 0.15};
+  map.fill({{0, 0, 0}, {4.5, 4.5, 3}}, CellState::occupied);
+  map.fill({{6, 5.4, 0}, {9, 5.7, 3}}, CellState::occupied);
+  const Polygon around{{1, 5, 1.5}, {5, 5, 1.5}, {5, 1, 1.5}};
+  const flyball::Aabb beside{{6, 0, 0}, {9, 9, 3}};
+  EXPECT_LT(length_m(simplified(map, around, everywhere, {everywhere})), length_m(around));
+  EXPECT_GT(length_m(simplified(map, around, everywhere, {beside})), length_m(around));
+}
+
 TEST(PathSimplifier, moves_nothing_out_of_bounds) {
   GridMap map{{{0, -8, 0}, {24, 8, 3}}, 0.15};
   map.fill({{9, -3, 0}, {12, 3, 3}}, CellState::occupied);
@@ -86,9 +102,10 @@ TEST(PathSimplifier, gives_the_same_for_the_same_stream) {
   const auto scene = flyball::kit::random_world(3);
   const Polygon open{scene.request.start_W, {1, -7, 1.5}, {12, -7.4, 1.5}, scene.request.goal_W};
   MotionChecker checker{scene.map, {0.1, 0.1}, 1.5};
-  const auto run = [&] {
-    return flyball::simplify(open, checker, everywhere, RandomStream{9, "test"});
-  };
+  PlanRequest request;
+  request.bounds_W = everywhere;
+  request.seed = 9;
+  const auto run = [&] { return flyball::simplify(open, checker, request); };
   EXPECT_EQ(run(), run());
 }
 

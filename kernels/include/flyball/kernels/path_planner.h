@@ -26,6 +26,9 @@ struct PlanRequest {
   /// be and looks at narrow passages first.
   double shorter_than_m{std::numeric_limits<double>::infinity()};
   double max_slope_rad{0.35};  ///< Of each straight piece; about 20 degrees.
+  /// Here the vehicle flies slowly in any case, so that room beside a path is not worth a longer
+  /// one. A planner may ignore it.
+  std::vector<Aabb> slow_W{};
   /// A way that the vehicle has flown, from near the start to near the goal; empty: none. Where it
   /// is free on the map, nothing need be searched for, unless a shorter path is wanted. A planner
   /// may ignore it.

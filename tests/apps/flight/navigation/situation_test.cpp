@@ -30,5 +30,18 @@ TEST(Situation, knows_what_a_path_takes_at_the_missions_speed_limits) {
   EXPECT_EQ(situation.detour_s({}), 0.0);
 }
 
+TEST(Situation, tells_the_zones_in_which_the_vehicle_is_slow) {
+  Site site;
+  const Aabb house_W{Vec3{10.0, -5.0, 0.0}, Vec3{20.0, 5.0, 5.0}};
+  const Aabb park_W{Vec3{30.0, -5.0, 0.0}, Vec3{40.0, 5.0, 5.0}};
+  site.zones = {{house_W, slow_m_s}, {park_W, 2.0 * slow_m_s}};
+  const kit::GridMap map{{Vec3{-1.0, -1.0, 0.0}, Vec3{1.0, 1.0, 1.0}}, 0.5, CellState::free};
+  const kit::MissionRig rig{map, kit::MissionRig::one_core(), site};
+  const std::vector<Aabb> slow_W = rig.situation().slow_zones_W();
+  ASSERT_EQ(slow_W.size(), 1U);
+  EXPECT_EQ(slow_W.front().min, house_W.min);
+  EXPECT_EQ(slow_W.front().max, house_W.max);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -30,6 +30,8 @@ struct Situation {
   [[nodiscard]] double detour_s(const std::vector<Vec3>& path_W) const;
   /// In a narrow passage or a room.
   [[nodiscard]] bool is_slow_at(const Vec3& p_W) const { return speed_limit_m_s(p_W) <= slow_m_s; }
+  /// Where the site's limits ask for that.
+  [[nodiscard]] std::vector<Aabb> slow_zones_W() const;
 };
 
 }  // namespace flyball
