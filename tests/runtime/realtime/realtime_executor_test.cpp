@@ -201,12 +201,15 @@ TEST(RealtimeExecutor, an_urgent_job_need_not_wait_for_a_long_one_on_the_same_co
     plans = true;
     saw_it = comes_true([&] { return has_followed.load(); });
   });
-  const auto follow = rig.add("follow", 5, [&](JobContext&) { has_followed = true; });
+  const auto follow = rig.add("follow", 5, nothing);
   rig.start();
   rig.executor->publish(plan, 1);
   ASSERT_TRUE(rig.serve([&] { return plans.load(); }));
   rig.executor->publish(follow, 1);
-  ASSERT_TRUE(rig.serve([&] { return rig.records.size() == 2; }));
+  ASSERT_TRUE(rig.serve([&] {
+    has_followed = !rig.records.empty();
+    return rig.records.size() == 2;
+  }));
   EXPECT_TRUE(saw_it);
   EXPECT_EQ(rig.records.front().node, 1);
 }
