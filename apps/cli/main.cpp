@@ -55,7 +55,7 @@ int parse_and_run(int argc, char** argv) {
       flyball::print(program.help());
     }
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {  // --help
+    if (error.get_exit_code() == 0) {  // --help, --version
       std::ostringstream help;
       program.exit(error, help, help);
       flyball::print(help.str());

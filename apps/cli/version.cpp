@@ -10,8 +10,10 @@
 namespace flyball {
 
 void add_version(CLI::App& program, int& exit_code) {
-  program.add_subcommand("version", "prints version and build")->callback([&exit_code] {
-    print("flyball " + version() + ", build " + build_fingerprint() + "\n");
+  const std::string text = "flyball " + version() + ", build " + build_fingerprint();
+  program.set_version_flag("--version", text, "Print version and build and exit");
+  program.add_subcommand("version", "prints version and build")->callback([&exit_code, text] {
+    print(text + "\n");
     exit_code = exit_success;
   });
 }

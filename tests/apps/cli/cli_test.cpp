@@ -235,6 +235,7 @@ TEST_F(Cli, says_when_its_output_cannot_be_written) {
 
 TEST_F(Cli, prints_its_version_and_help) {
   EXPECT_EQ(flyball.run("version").output.rfind("flyball ", 0), 0U);
+  EXPECT_EQ(flyball.run("--version").output, flyball.run("version").output);
   EXPECT_EQ(flyball.run("version").output, flyball.run("version").output)
       << "the build stays the same";
   const FlyballProgram::Outcome help = flyball.run("--help");
