@@ -4,16 +4,23 @@
 
 #include "commands.h"
 #include "console.h"
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 namespace flyball {
+namespace {
+
+std::string version_and_build() {
+  return "flyball " + version() + ", build " + build_fingerprint();
+}
+
+}  // namespace
 
 void add_version(CLI::App& program, int& exit_code) {
-  const std::string text = "flyball " + version() + ", build " + build_fingerprint();
-  program.set_version_flag("--version", text, "Print version and build and exit");
-  program.add_subcommand("version", "prints version and build")->callback([&exit_code, text] {
-    print(text + "\n");
+  program.set_version_flag("--version", version_and_build, "Print version and build and exit");
+  program.add_subcommand("version", "prints version and build")->callback([&exit_code] {
+    print(version_and_build() + "\n");
     exit_code = exit_success;
   });
 }
