@@ -244,6 +244,8 @@ Fields explore_fields() {
        "nodes while none of them shows anything new"},
       {"explore.discount_1_m", &at<in, &E::discount_1_m>, 0, 10,
        "how fast a gain falls with the length of the path to it"},
+      {"explore.threads", &at<in, &E::threads>, 1, 16,
+       "so many look at views at once, each on a core if one is idle; the next view is the same"},
   };
 }
 

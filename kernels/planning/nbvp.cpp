@@ -35,6 +35,7 @@ struct Node {
   Viewpoint view{};
   int parent{-1};
   double path_m{};
+  bool is_spent{};  ///< Shows nothing that was not looked for already.
   double own_m3{};
   double score_m3{};  ///< Eq. 3: along the branch, discounted.
 };
@@ -46,7 +47,7 @@ class Tree {
        const flyball::StateGrid& grid)
       : request_{request},
         map_{map},
-        gain_{grid, request.volume_W, request.field},
+        gain_{grid, request.volume_W, request.field, request.settings.threads},
         random_{request.seed, "nbvp"} {
     nodes_.push_back({request.from});
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -66,17 +67,23 @@ class Tree {
     }
   }
 
+  /// Until there are enough nodes and one of them has a gain. Where the nodes lie does not depend
+  /// on their gains, so that several can be looked at together.
   void grow() {
     const flyball::ExploreSettings& settings = request_.settings;
     const int most_tries = tries_per_node * settings.most_iterations;
-    for (int tries = 0; tries < most_tries; ++tries) {
-      const int nodes = static_cast<int>(nodes_.size()) - 1;
-      if (nodes >= settings.most_iterations ||
-          (nodes >= settings.iterations && node(best_).score_m3 > 0.0)) {
-        return;
+    least_ = std::max(settings.iterations, size());
+    for (int tries = 0; tries < most_tries && size() < settings.most_iterations; ++tries) {
+      const int unseen = size() - seen_;
+      if (size() >= least_ && (seen_ < least_ || unseen >= settings.threads)) {
+        look();
+        if (node(best_).score_m3 > 0.0) {
+          return;
+        }
       }
       extend();
     }
+    look();
   }
 
   /// From the first node behind the root to the best one; empty without any gain.
@@ -97,14 +104,16 @@ class Tree {
   }
   [[nodiscard]] flyball::ViewGain& gain() { return gain_; }
   void count(flyball::Work& work) const {
-    work.add("iterations", static_cast<double>(nodes_.size()) - 1.0);
+    work.add("iterations", static_cast<double>(size()));
     work.add("collision_queries", queries_);
-    work.add("cells", gain_.cells());
-    work.add("ray_cells", gain_.ray_cells());
+    work.add_shared("cells", gain_.cells());
+    work.add_shared("ray_cells", gain_.ray_cells());
   }
 
  private:
   [[nodiscard]] const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  /// Without the root.
+  [[nodiscard]] int size() const { return static_cast<int>(nodes_.size()) - 1; }
 
   void extend() {
     Vec3 sample_W;
@@ -155,13 +164,37 @@ class Tree {
     added.view = view;
     added.parent = parent;
     added.path_m = node(parent).path_m + (view.p_W - node(parent).view.p_W).norm();
-    added.own_m3 = flyball::is_spent(request_, view) ? 0.0 : gain_.gain_m3(view);
-    const double discount = std::exp(-request_.settings.discount_1_m * added.path_m);
-    added.score_m3 = node(parent).score_m3 + added.own_m3 * discount;  // eq. 3
+    added.is_spent = flyball::is_spent(request_, view);
     nodes_.push_back(added);
-    const int index = static_cast<int>(nodes_.size()) - 1;
-    best_ = added.score_m3 > node(best_).score_m3 ? index : best_;
-    return index;
+    return size();
+  }
+
+  /// What the nodes show that were added since the last look. Behind the first gain those are
+  /// dropped that would not be there, had each been looked at before the next one was added.
+  void look() {
+    std::vector<Viewpoint> views;
+    for (int i = seen_ + 1; i <= size(); ++i) {
+      if (!node(i).is_spent) {
+        views.push_back(node(i).view);
+      }
+    }
+    const std::vector<double> gains_m3 = gain_.gains_m3(views);
+    auto gain_m3 = gains_m3.begin();
+    while (seen_ < size()) {
+      ++seen_;
+      rate(seen_, node(seen_).is_spent ? 0.0 : *gain_m3++);
+      if (seen_ >= least_ && node(best_).score_m3 > 0.0) {
+        nodes_.resize(static_cast<std::size_t>(seen_) + 1);
+      }
+    }
+  }
+
+  void rate(int index, double gain_m3) {
+    Node& rated = nodes_[static_cast<std::size_t>(index)];
+    rated.own_m3 = gain_m3;
+    const double discount = std::exp(-request_.settings.discount_1_m * rated.path_m);
+    rated.score_m3 = node(rated.parent).score_m3 + gain_m3 * discount;  // eq. 3
+    best_ = rated.score_m3 > node(best_).score_m3 ? index : best_;
   }
 
   const ExploreRequest& request_;
@@ -171,6 +204,8 @@ class Tree {
   Vec3 low_W_{Vec3::Zero()};
   Vec3 high_W_{Vec3::Zero()};
   std::vector<Node> nodes_{};
+  int least_{};  ///< With so many, a gain is enough.
+  int seen_{};   ///< Nodes whose gain is known.
   int best_{};
   double queries_{};
 };
@@ -208,7 +243,7 @@ class Nbvp final : public flyball::Explorer {
     if (!is_finite(request)) {
       return {};
     }
-    const flyball::StateGrid grid{map, explored_box(request)};
+    const flyball::StateGrid grid{map, explored_box(request), request.settings.threads};
     Tree tree{request, map, grid};
     if (!branch_.empty() && (branch_.front().p_W - request.from.p_W).norm() < branch_slack_m) {
       tree.keep({branch_.begin() + 1, branch_.end()});
@@ -235,8 +270,9 @@ class Nbvp final : public flyball::Explorer {
     double ray_cells = 0.0;
     const auto found =
         flyball::best_frontier_view(request, places, gain, {least_m3, worthwhile_m3_}, ray_cells);
-    step.work.add("cells", places.cells() + static_cast<double>(grid.size()));
-    step.work.add("ray_cells", ray_cells);
+    step.work.add("cells", places.cells());
+    step.work.add_shared("cells", static_cast<double>(grid.size()));
+    step.work.add_shared("ray_cells", ray_cells);
     branch_.clear();
     step.gain_m3 = found ? found->gain_m3 : 0.0;
     step.is_far = found.has_value();

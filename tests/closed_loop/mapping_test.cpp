@@ -33,6 +33,21 @@ TEST(Mapping, covers_what_was_asked_for_comes_home_and_its_map_fits_the_world) {
   EXPECT_GT(summary.kernels.at("nbvp").calls, 1U);
 }
 
+TEST(Mapping, finds_its_first_view_sooner_with_several_threads_where_cores_are_idle) {
+  const auto first_view_ms = [](int threads) {
+    Scenario scenario = small_office();
+    scenario.explore.threads = threads;
+    scenario.mission.time_limit_s = 6.0;
+    const auto record = fly(scenario, {});
+    FLYBALL_ASSERT(record.ok(), "%d threads", threads);
+    const auto& explorer = record->summary.kernels.at("nbvp");
+    FLYBALL_ASSERT(explorer.calls == 1U, "%d threads", threads);
+    return explorer.mission_ms_mean;
+  };
+  const double alone_ms = first_view_ms(1);
+  EXPECT_LT(first_view_ms(4), 0.75 * alone_ms);
+}
+
 TEST(Mapping, is_refused_where_there_is_no_volume) {
   Scenario scenario;
   scenario.mission.workload = "mapping";

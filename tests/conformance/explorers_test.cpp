@@ -19,6 +19,8 @@ class ExplorerCulprit final : public Explorer {
       asked.taken.clear();
     } else if (crime_ == "remembers") {
       asked.seed += all_missions_++;
+    } else if (crime_ == "splits") {
+      asked.seed += static_cast<std::uint64_t>(request.settings.threads);
     }
     ExploreStep step = honest_->explore(asked, map);
     spoil(step, request);
@@ -69,6 +71,7 @@ TEST(ExplorerConformance, finds_each_kind_of_breach) {
       [](const std::string& crime) { return std::make_unique<ExplorerCulprit>(crime); },
       {{"forgets", "takes a view again that was had"},
        {"remembers", "explores differently in a second mission"},
+       {"splits", "explores differently with several threads"},
        {"restless", "finds something to see where all is known"},
        {"idle", "counts no iterations"},
        {"shrinking", "counts less work for a larger input"},

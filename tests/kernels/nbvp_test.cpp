@@ -100,5 +100,52 @@ TEST(Nbvp, knows_when_nothing_is_left_to_see) {
   EXPECT_GT(step.work.count("iterations"), 0.0);
 }
 
+/// Steps of one mission in a hall, and in a room from which a tree shows next to nothing.
+std::vector<ExploreStep> steps_with(int threads, std::uint64_t seed) {
+  std::vector<ExploreStep> steps;
+  for (const kit::GridMap& map : {hall(), kit::two_rooms()}) {
+    const auto explorer = nbvp();
+    ExploreRequest request = kit::request_from({1.0, 1.0, 1.2}, 3.0);
+    request.seed = seed;
+    request.settings.threads = threads;
+    for (int i = 0; i < 3; ++i) {
+      steps.push_back(explorer->explore(request, map));
+      if (const auto& next = steps.back().next) {
+        request.taken.push_back(*next);
+        request.from = *next;
+      }
+    }
+  }
+  return steps;
+}
+
+TEST(Nbvp, answers_the_same_with_any_number_of_threads) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const std::vector<ExploreStep> alone = steps_with(1, seed);
+    const std::vector<ExploreStep> together = steps_with(4, seed);
+    ASSERT_EQ(together.size(), alone.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      ASSERT_EQ(together[i].next.has_value(), alone[i].next.has_value()) << seed << ": " << i;
+      EXPECT_EQ(together[i].gain_m3, alone[i].gain_m3);
+      EXPECT_EQ(together[i].is_far, alone[i].is_far);
+      EXPECT_EQ(together[i].work.count("iterations"), alone[i].work.count("iterations"));
+      EXPECT_GE(together[i].work.count("cells"), alone[i].work.count("cells"));
+      if (alone[i].next) {
+        EXPECT_EQ(together[i].next->p_W, alone[i].next->p_W);
+        EXPECT_EQ(together[i].next->yaw_rad, alone[i].next->yaw_rad);
+      }
+    }
+  }
+}
+
+TEST(Nbvp, says_that_looks_at_cells_can_be_shared) {
+  const ExploreStep step = nbvp()->explore(kit::request_from({1.0, 3.0, 1.2}, 0.0), hall());
+  const Work shared = step.work.shared();
+  EXPECT_EQ(shared.count("ray_cells"), step.work.count("ray_cells"));
+  EXPECT_EQ(shared.count("cells"), step.work.count("cells")) << "no search for frontiers";
+  EXPECT_EQ(shared.count("iterations"), 0.0);
+  EXPECT_EQ(shared.count("collision_queries"), 0.0);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -59,6 +59,7 @@ void ExplorationFlight::add_explore(Graph& graph) {
   spec.trigger = OnMessage{explore_.request.index};
   spec.priority = 15;
   spec.deadline = 30s;
+  spec.threads = parts_.brief->settings.explore.threads;
   spec.reads = {perception_.map.index, parts_.mission.knobs.index};
   spec.writes = {explore_.response.index};
   graph.node(std::move(spec), [service = explore_, map = perception_.map, mission = parts_.mission,

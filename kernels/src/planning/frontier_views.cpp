@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/frontier_views.h"
 
+#include "planning/side_by_side.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace flyball {
 namespace {
@@ -51,7 +53,9 @@ class Search {
 
   /// From two of the places that see the frontier: the first one on the way, and the one nearest to
   /// the frontier. The first sees it past the edge of a door, the nearest also what is behind it.
-  [[nodiscard]] std::vector<FrontierView> views_of(const Frontier& frontier) {
+  /// @param ray_cells  Those crossed are added.
+  [[nodiscard]] std::vector<FrontierView> views_of(const Frontier& frontier,
+                                                   double& ray_cells) const {
     const Vec3 target_W = grid_.centre(frontier.cell);
     std::vector<FrontierView> views;
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -62,7 +66,7 @@ class Search {
         continue;
       }
       const Viewpoint view{camera_W, yaw_of(to)};
-      if (!is_spent(request_, view) && grid_.sees(camera_W, frontier.cell, ray_cells_)) {
+      if (!is_spent(request_, view) && grid_.sees(camera_W, frontier.cell, ray_cells)) {
         if (views.size() == 2) {
           views.pop_back();
         }
@@ -72,7 +76,6 @@ class Search {
     }
     return views;
   }
-  [[nodiscard]] double ray_cells() const { return ray_cells_; }
 
  private:
   // The middle of the frontier and some space behind it must lie in the field of view. A frontier
@@ -88,11 +91,48 @@ class Search {
   const ExploreRequest& request_;
   const StateGrid& grid_;
   const StandingPlaces& places_;
-  double ray_cells_{};
 };
 
 double worth(double seen, double path_m) {
   return seen / (path_m + fixed_path_m);
+}
+
+struct Candidate {
+  FrontierView view{};
+  double promise{};  ///< Unknown faces for each metre.
+};
+
+/// Views of all frontiers, in order of what they promise.
+std::vector<Candidate> candidates_of(const ExploreRequest& request,
+                                     const StandingPlaces& places,
+                                     double& ray_cells) {
+  const Search search{request, places.grid(), places};
+  const std::vector<Frontier> frontiers = find_frontiers(places.grid(), request.volume_W);
+  std::vector<std::vector<FrontierView>> views(frontiers.size());
+  std::vector<double> crossed(frontiers.size(), 0.0);
+  for_each_index(frontiers.size(), request.settings.threads,
+                 [&](std::size_t i) { views[i] = search.views_of(frontiers[i], crossed[i]); });
+  ray_cells += std::accumulate(crossed.begin(), crossed.end(), 0.0);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < frontiers.size(); ++i) {
+    for (const FrontierView& view : views[i]) {
+      candidates.push_back({view, worth(frontiers[i].faces, view.path_m)});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.promise > b.promise; });
+  return candidates;
+}
+
+std::vector<double> gains_of(const std::vector<Candidate>& candidates,
+                             std::size_t begin,
+                             std::size_t end,
+                             ViewGain& gain) {
+  std::vector<Viewpoint> views;
+  for (std::size_t i = begin; i < end; ++i) {
+    views.push_back(candidates[i].view.view);
+  }
+  return gain.gains_m3(views);
 }
 
 }  // namespace
@@ -135,27 +175,21 @@ std::optional<FrontierView> best_frontier_view(const ExploreRequest& request,
                                                ViewGain& gain,
                                                const WantedGain& wanted,
                                                double& ray_cells) {
-  const StateGrid& grid = places.grid();
-  Search search{request, grid, places};
-  std::vector<std::pair<double, FrontierView>> candidates;
-  for (const Frontier& frontier : find_frontiers(grid, request.volume_W)) {
-    for (const FrontierView& view : search.views_of(frontier)) {
-      candidates.emplace_back(worth(frontier.faces, view.path_m), view);
-    }
-  }
-  ray_cells += search.ray_cells();
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Candidate> candidates = candidates_of(request, places, ray_cells);
   std::optional<FrontierView> best;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i % looked_at_together == 0 && best && best->gain_m3 >= wanted.enough_m3) {
+  for (std::size_t begin = 0; begin < candidates.size(); begin += looked_at_together) {
+    if (best && best->gain_m3 >= wanted.enough_m3) {
       break;
     }
-    FrontierView& view = candidates[i].second;
-    view.gain_m3 = gain.gain_m3(view.view);
-    if (view.gain_m3 >= wanted.least_m3 &&
-        (!best || worth(view.gain_m3, view.path_m) > worth(best->gain_m3, best->path_m))) {
-      best = view;
+    const std::size_t end = std::min(begin + looked_at_together, candidates.size());
+    const std::vector<double> gains_m3 = gains_of(candidates, begin, end, gain);
+    for (std::size_t i = begin; i < end; ++i) {
+      FrontierView& view = candidates[i].view;
+      view.gain_m3 = gains_m3[i - begin];
+      if (view.gain_m3 >= wanted.least_m3 &&
+          (!best || worth(view.gain_m3, view.path_m) > worth(best->gain_m3, best->path_m))) {
+        best = view;
+      }
     }
   }
   return best;

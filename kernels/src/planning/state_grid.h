@@ -15,7 +15,8 @@ namespace flyball {
 class StateGrid {
  public:
   /// Cells of the map's resolution that cover the box.
-  StateGrid(const OccupancyView& map, const Aabb& box_W);
+  /// @param threads  So many ask the map at once.
+  StateGrid(const OccupancyView& map, const Aabb& box_W, int threads = 1);
 
   [[nodiscard]] double cell_m() const { return cell_m_; }
   [[nodiscard]] const GridCell& first() const { return first_; }

@@ -31,5 +31,15 @@ TEST(StateGrid, sees_through_the_unknown_but_not_through_walls) {
   EXPECT_TRUE(grid.sees(camera_W, grid.cell_of({6.05, 0.5, 1.2}), crossed)) << "the wall itself";
 }
 
+TEST(StateGrid, is_the_same_when_several_threads_ask) {
+  const kit::GridMap map = kit::two_rooms();
+  const StateGrid alone{map, {{0, 0, 0}, {12, 6, 3}}};
+  const StateGrid together{map, {{0, 0, 0}, {12, 6, 3}}, 4};
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    ASSERT_EQ(together.at(together.cell_at(i)), alone.at(alone.cell_at(i))) << i;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

@@ -61,5 +61,25 @@ TEST(ViewGain, agrees_with_a_cell_by_cell_test_of_the_field) {
   EXPECT_NEAR(gain.gain_m3(request.from), expected_m3, 3.0 * cell_m3) << "rounding at the rim";
 }
 
+TEST(ViewGain, is_the_same_for_several_views_at_once) {
+  const kit::GridMap map = kit::two_rooms();
+  const ExploreRequest request = kit::request_from({5.0, 2.5, 1.0}, 0.3);
+  const StateGrid grid{map, request.volume_W, 3};
+  const std::vector<Viewpoint> views{{{3.0, 3.0, 1.2}, 0.0},
+                                     {{6.0, 3.0, 1.2}, 0.0},
+                                     {{3.0, 3.0, 1.2}, half_turn_rad},
+                                     {{5.0, 2.5, 1.0}, 0.3},
+                                     {{5.5, 3.5, 1.5}, -0.4}};
+  ViewGain alone{grid, request.volume_W, request.field};
+  std::vector<double> expected_m3;
+  for (const Viewpoint& view : views) {
+    expected_m3.push_back(alone.gain_m3(view));
+  }
+  ViewGain together{grid, request.volume_W, request.field, 3};
+  EXPECT_EQ(together.gains_m3(views), expected_m3);
+  EXPECT_EQ(together.cells(), alone.cells());
+  EXPECT_EQ(together.ray_cells(), alone.ray_cells());
+}
+
 }  // namespace
 }  // namespace flyball

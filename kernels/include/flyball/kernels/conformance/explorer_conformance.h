@@ -123,10 +123,11 @@ class ExplorerConformance : public KernelConformance<Explorer> {
 
   /// An explorer remembers within a mission, so whole missions are compared.
   void check_missions() {
-    const auto flown = [this] {
+    const auto flown = [this](int threads) {
       const auto explorer = made();
       std::vector<double> trace;
       ExploreRequest asked = request(11);
+      asked.settings.threads = threads;
       for (int i = 0; i < 3; ++i) {
         const ExploreStep step = explorer->explore(asked, hall(4.0 + i));
         trace.push_back(step.gain_m3);
@@ -138,7 +139,9 @@ class ExplorerConformance : public KernelConformance<Explorer> {
       }
       return trace;
     };
-    require(flown() == flown(), "explores differently in a second mission");
+    const std::vector<double> first = flown(1);
+    require(flown(1) == first, "explores differently in a second mission");
+    require(flown(3) == first, "explores differently with several threads");
   }
 };
 
