@@ -5,7 +5,6 @@
 // it.
 
 #include "flyball/governors/clock_policy.h"
-#include "flyball/runtime/registry.h"
 
 #include <algorithm>
 
@@ -18,10 +17,8 @@ class Conservative final : public flyball::ClockRule {
             {"down_threshold", 0.2, 0.0, 1.0, "Load below which the clock falls."},
             {"step", 0.05, 0.001, 1.0, "Of the highest clock."}};
   }
-  [[nodiscard]] bool samples() const override { return true; }
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::ClockTable& clocks) override {
-    clocks_ = clocks;
     up_threshold_ = given.number("up_threshold");
     down_threshold_ = given.number("down_threshold");
     step_hz_ = given.number("step") * clocks.highest_hz();
@@ -39,18 +36,17 @@ class Conservative final : public flyball::ClockRule {
       request_hz_ = sample.clock_hz;
     }
     if (sample.load > up_threshold_) {
-      request_hz_ = std::min(clocks_.highest_hz(), request_hz_ + step_hz_);
-      return clocks_.at_or_below_hz(request_hz_);
+      request_hz_ = std::min(sample.clocks.highest_hz(), request_hz_ + step_hz_);
+      return sample.clocks.at_or_below_hz(request_hz_);
     }
     if (sample.load < down_threshold_) {
-      request_hz_ = std::max(clocks_.lowest_hz(), request_hz_ - step_hz_);
-      return clocks_.at_or_above_hz(request_hz_);
+      request_hz_ = std::max(sample.clocks.lowest_hz(), request_hz_ - step_hz_);
+      return sample.clocks.at_or_above_hz(request_hz_);
     }
     return sample.clock_hz;
   }
 
  private:
-  flyball::ClockTable clocks_{};
   double up_threshold_{};
   double down_threshold_{};
   double step_hz_{};
@@ -60,7 +56,5 @@ class Conservative final : public flyball::ClockRule {
 }  // namespace
 
 FLYBALL_PLUGIN(conservative) {
-  registry.add<flyball::Policy>("conservative", [] {
-    return std::make_unique<flyball::ClockPolicy>("conservative", std::make_unique<Conservative>());
-  });
+  flyball::add_clock_policy<Conservative>(registry, "conservative");
 }

@@ -51,14 +51,14 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
       return power.error();
     }
     const flyball::KnobSpec& cells = *knobs.spec("map.resolution_m");
-    cells_m_ = cells.legal;
-    if (cells_m_.empty()) {  // Those that presets have, and the scenario's own.
+    std::vector<double> cells_m = cells.legal;
+    if (cells_m.empty()) {  // Those that presets have, and the scenario's own.
       const std::set<double> usual_m{0.15, 0.30, 0.60, 0.80, 1.20, knobs.value(cells.name)};
-      std::copy_if(usual_m.begin(), usual_m.end(), std::back_inserter(cells_m_),
+      std::copy_if(usual_m.begin(), usual_m.end(), std::back_inserter(cells_m),
                    [&](double one_m) { return cells.is_legal(one_m); });
     }
     range_m_ = knobs.value("map.range_m");
-    const auto levels = flyball::levels_between(cells_m_, given.number("fine_latency_s"),
+    const auto levels = flyball::levels_between(cells_m, given.number("fine_latency_s"),
                                                 given.number("coarse_latency_s"));
     auto search = flyball::EnergySearch::make({}, levels, {range_m_}, knobs, *power);
     if (!search) {
@@ -86,7 +86,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
-    const double cells_m = nearest_cells_m(seen.map_resolution_m);
+    const double cells_m = search_->nearest_cells_m(seen.map_resolution_m);
     if (const auto within_s = idle_->allowed_s(seen)) {
       return search_->idle(cells_m, range_m_, *within_s, idle_->raised_by(), seen.now).clock_hz;
     }
@@ -100,17 +100,6 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
     return search_->choose(around, seen.now).setting.clock_hz;
   }
 
-  [[nodiscard]] double nearest_cells_m(double in_force_m) const noexcept {
-    double best_m = cells_m_.front();
-    for (const double one_m : cells_m_) {
-      if (std::abs(one_m - in_force_m) < std::abs(best_m - in_force_m)) {
-        best_m = one_m;
-      }
-    }
-    return best_m;
-  }
-
-  std::vector<double> cells_m_{};
   double range_m_{};
   std::optional<flyball::EnergySearch> search_{};
   std::optional<flyball::Idle> idle_{};

@@ -5,7 +5,6 @@
 // below its target; above the jump's clock and downwards only after a while.
 
 #include "flyball/governors/clock_policy.h"
-#include "flyball/runtime/registry.h"
 
 #include <algorithm>
 
@@ -24,10 +23,8 @@ class Interactive final : public flyball::ClockRule {
         {"above_hispeed_delay_s", 0.020, 0.0, 10.0, "At the jump's clock before it rises more."},
         {"min_sample_time_s", 0.080, 0.0, 10.0, "At a clock before it falls."}};
   }
-  [[nodiscard]] bool samples() const override { return true; }
   flyball::Status start(const flyball::Parameters& given,
                         const flyball::ClockTable& clocks) override {
-    clocks_ = clocks;
     go_hispeed_load_ = given.number("go_hispeed_load");
     target_load_ = given.number("target_load");
     const double hispeed_hz = given.number("hispeed_hz");
@@ -40,7 +37,7 @@ class Interactive final : public flyball::ClockRule {
   }
   [[nodiscard]] double next_hz(const flyball::ClockSample& sample) noexcept override {
     const double now_hz = sample.clock_hz;
-    const double wished_hz = wish_hz(sample.load, now_hz);
+    const double wished_hz = wish_hz(sample);
     const bool waits_above = now_hz >= hispeed_hz_ && wished_hz > now_hz &&
                              sample.now - hispeed_since_ < above_hispeed_delay_;
     if (waits_above) {
@@ -56,16 +53,16 @@ class Interactive final : public flyball::ClockRule {
   }
 
  private:
-  [[nodiscard]] double wish_hz(double load, double now_hz) const noexcept {
+  [[nodiscard]] double wish_hz(const flyball::ClockSample& sample) const noexcept {
     // loadadj, the load times the clock, over the target: the lowest clock that meets it
-    const double enough_hz = clocks_.at_or_above_hz(load * now_hz / target_load_);
-    if (load < go_hispeed_load_) {
+    const double enough_hz =
+        sample.clocks.at_or_above_hz(sample.load * sample.clock_hz / target_load_);
+    if (sample.load < go_hispeed_load_) {
       return enough_hz;
     }
-    return now_hz < hispeed_hz_ ? hispeed_hz_ : std::max(enough_hz, hispeed_hz_);
+    return sample.clock_hz < hispeed_hz_ ? hispeed_hz_ : std::max(enough_hz, hispeed_hz_);
   }
 
-  flyball::ClockTable clocks_{};
   double go_hispeed_load_{};
   double target_load_{};
   double hispeed_hz_{};
@@ -79,7 +76,5 @@ class Interactive final : public flyball::ClockRule {
 }  // namespace
 
 FLYBALL_PLUGIN(interactive) {
-  registry.add<flyball::Policy>("interactive", [] {
-    return std::make_unique<flyball::ClockPolicy>("interactive", std::make_unique<Interactive>());
-  });
+  flyball::add_clock_policy<Interactive>(registry, "interactive");
 }

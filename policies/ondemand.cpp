@@ -4,7 +4,6 @@
 // the highest clock at once, below it a clock in proportion to the load.
 
 #include "flyball/governors/clock_policy.h"
-#include "flyball/runtime/registry.h"
 
 namespace {
 
@@ -13,30 +12,25 @@ class Ondemand final : public flyball::ClockRule {
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     return {{"up_threshold", 0.8, 0.01, 1.0, "Load above which the clock is the highest."}};
   }
-  [[nodiscard]] bool samples() const override { return true; }
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::ClockTable& clocks) override {
-    clocks_ = clocks;
+                        const flyball::ClockTable& /*clocks*/) override {
     up_threshold_ = given.number("up_threshold");
     return flyball::Done{};
   }
   [[nodiscard]] double next_hz(const flyball::ClockSample& sample) noexcept override {
     if (sample.load > up_threshold_) {
-      return clocks_.highest_hz();
+      return sample.clocks.highest_hz();
     }
-    const double span_hz = clocks_.highest_hz() - clocks_.lowest_hz();
-    return clocks_.nearest_hz(clocks_.lowest_hz() + sample.load * span_hz);
+    const double span_hz = sample.clocks.highest_hz() - sample.clocks.lowest_hz();
+    return sample.clocks.nearest_hz(sample.clocks.lowest_hz() + sample.load * span_hz);
   }
 
  private:
-  flyball::ClockTable clocks_{};
   double up_threshold_{};
 };
 
 }  // namespace
 
 FLYBALL_PLUGIN(ondemand) {
-  registry.add<flyball::Policy>("ondemand", [] {
-    return std::make_unique<flyball::ClockPolicy>("ondemand", std::make_unique<Ondemand>());
-  });
+  flyball::add_clock_policy<Ondemand>(registry, "ondemand");
 }

@@ -6,7 +6,6 @@
 // not idled: its utilisation may be low only because it is slow.
 
 #include "flyball/governors/clock_policy.h"
-#include "flyball/runtime/registry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,27 +18,24 @@ class Schedutil final : public flyball::ClockRule {
     return {{"half_life_s", 0.032, 0.001, 10.0, "After which busy time counts half."},
             {"headroom", 1.25, 1.0, 4.0, "Clock over utilisation."}};
   }
-  [[nodiscard]] bool samples() const override { return true; }
   flyball::Status start(const flyball::Parameters& given,
-                        const flyball::ClockTable& clocks) override {
-    clocks_ = clocks;
+                        const flyball::ClockTable& /*clocks*/) override {
     half_life_s_ = given.number("half_life_s");
     headroom_ = given.number("headroom");
     utilisation_ = 0.0;
     return flyball::Done{};
   }
   [[nodiscard]] double next_hz(const flyball::ClockSample& sample) noexcept override {
-    const double highest_hz = clocks_.highest_hz();
+    const double highest_hz = sample.clocks.highest_hz();
     const double kept = std::exp2(-sample.elapsed_s / half_life_s_);
     utilisation_ = kept * utilisation_ + (1.0 - kept) * sample.load * sample.clock_hz / highest_hz;
-    const double wished_hz = clocks_.at_or_above_hz(headroom_ * highest_hz * utilisation_);
+    const double wished_hz = sample.clocks.at_or_above_hz(headroom_ * highest_hz * utilisation_);
     const bool has_idled = sample.load < 1.0 - rounding;
     return has_idled ? wished_hz : std::max(wished_hz, sample.clock_hz);
   }
 
  private:
   static constexpr double rounding = 1e-9;
-  flyball::ClockTable clocks_{};
   double half_life_s_{};
   double headroom_{};
   double utilisation_{};  ///< 0..1 of the highest clock.
@@ -48,7 +44,5 @@ class Schedutil final : public flyball::ClockRule {
 }  // namespace
 
 FLYBALL_PLUGIN(schedutil) {
-  registry.add<flyball::Policy>("schedutil", [] {
-    return std::make_unique<flyball::ClockPolicy>("schedutil", std::make_unique<Schedutil>());
-  });
+  flyball::add_clock_policy<Schedutil>(registry, "schedutil");
 }

@@ -104,7 +104,7 @@ double ClockPolicy::clock_hz(const Observation& seen) noexcept {
     return clock_hz;  // nothing has been sampled yet
   }
   const double load = std::isfinite(seen.busiest_core_load) ? seen.busiest_core_load : 0.0;
-  return rule_->next_hz({seen.now, elapsed_s, std::clamp(load, 0.0, 1.0), clock_hz});
+  return rule_->next_hz({seen.now, elapsed_s, std::clamp(load, 0.0, 1.0), clock_hz, clocks_});
 }
 
 }  // namespace flyball

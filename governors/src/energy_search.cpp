@@ -83,7 +83,7 @@ EnergySearch::EnergySearch(const EnergySearchSettings& settings,
         level.latency_s / std::pow(level.range_m, level.range_slope) /
         settings.clock.factor(level.clock_hz > 0.0 ? Hertz{level.clock_hz} : Hertz{most_clock_hz_});
     prior.sigma = 0.5;  // Chosen: the given latency may be wrong by a factor of 1.6.
-    models_.add(std::to_string(level.resolution_m), prior);
+    models_.add(prior);
     most_range_m_.push_back(level.most_range_m);
   }
 }

@@ -25,6 +25,17 @@ bool differs(const std::optional<double>& request, double granted, double cap) {
 
 constexpr double no_cap = std::numeric_limits<double>::infinity();
 
+/// Every number finite, no duration negative: what a policy can be asked about.
+bool is_believable(const Observation& seen) {
+  for (const ObservationField& field : observation_fields()) {
+    if (!std::isfinite(field.get(seen))) {
+      return false;
+    }
+  }
+  return seen.latency >= Duration::zero() && seen.latency_bound >= Duration::zero() &&
+         seen.speed_m_s >= 0.0 && seen.cores >= 0;
+}
+
 }  // namespace
 
 std::string_view to_string(Fallback fallback) {
@@ -41,16 +52,6 @@ std::string_view to_string(Fallback fallback) {
       return "hover";
   }
   return "none";
-}
-
-bool is_believable(const Observation& seen) {
-  for (const ObservationField& field : observation_fields()) {
-    if (!std::isfinite(field.get(seen))) {
-      return false;
-    }
-  }
-  return seen.latency >= Duration::zero() && seen.latency_bound >= Duration::zero() &&
-         seen.speed_m_s >= 0.0 && seen.cores >= 0;
 }
 
 FallbackLadder::FallbackLadder(const FallbackSettings& settings)

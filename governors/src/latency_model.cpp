@@ -50,30 +50,8 @@ double LatencyModel::predict_log_s(const LatencyFeatures& features) const {
   return solver_.predict(row(features));
 }
 
-Duration LatencyModel::predict(const LatencyFeatures& features) const {
-  return from_seconds(std::exp(predict_log_s(features)));
-}
-
-void LatencyModel::learn(const LatencyFeatures& features, Duration measured) {
-  FLYBALL_ASSERT(measured > Duration::zero(), "measured=%g s", to_seconds(measured));
-  learn_log_s(features, std::log(to_seconds(measured)));
-}
-
 void LatencyModel::learn_log_s(const LatencyFeatures& features, double log_s) {
   solver_.learn(row(features), log_s);
-}
-
-void LatencyModels::add(std::string name, const LatencyPrior& prior) {
-  FLYBALL_ASSERT(index(name) == size(), "kernel %s is there already", name.c_str());
-  kernels_.push_back({std::move(name), LatencyModel{prior}});
-}
-
-std::size_t LatencyModels::index(std::string_view name) const {
-  std::size_t i = 0;
-  while (i < kernels_.size() && kernels_[i].name != name) {
-    ++i;
-  }
-  return i;
 }
 
 double LatencyModels::predict_s(std::size_t kernel, const LatencyFeatures& features) const {
@@ -102,10 +80,6 @@ double LatencyModels::slowdown_step(double residual) {
     residual_ = 0.0;  // It is explained.
   }
   return is_sudden ? both : slowdown_gain * residual;
-}
-
-double LatencyModels::slowdown() const {
-  return std::exp(log_slowdown_);
 }
 
 }  // namespace flyball

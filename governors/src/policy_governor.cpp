@@ -84,7 +84,8 @@ Decision PolicyGovernor::decide(const Observation& seen) noexcept {
   fallback_ = ladder_.look(seen, requested());
   if (fallback_ == Fallback::table || fallback_ == Fallback::hover) {
     last_fault_ = has_fallen_back() ? last_fault_ : PolicyFault::none;
-    return table(seen.now);  // The policy is not asked: what it would learn from this is wrong.
+    // The policy is not asked: what it would learn from this is wrong.
+    return put_all_in_force(seen.now, table_);
   }
   if (!has_fallen_back()) {
     last_fault_ = PolicyFault::none;
@@ -98,7 +99,7 @@ Decision PolicyGovernor::decide(const Observation& seen) noexcept {
     ++faults_in_row_;
   }
   fallback_ = Fallback::safe_static;
-  return safe_default(seen.now);
+  return put_all_in_force(seen.now, defaults_);
 }
 
 std::string PolicyGovernor::why() const {
@@ -222,14 +223,6 @@ Decision PolicyGovernor::made_legal(const Decision& wished, MissionTime now) noe
     answer.set(spec.name, in_force_[knob]);
   }
   return answer;
-}
-
-Decision PolicyGovernor::safe_default(MissionTime now) noexcept {
-  return put_all_in_force(now, defaults_);
-}
-
-Decision PolicyGovernor::table(MissionTime now) noexcept {
-  return put_all_in_force(now, table_);
 }
 
 Decision PolicyGovernor::put_all_in_force(MissionTime now,

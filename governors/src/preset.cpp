@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <string_view>
 
 #define TOML_HEADER_ONLY 1  // NOLINT: toml++'s own switch
 #include <toml++/toml.h>

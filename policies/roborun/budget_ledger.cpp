@@ -18,7 +18,6 @@ void BudgetLedger::set(MissionTime now, std::size_t level, double budget_s) {
 
 void BudgetLedger::came(MissionTime now, Duration latency) {
   if (known_ == 0) {
-    ++without_;
     return;
   }
   const MissionTime began = now - latency;
@@ -31,7 +30,6 @@ void BudgetLedger::came(MissionTime now, Duration latency) {
   }
   const Entry& entry = back(i);
   if (!(entry.budget_s > 0.0)) {
-    ++without_;
     return;
   }
   Count& count = counts_[entry.level];

@@ -35,8 +35,6 @@ class BudgetLedger {
 
   [[nodiscard]] const std::vector<Count>& levels() const { return counts_; }
   [[nodiscard]] Count all() const;
-  /// Results of jobs without a budget.
-  [[nodiscard]] std::uint64_t without() const { return without_; }
 
  private:
   struct Entry {
@@ -49,7 +47,6 @@ class BudgetLedger {
   std::size_t next_{};
   std::size_t known_{};
   std::vector<Count> counts_;
-  std::uint64_t without_{};
 };
 
 }  // namespace flyball

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace flyball {
 
@@ -30,21 +29,6 @@ double TimeBudget::budget_s(double speed_m_s, double known_free_m) const {
   }
   // Compared before the division, which at rest would be by zero.
   return share * room_m >= cap_s * speed_m_s ? cap_s : share * room_m / speed_m_s;
-}
-
-double TimeBudget::speed_m_s(double latency_s, double known_free_m) const {
-  if (latency_s > cap_s) {
-    return 0.0;
-  }
-  // share (d - q v^2 - l v - c) = t v, that is q v^2 + (l + t / share) v - (d - c) = 0
-  const double linear = stop.linear_s + latency_s / share;
-  const double room_m = known_free_m - stop.constant_m;
-  if (room_m <= 0.0) {
-    return 0.0;
-  }
-  // The root that does not subtract nearly equal numbers, and holds for a quadratic term of zero.
-  const double root = std::sqrt(linear * linear + 4.0 * stop.quadratic_s2_m * room_m);
-  return 2.0 * room_m / (linear + root);
 }
 
 double rolled_budget_s(const double* local_s, std::size_t count, double step_s) {

@@ -33,8 +33,6 @@ struct TimeBudget {
   /// tracking error.
   /// @pre `speed_m_s >= 0`.
   [[nodiscard]] double budget_s(double speed_m_s, double known_free_m) const;
-  /// The largest speed whose budget is at least `latency_s`; zero when none is.
-  [[nodiscard]] double speed_m_s(double latency_s, double known_free_m) const;
 };
 
 /// RoboRun's algorithm 1: the budget that holds along a trajectory whose way-points are `step_s`

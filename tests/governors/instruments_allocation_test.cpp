@@ -15,7 +15,7 @@ namespace {
 
 TEST(Instruments, allocate_nothing_after_construction) {
   LatencyModels models;
-  models.add("map", {});
+  models.add({});
   LatencyBound bound{3, 4, {}};
   RotorPower rotors;
   const SpeedLimit limit;

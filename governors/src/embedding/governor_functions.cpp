@@ -9,7 +9,6 @@
 #include "sized_structure.h"
 #include <cstddef>
 #include <exception>
-#include <new>
 
 namespace {
 

@@ -10,9 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstring>
-#include <exception>
-#include <type_traits>
 #include <utility>
 
 namespace flyball {
@@ -67,16 +64,6 @@ Error named(const std::string& name, ErrorCode code, const std::string& message)
 }
 
 }  // namespace
-
-class IsolatedPolicy::Process {
- public:
-  explicit Process(std::unique_ptr<ChildProcess> child) : child_{std::move(child)} {}
-  [[nodiscard]] ChildProcess& child() { return *child_; }
-  [[nodiscard]] const PacketSocket& socket() const { return child_->socket(); }
-
- private:
-  std::unique_ptr<ChildProcess> child_;
-};
 
 Result<PolicyDeclaration> declaration_of(const PolicyMaker& make, const IsolationLimits& limits) {
   auto child = ChildProcess::fork(
@@ -149,7 +136,7 @@ Status IsolatedPolicy::start(const Parameters& given,
       return Error{ErrorCode::invalid_input, name_ + ": " + fault.data()};
     }
   }
-  process_ = std::make_unique<Process>(std::move(*child));
+  process_ = std::move(*child);
   return Done{};
 }
 
@@ -164,7 +151,7 @@ Decision IsolatedPolicy::decide(const Observation& seen) noexcept {
   // Who has ended cannot be asked, but what it sent before tells how it ended.
   static_cast<void>(process_->socket().send(question_.get(), sizeof *question_));
   std::string trouble;
-  if (!receive(process_->child(), answer_.get(), limits_.answer, &trouble, question_->number)) {
+  if (!receive(*process_, answer_.get(), limits_.answer, &trouble, question_->number)) {
     trouble_ = name_ + ": " + trouble;
     process_.reset();
     return {};

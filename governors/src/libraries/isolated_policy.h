@@ -13,6 +13,7 @@
 
 namespace flyball {
 
+class ChildProcess;
 struct AnswerPacket;
 struct QuestionPacket;
 
@@ -58,7 +59,6 @@ class IsolatedPolicy final : public Policy, public ChoosesPeriod, public HostsCo
   [[nodiscard]] std::string_view remark() const noexcept override { return remark_; }
 
  private:
-  class Process;
   [[nodiscard]] Decision decision_of(const AnswerPacket& answer) noexcept;
 
   std::string name_;
@@ -67,7 +67,7 @@ class IsolatedPolicy final : public Policy, public ChoosesPeriod, public HostsCo
   IsolationLimits limits_;
   KnobSettings knobs_{};
   std::optional<Duration> period_{};
-  std::unique_ptr<Process> process_;
+  std::unique_ptr<ChildProcess> process_;
   std::unique_ptr<QuestionPacket> question_;
   std::unique_ptr<AnswerPacket> answer_;
   std::string trouble_{};

@@ -82,7 +82,7 @@ inline bool end(std::initializer_list<const Text*> texts) {
 
 /// What is wrong with a packet, as the end of a sentence; nullptr: nothing.
 inline const char* fault_of(const OpeningPacket& packet) {
-  constexpr auto last = static_cast<std::uint32_t>(ErrorCode::failed);
+  constexpr auto last = static_cast<std::uint32_t>(ErrorCode::unavailable);
   return !end({&packet.why})                       ? "sent a text that does not end"
          : packet.ok > 1 || packet.is_confined > 1 ? "sent a yes or no that is neither"
          : packet.code > last                      ? "sent an error that there is not"

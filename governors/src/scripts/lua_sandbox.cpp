@@ -7,7 +7,6 @@
 #include "lua_library.h"
 #include "lua_source.h"
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

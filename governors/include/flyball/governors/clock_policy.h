@@ -6,6 +6,7 @@
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
+#include "flyball/runtime/registry.h"
 
 #include <memory>
 #include <string>
@@ -34,6 +35,7 @@ struct ClockSample {
   double elapsed_s{};  ///< Since the last sample, above 0.
   double load{};       ///< Of the busiest core, 0..1.
   double clock_hz{};   ///< In force; one of the table.
+  const ClockTable& clocks;
 };
 
 /// A rule for the clock alone.
@@ -45,10 +47,10 @@ class ClockRule {
   virtual ~ClockRule() = default;
 
   /// What a preset may set besides the sampling period and the applications' knobs.
-  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
+  [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const { return {}; }
   /// False for a rule that looks at nothing: it has no sampling period.
-  [[nodiscard]] virtual bool samples() const = 0;
-  virtual Status start(const Parameters& given, const ClockTable& clocks) = 0;
+  [[nodiscard]] virtual bool samples() const { return true; }
+  virtual Status start(const Parameters& /*given*/, const ClockTable& /*clocks*/) { return Done{}; }
   /// One of the table's clocks.
   [[nodiscard]] virtual double next_hz(const ClockSample& sample) noexcept = 0;
 };
@@ -79,5 +81,12 @@ class ClockPolicy final : public Policy, public ChoosesPeriod {
   std::optional<MissionTime> last_{};
   double in_force_hz_{};
 };
+
+/// Registers a rule as a policy of this name.
+template <class Rule>
+void add_clock_policy(Registry& registry, const char* name) {
+  registry.add<Policy>(
+      name, [name] { return std::make_unique<ClockPolicy>(name, std::make_unique<Rule>()); });
+}
 
 }  // namespace flyball

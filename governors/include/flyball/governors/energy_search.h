@@ -130,9 +130,8 @@ class EnergySearch {
   /// What the last `choose` expected of each setting; infinite energy where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
   [[nodiscard]] const LatencyBound& bound() const { return bound_; }
-  /// The highest clock that keeps the computer below its first trip point; the highest of all on a
-  /// computer without one.
-  [[nodiscard]] double most_clock_hz() const { return most_clock_hz_; }
+  /// The level nearest to these cells, which somebody else may have set.
+  [[nodiscard]] double nearest_cells_m(double any_m) const { return cells_m()[level(any_m)]; }
   /// Of all levels; the factor is that of the level in force.
   [[nodiscard]] BoundCount bounds() const;
   /// `most_late` holds where no map takes more than four times as long as predicted.

@@ -89,7 +89,4 @@ class FallbackLadder {
   std::optional<MissionTime> hovering_since_{};
 };
 
-/// Every number finite, no duration negative: what a policy can be asked about.
-[[nodiscard]] bool is_believable(const Observation& seen);
-
 }  // namespace flyball

@@ -9,8 +9,6 @@
 #include "flyball/runtime/units.h"
 
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace flyball {
@@ -54,10 +52,8 @@ class LatencyModel {
 
   /// Natural logarithm of the duration in seconds. @pre Every feature is above zero.
   [[nodiscard]] double predict_log_s(const LatencyFeatures& features) const;
-  [[nodiscard]] Duration predict(const LatencyFeatures& features) const;
-  /// @pre `measured > 0`, every feature is above zero.
-  void learn(const LatencyFeatures& features, Duration measured);
-  /// Learns from log seconds with something already taken off (the shared slowdown).
+  /// Learns from log seconds, maybe with something taken off (the slowdown that all share).
+  /// @pre Every feature is above zero.
   void learn_log_s(const LatencyFeatures& features, double log_s);
 
  private:
@@ -80,20 +76,15 @@ class LatencyModels {
   static constexpr double surprise = 0.4;  ///< Chosen: nearly three times the noise of a sample.
   static constexpr int first_samples = 3;  ///< Chosen.
 
-  /// @pre Names differ.
-  void add(std::string name, const LatencyPrior& prior);
+  /// The next kernel; the first one is number 0.
+  void add(const LatencyPrior& prior) { kernels_.push_back({LatencyModel{prior}}); }
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
-  /// `size()` when no kernel has this name.
-  [[nodiscard]] std::size_t index(std::string_view name) const;
   /// @pre `kernel < size()`.
   [[nodiscard]] double predict_s(std::size_t kernel, const LatencyFeatures& features) const;
   void learn(std::size_t kernel, const LatencyFeatures& features, Duration measured);
-  /// 1: as fast as the weights say.
-  [[nodiscard]] double slowdown() const;
 
  private:
   struct Kernel {
-    std::string name;
     LatencyModel model;
     int samples{};
   };

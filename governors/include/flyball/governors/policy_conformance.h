@@ -131,6 +131,7 @@ struct PolicyCandidate {
                          Limits::max(), Limits::lowest(), Limits::denorm_min(), -1.0, 0.0}) {
     Observation seen;
     seen.now = MissionTime{std::chrono::hours{all.size()}};
+    seen.phase = MissionPhase::cruise;  // Before a mission has begun no policy is asked.
     seen.speed_m_s = seen.known_free_m = seen.obstacle_density = seen.nearest_obstacle_m = x;
     seen.distance_to_goal_m = seen.tracking_error_m = seen.map_resolution_m = x;
     seen.busy_cores = seen.busiest_core_load = seen.battery_percent = x;

@@ -94,8 +94,6 @@ class PolicyGovernor final : public Governor {
   [[nodiscard]] PolicyFault fault_in(const Decision& wished) noexcept;
   [[nodiscard]] std::size_t index_of(std::string_view knob) const noexcept;
   [[nodiscard]] Decision made_legal(const Decision& wished, MissionTime now) noexcept;
-  [[nodiscard]] Decision safe_default(MissionTime now) noexcept;
-  [[nodiscard]] Decision table(MissionTime now) noexcept;
   [[nodiscard]] Decision put_all_in_force(MissionTime now,
                                           const std::vector<double>& values) noexcept;
   [[nodiscard]] FallbackLadder::Request requested() const noexcept;

@@ -10,9 +10,7 @@ namespace flyball {
 /// (MICRO 2018) eq. 2. All of it follows from one equation of motion, d = v delta + v^2 / (2 a):
 ///
 ///     v         = a (sqrt(delta^2 + 2 d / a) - delta)       solved for v > 0: eq. 2
-///     delta     = d / v - v / (2 a)                         solved for delta
 ///     dv/ddelta = -v / (delta + v / a)                      differentiated at constant d
-///     dv/dd     = 1 / (delta + v / a)                       differentiated at constant delta
 ///
 /// @pre Everywhere: `deceleration_m_s2 > 0`, `latency_s >= 0`.
 struct SpeedLimit {
@@ -20,15 +18,6 @@ struct SpeedLimit {
 
   /// Zero for no distance.
   [[nodiscard]] double speed_m_s(double latency_s, double distance_m) const;
-  /// The largest latency with which `speed_m_s` is still safe; zero when none is.
-  /// @pre `speed_m_s > 0`.
-  [[nodiscard]] double latency_s(double speed_m_s, double distance_m) const;
-  /// The distance that this speed needs.
-  [[nodiscard]] double distance_m(double speed_m_s, double latency_s) const;
-  /// dv/ddelta [m/s^2], never positive; zero where there is no distance.
-  [[nodiscard]] double speed_per_latency_m_s2(double latency_s, double distance_m) const;
-  /// dv/dd [1/s]. @pre `distance_m > 0`.
-  [[nodiscard]] double speed_per_distance_1_s(double latency_s, double distance_m) const;
 
   /// What one second of latency is worth [W/s]: with J = P(v) / v joules per metre, the power that
   /// may be spent to shorten delta by ddelta without loss is
