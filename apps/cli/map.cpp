@@ -128,8 +128,11 @@ void add_map(CLI::App& program, int& exit_code) {
                                      "writes a map anew: .bt, .ot, or with wider cells", *options);
   refuse_empty(
       *write->add_option("OUT", options->out, "a file that ends in .bt or .ot")->required());
-  write->add_option("--resolution", options->resolution_m, "1, 2, 4 or 8 times the file's")
-      ->type_name("M");
+  CLI::Option* resolution =
+      write->add_option("--resolution", options->resolution_m, "1, 2, 4 or 8 times the file's")
+          ->type_name("M");
+  refuse_empty(*resolution);
+  refuse_nan(*resolution);
   write->callback([options, &exit_code] { exit_code = export_map(*options); });
   add_map_from(*map, exit_code);
 }

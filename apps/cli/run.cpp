@@ -14,11 +14,16 @@
 #include "flight_options.h"
 #include <filesystem>
 #include <memory>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace flyball {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RunOptions {
   FlightOptions flight{};
@@ -131,12 +136,55 @@ Result<std::unique_ptr<OnboardRecord>> open_record(const RunOptions& options,
                                 {"version", version()}}}});
 }
 
-/// A record of a flight that never began is of no use. Leaves a device or a pipe where it is.
-void remove_record(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) {
-    std::filesystem::remove(path, ignored);
+/// Where a record is written: what was there before is back when nothing flies. Leaves a device or
+/// a pipe where it is.
+class RecordPlace {
+ public:
+  explicit RecordPlace(std::string path) : path_{std::move(path)}, before_{path_ + ".before"} {
+    std::error_code failed;
+    if (fs::is_regular_file(path_, failed)) {
+      fs::rename(path_, before_, failed);
+      has_before_ = !failed;
+    }
   }
+  RecordPlace(const RecordPlace&) = delete;
+  RecordPlace& operator=(const RecordPlace&) = delete;
+  ~RecordPlace() {
+    std::error_code ignored;
+    if (!has_flown_ && fs::is_regular_file(path_, ignored)) {
+      fs::remove(path_, ignored);
+    }
+    if (has_before_ && has_flown_) {
+      fs::remove(before_, ignored);
+    } else if (has_before_) {
+      fs::rename(before_, path_, ignored);
+    }
+  }
+  void keep() { has_flown_ = true; }
+
+ private:
+  std::string path_;
+  std::string before_;
+  bool has_before_{};
+  bool has_flown_{};
+};
+
+/// What is written may not be what is read.
+Status keep_inputs(const RunOptions& options, const std::string& folder) {
+  const std::vector<std::string> written{options.mcap, options.timeline, options.final_map,
+                                         (fs::path{folder} / "mission.toml").string()};
+  for (const std::string& input : {options.flight.scenario, options.policy, options.start_map}) {
+    for (const std::string& output : written) {
+      std::error_code ignored;
+      if (!input.empty() && fs::equivalent(input, output, ignored)) {
+        return Error{ErrorCode::invalid_input,
+                     "the flight reads \"" + input +
+                         "\" and would overwrite it; choose another place "
+                         "for what it writes"};
+      }
+    }
+  }
+  return Done{};
 }
 
 /// Ends the record, and says in the summary what is in it.
@@ -169,6 +217,7 @@ int fly_into(const std::string& folder,
              const RunOptions& options,
              const Scenario& scenario,
              RealComputer& computer) {
+  RecordPlace place{options.mcap};
   auto onboard_record = open_record(options, scenario);
   if (!onboard_record) {
     computer.close();
@@ -186,10 +235,11 @@ int fly_into(const std::string& folder,
   Result<MissionRecord> record = fly(scenario, hooks);
   computer.close();
   if (!record) {
-    remove_record(options.mcap);
+    onboard_record->reset();
     remove_empty(made);
     return refuse({record.error()});
   }
+  place.keep();
   const Status recorded = close_record(onboard_record->get(), record->summary);
   const Status written = write_all(options, folder, scenario, *record, timeline);
   for (const Status& one : {written, recorded}) {
@@ -216,6 +266,9 @@ int run(const RunOptions& options) {
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)
                                  : options.flight.out;
+  if (const Status kept = keep_inputs(options, folder); !kept) {
+    return refuse({kept.error()});
+  }
   auto computer = RealComputer::open(options.executor);
   if (!computer) {
     return refuse({computer.error()});

@@ -36,6 +36,21 @@ std::string picture_name(const Picture& picture) {
   return file.stem().string() + (picture.frame > 0 ? number : ".png");
 }
 
+/// Pictures with boxes have the names of those without.
+Status keep_input(const DetectionRun& run) {
+  const fs::path input{run.input};
+  std::error_code ignored;
+  const fs::path folder =
+      fs::is_directory(input, ignored) ? input : fs::absolute(input).parent_path();
+  if (fs::equivalent(folder, run.out, ignored)) {
+    return Error{ErrorCode::invalid_input, "--out \"" + run.out + "\" is where the pictures of \"" +
+                                               run.input +
+                                               "\" are, which would be overwritten; choose another "
+                                               "folder"};
+  }
+  return Done{};
+}
+
 Result<std::string> write_picture(const DetectionRun& run,
                                   Picture picture,
                                   const std::vector<Detection>& people) {
@@ -117,6 +132,9 @@ Status run_detection(const DetectionRun& run,
     return pictures.error();
   }
   if (!run.out.empty()) {
+    if (Status kept = keep_input(run); !kept) {
+      return kept;
+    }
     if (const auto prepared = prepare_folder(run.out); !prepared) {
       return prepared.error();
     }

@@ -227,19 +227,25 @@ Status FlightStore::add(const Scenario& scenario,
   row.bind(std::uint64_t{summary.failure == MissionFailure::collision ? 1U : 0U});
   row.bind(static_cast<std::uint64_t>(summary.replans)).bind(summary.hover_time_s);
   row.bind(summary.mean_speed_m_s).bind(summary.latency_p50_s).bind(to_json(summary));
-  bool written = transaction.began() && row.step() == SQLITE_DONE;
+  if (!transaction.began() || row.step() != SQLITE_DONE) {
+    return connection_->refused("write");
+  }
   for (const auto& [name, kernel] : summary.kernels) {
     Statement of_kernel{database, kernel_insertion};
     of_kernel.bind(scenario, settings).bind(name).bind(kernel.calls);
     of_kernel.bind(kernel.mission_ms_mean).bind(kernel.mission_ms_p95);
-    written = written && of_kernel.step() == SQLITE_DONE;
+    if (of_kernel.step() != SQLITE_DONE) {
+      return connection_->refused("write");
+    }
   }
   for (const auto& [name, value] : summary.quality) {
     Statement of_quality{database, quality_insertion};
     of_quality.bind(scenario, settings).bind(name).bind(value);
-    written = written && of_quality.step() == SQLITE_DONE;
+    if (of_quality.step() != SQLITE_DONE) {
+      return connection_->refused("write");
+    }
   }
-  if (!written || !transaction.commit()) {
+  if (!transaction.commit()) {
     return connection_->refused("write");
   }
   return Done{};

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/computer/real_computer.h"
 #include "cli/console.h"
+#include "cli/flight_options.h"
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -296,14 +297,16 @@ void add_calibrate(CLI::App& program, int& exit_code) {
                    "a platform whose kernels, and whatever is not measured, are taken over")
       ->type_name("PLATFORM")
       ->capture_default_str();
-  command->add_option("--seconds", given->flight_s, "mission time of each of the flights")
-      ->check(CLI::Range(2.0, 600.0))
-      ->capture_default_str();
-  command
-      ->add_option("--heat-seconds", given->heat_s,
-                   "how long all cores are kept busy, and then idle, to measure heat; 0: not")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
+  refuse_nan(
+      *command->add_option("--seconds", given->flight_s, "mission time of each of the flights")
+           ->check(CLI::Range(2.0, 600.0))
+           ->capture_default_str());
+  refuse_nan(
+      *command
+           ->add_option("--heat-seconds", given->heat_s,
+                        "how long all cores are kept busy, and then idle, to measure heat; 0: not")
+           ->check(CLI::Range(0.0, 3600.0))
+           ->capture_default_str());
   command->add_flag("--set-clocks", given->sets_clocks,
                     "measures at every clock that may be set, and restores it");
   command

@@ -46,6 +46,23 @@ TEST_F(LogCommand, refuses_a_place_where_no_record_can_be_made_before_it_flies) 
   expect_refused(short_flight + "--mcap ''", "--mcap");
 }
 
+TEST_F(LogCommand, keeps_the_record_before_when_a_flight_is_refused) {
+  (void)flyball.place.file("a.mcap", "of another flight");
+  expect_refused(short_flight + "--mcap a.mcap --start-map missing.bt", "missing.bt");
+  EXPECT_EQ(flyball.place.content("a.mcap"), "of another flight");
+  EXPECT_EQ(flyball.run(short_flight + "--mcap a.mcap").exit_code, 1);
+  EXPECT_TRUE(McapReader{flyball.place.path("a.mcap")}.faults.empty());
+  EXPECT_FALSE(std::filesystem::exists(flyball.place.path("a.mcap.before")));
+}
+
+TEST_F(LogCommand, does_not_write_over_what_it_reads) {
+  (void)flyball.place.file("mission.toml", "name = \"mine\"\n");
+  expect_refused("run mission.toml --set mission.time_limit_s=2 --out .", "would overwrite it");
+  expect_refused("run mission.toml --set mission.time_limit_s=2 --out run --mcap mission.toml",
+                 "would overwrite it");
+  EXPECT_EQ(flyball.place.content("mission.toml"), "name = \"mine\"\n");
+}
+
 TEST_F(LogCommand, recovers_what_was_closed_of_a_flight_that_was_cut) {
   (void)flyball.run(short_flight + "--mcap a.mcap");
   const McapReader whole{flyball.place.path("a.mcap")};

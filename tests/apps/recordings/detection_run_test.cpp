@@ -75,6 +75,16 @@ TEST_F(Detecting, refuses_a_single_picture_that_cannot_be_read) {
   EXPECT_NE(done.error().message.find("cut.png"), std::string::npos);
 }
 
+TEST_F(Detecting, does_not_write_over_the_pictures_that_it_reads) {
+  run.out = folder.path();
+  const Status done = detect();
+  ASSERT_FALSE(done.ok());
+  EXPECT_NE(done.error().message.find("would be overwritten"), std::string::npos);
+  EXPECT_EQ(folder.content("grey.png"), grey_png());
+  run.input = folder.path();
+  EXPECT_FALSE(detect().ok());
+}
+
 TEST_F(Detecting, stops_when_nobody_wants_more) {
   (void)folder.file("other.png", grey_png());
   run.input = folder.path();
