@@ -12,15 +12,19 @@
 namespace flyball {
 namespace {
 
-bool are_apart(double one, double other) {
-  constexpr double rounding = 1e-3;  // Boards round their clocks to kilohertz.
-  return std::abs(one - other) > rounding * one;
+// Chosen: a clock that is measured wavers by less, and boards whose clocks are 100 MHz apart round
+// 2 GHz down by less; two clocks of a TX2 are 3.8 % apart or more.
+constexpr double tolerance = 0.02;
+
+bool is_below(double granted, double wanted) {
+  return granted < (1.0 - tolerance) * wanted;
 }
 
-bool differs(const std::optional<double>& request, double granted, double cap) {
+/// A board that grants more than was requested (its clock may not be set) is no danger: latency is
+/// learned at the clock that it has.
+bool falls_short(const std::optional<double>& request, double granted, double cap) {
   // Zero: the observation does not tell.
-  return request && granted != 0.0 && are_apart(*request, granted) &&
-         are_apart(std::min(*request, cap), granted);
+  return request && granted != 0.0 && is_below(granted, std::min(*request, cap));
 }
 
 constexpr double no_cap = std::numeric_limits<double>::infinity();
@@ -83,7 +87,7 @@ Fallback FallbackLadder::look(const Observation& seen, const Request& request) {
     return Fallback::table;
   }
   if (mismatched) {
-    why_ = "granted clock or cores are not what was requested";
+    why_ = "clock or cores that were granted are less than what was requested";
     return Fallback::table;
   }
   if (is_late) {
@@ -109,26 +113,26 @@ bool FallbackLadder::has_coverage_alarm(const Observation& seen) {
 bool FallbackLadder::is_mismatched(const Observation& seen, const Request& request) {
   const Grant grant{seen.frequency.value(), static_cast<double>(seen.cores)};
   note_cap(grant, seen.now);
-  const bool differs_now = differs(request.frequency_hz, grant.frequency_hz, cap_.frequency_hz) ||
-                           differs(request.cores, grant.cores, cap_.cores);
+  const bool is_short = falls_short(request.frequency_hz, grant.frequency_hz, cap_.frequency_hz) ||
+                        falls_short(request.cores, grant.cores, cap_.cores);
   const bool is_new =
       request.frequency_hz != last_request_.frequency_hz || request.cores != last_request_.cores;
   last_request_ = request;
-  if (!differs_now) {
+  if (!is_short) {
     mismatched_since_.reset();
   } else if (is_new || !mismatched_since_) {
     mismatched_since_ = mismatched_since_ && is_table_ ? mismatched_since_ : seen.now;
   }
-  is_table_ = differs_now && seen.now - *mismatched_since_ >= settings_.mismatch_patience;
+  is_table_ = is_short && seen.now - *mismatched_since_ >= settings_.mismatch_patience;
   return is_table_;
 }
 
 /// A cap is what the table was given and is believed until more is granted.
 void FallbackLadder::note_cap(const Grant& grant, MissionTime now) {
-  if (grant.frequency_hz > cap_.frequency_hz || grant.cores > cap_.cores) {
+  if (is_below(cap_.frequency_hz, grant.frequency_hz) || is_below(cap_.cores, grant.cores)) {
     cap_ = {no_cap, no_cap};
   }
-  if (!is_table_ || !(grant == under_table_)) {
+  if (!is_table_ || !grant.is_as(under_table_, tolerance)) {
     under_table_ = grant;
     under_table_since_ = now;
   } else if (now - under_table_since_ >= settings_.cap_patience) {

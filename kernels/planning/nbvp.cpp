@@ -252,7 +252,7 @@ class Nbvp final : public flyball::Explorer {
     ExploreStep step;
     branch_ = tree.best_branch();
     step.gain_m3 = tree.best_m3();
-    if (step.gain_m3 >= worthwhile_m3_) {
+    if (!branch_.empty() && step.gain_m3 >= worthwhile_m3_) {
       step.next = branch_.front();
     } else {
       look_far(request, grid, tree.gain(), step);

@@ -203,5 +203,28 @@ TEST(FallbackLadder, can_be_switched_off) {
   EXPECT_EQ(Fallback::none, looking.next());
 }
 
+TEST(FallbackLadder, takes_no_offence_at_a_clock_that_may_not_be_set_or_wavers) {
+  Looking looking;
+  looking.request.frequency_hz = 1.1e9;
+  looking.seen.frequency = Hertz{2e9};  // More than was requested.
+  EXPECT_EQ(tables_of(looking, 40), 0);
+  looking.request.frequency_hz = 2.0352e9;
+  for (int i = 0; i < 40; ++i) {  // The board has steps of 100 MHz, and its clock is measured.
+    looking.seen.frequency = Hertz{2e9 + (i % 3 - 1) * 4e5};
+    EXPECT_EQ(Fallback::none, looking.next());
+  }
+}
+
+TEST(FallbackLadder, believes_in_a_cap_that_wavers) {
+  Looking looking;
+  static_cast<void>(looking.next());
+  int tables = 0;
+  for (int i = 0; i < 40; ++i) {
+    looking.seen.frequency = Hertz{1e9 + (i % 3 - 1) * 2e5};
+    tables += looking.next() == Fallback::table ? 1 : 0;
+  }
+  EXPECT_EQ(tables, 8) << "as for one that stands still";
+}
+
 }  // namespace
 }  // namespace flyball

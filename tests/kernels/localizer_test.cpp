@@ -151,5 +151,18 @@ TEST(Gps, forgets_the_last_flight_at_start) {
   EXPECT_EQ(gps->estimate(without_fix(1.0), work).X_WB.translation(), Vec3::Zero());
 }
 
+TEST(Gps, grows_old_without_fixes_and_begins_anew_with_the_next_one) {
+  const auto gps = make("gps");
+  Work work;
+  (void)gps->estimate(fix_at(1.0, {10, 0, 5}, {2, 0, 0}), work);
+  EXPECT_EQ(gps->estimate(without_fix(1.4), work).stamp, at(1.4));
+  const PoseEstimate old = gps->estimate(without_fix(9.0), work);
+  EXPECT_EQ(old.stamp, at(1.5));
+  EXPECT_LT((old.X_WB.translation() - Vec3{11, 0, 5}).norm(), 0.002);
+  const PoseEstimate fresh = gps->estimate(fix_at(9.1, {30, 0, 5}, {2, 0, 0}), work);
+  EXPECT_EQ(fresh.stamp, at(9.1));
+  EXPECT_LT((fresh.X_WB.translation() - Vec3{30, 0, 5}).norm(), 0.002);
+}
+
 }  // namespace
 }  // namespace flyball

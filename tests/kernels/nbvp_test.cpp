@@ -147,5 +147,14 @@ TEST(Nbvp, says_that_looks_at_cells_can_be_shared) {
   EXPECT_EQ(shared.count("collision_queries"), 0.0);
 }
 
+TEST(Nbvp, goes_nowhere_for_nothing_where_any_gain_is_worthwhile) {
+  const auto explorer = nbvp();
+  const auto chosen = Parameters::resolve("nbvp", explorer->parameters(), {{"worthwhile_m3", 0.0}});
+  ASSERT_TRUE(explorer->configure(std::get<Parameters>(chosen), {}).ok());
+  const kit::GridMap known{{{0, 0, 0}, {12, 6, 3}}, 0.15, CellState::free};
+  EXPECT_FALSE(explorer->explore(kit::request_from({3.0, 3.0, 1.2}, 0.0), known).next);
+  EXPECT_TRUE(explorer->explore(kit::request_from({1.0, 3.0, 1.2}, 0.0), hall()).next);
+}
+
 }  // namespace
 }  // namespace flyball

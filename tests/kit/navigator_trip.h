@@ -83,6 +83,7 @@ struct Trip {
       now += std::chrono::milliseconds{20};
       navigator.set_knobs(now, rig.knobs);
       where.X_WB.translation() = navigator.follower().position_W();
+      where.stamp = now;
       if (i % 5 == 0) {
         publish_map(std::chrono::milliseconds{100});
       }

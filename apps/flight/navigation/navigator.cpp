@@ -8,7 +8,10 @@
 namespace flyball {
 namespace {
 
+using namespace std::chrono_literals;
+
 // Chosen by hand.
+constexpr auto longest_pose_age = 250ms;  // A dozen ticks.
 constexpr double rests_below_m_s = 0.02;  // The speed of PathFollower's standstill.
 constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unknown space.
 
@@ -123,6 +126,31 @@ void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) 
   is_searching_ = false;
 }
 
+/// Where the fallback asks for a hover, the search goes no farther.
+Setpoint Navigator::searched(MissionTime now, const Setpoint& search) {
+  if (!is_searching_ || !knobs_->restraint.must_hover) {
+    search_ = search;
+  }
+  search_.stamp = now;
+  is_searching_ = true;
+  return search_;
+}
+
+/// A pose that is too old would draw the vehicle to where the path was then, and past its end: the
+/// vehicle brakes, and is taken to be where it was told to be.
+PoseEstimate Navigator::believed(MissionTime now, const PoseEstimate& where) {
+  const bool was_blind = std::exchange(is_blind_, now - where.stamp > longest_pose_age);
+  if (is_blind_ != was_blind) {
+    news_.events.emplace_back(is_blind_ ? "no pose for too long: brakes" : "poses come again");
+  }
+  follower_.stop(is_blind_);
+  PoseEstimate here = where;
+  if (is_blind_) {
+    here.X_WB.translation() = follower_.position_W();
+  }
+  return here;
+}
+
 void Navigator::tell_map_use(MissionTime now) {
   if (unused_capture_) {
     news_.map_use = MapUse{map_latency_.budget_use(), to_seconds(now - *unused_capture_)};
@@ -158,16 +186,16 @@ Setpoint Navigator::tick(MissionTime now,
                          const PoseEstimate& where,
                          const std::optional<Setpoint>& search) {
   if (search) {
-    is_searching_ = true;
-    return *search;
+    return searched(now, *search);
   }
-  resume_after_search(now, where);
-  const Vec3 error_W = follower_.position_W() - where.X_WB.translation();
+  const PoseEstimate here = believed(now, where);
+  resume_after_search(now, here);
+  const Vec3 error_W = follower_.position_W() - here.X_WB.translation();
   tracking_error_ = follower_.tracking_error(error_W);
   follower_.look_for_way_to(way_to_look_for());
   follower_.face(back_.is_active() ? std::nullopt : goal_yaw_rad_);
   const PathReference reference = follower_.tick(now, dt, error_W);
-  if (back_.is_active()) {
+  if (back_.is_active() && !is_blind_ && !knobs_->restraint.must_hover) {
     go_back(now, dt, error_W.norm());
   } else if (follower_.has_path()) {
     back_.flew(follower_.position_W());
@@ -184,7 +212,7 @@ Setpoint Navigator::tick(MissionTime now,
     hover.yaw_rad = follower_.yaw_rad();
     return hover;
   }
-  return path_tracker_->track(follower_.path(), reference, where, now);
+  return path_tracker_->track(follower_.path(), reference, here, now);
 }
 
 NavigatorState Navigator::state() const {

@@ -161,7 +161,7 @@ Duration PathFollower::latency_bound() const {
 }
 
 double PathFollower::safe_cruise() const {
-  if (knobs_->restraint.must_hover) {
+  if (must_stop_ || knobs_->restraint.must_hover) {
     return 0.0;
   }
   double safe = 0.0;

@@ -31,8 +31,8 @@ class Localize {
 
   Work operator()(JobContext& job) {
     Work work;
-    while (const auto fix = fixes_ ? job.take(*fixes_) : nullptr) {
-      correct(job, *fix);
+    if (fixes_) {
+      correct(job, *fixes_);
     }
     if (const auto sample = job.latest(vehicle_.navigation)) {
       estimate(job, *sample, work);
@@ -41,13 +41,16 @@ class Localize {
   }
 
  private:
-  void correct(JobContext& job, const VisualFix& fix) {
+  void correct(JobContext& job, Topic<VisualFix> fixes) {
     const bool was_lost = watch_.is_lost();
-    watch_.fixed(job.now(), fix);
+    while (const auto fix = job.take(fixes)) {
+      watch_.fixed(job.now(), *fix);
+      localizer_->correct(*fix);
+    }
+    watch_.waited(job.now());
     if (was_lost != watch_.is_lost()) {
       log_event(job, mission_, was_lost ? "localized again" : "localization lost");
     }
-    localizer_->correct(fix);
     if (watch_.has_given_up(job.now())) {
       end_mission(job, mission_, MissionStatus::failed, MissionFailure::localization_lost);
     }

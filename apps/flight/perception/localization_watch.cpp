@@ -18,6 +18,7 @@ constexpr double back_m = 3.0;          // Flown back along the own track.
 constexpr double back_speed_m_s = 1.0;  // Slower than the flight in which the pose was lost.
 constexpr double back_s = back_m / back_speed_m_s + 1.0;
 constexpr double patience_s = stop_s + 2.0 * look_s + back_s + 2.0;
+constexpr auto longest_silence = 2s;  // Ten frames at the lowest rate that a policy may choose.
 constexpr double trail_step_m = 0.1;
 constexpr std::size_t trail_points = 50;  // 5 m, more than is flown back.
 
@@ -28,10 +29,21 @@ double look_aside(double since_s) {
 
 }  // namespace
 
+void LocalizationWatch::lose(MissionTime now) {
+  lost_since_ = now;
+  ++times_lost_;
+}
+
+void LocalizationWatch::waited(MissionTime now) {
+  if (answered_ && !lost_since_ && now - *answered_ > longest_silence) {
+    lose(now);
+  }
+}
+
 void LocalizationWatch::fixed(MissionTime now, const VisualFix& fix) {
+  answered_ = now;
   if (!fix.tracked && !lost_since_) {
-    lost_since_ = now;
-    ++times_lost_;
+    lose(now);
   } else if (fix.tracked && lost_since_) {
     lost_s_ += to_seconds(now - *lost_since_);
     lost_since_.reset();

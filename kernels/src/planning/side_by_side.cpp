@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/side_by_side.h"
 
+#include "flyball/runtime/realtime/cpus.h"
+
 #include <algorithm>
 #include <atomic>
 #include <future>
@@ -20,7 +22,11 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
   const std::size_t useful = std::min(count, static_cast<std::size_t>(std::max(1, threads)));
   try {
     while (others.size() + 1 < useful) {
-      others.push_back(std::async(std::launch::async, work));
+      others.push_back(std::async(std::launch::async, [&work] {
+        step_back();  // Else, with the priority of the caller, all cores would be taken from
+                      // others.
+        work();
+      }));
     }
   } catch (const std::system_error&) {  // The system has no more; `work` below does the rest.
   }

@@ -111,6 +111,7 @@ struct LinuxBoard::State {
   void set_clock(Hertz wanted);
   void look_after_clock();
   void read_reported_clock();
+  [[nodiscard]] std::optional<Hertz> measured_clock();
   void read_clock();
   void read_power();
   void read_heat();
@@ -185,6 +186,14 @@ void LinuxBoard::State::set_clock(Hertz wanted) {
     }
     note("set " + control.policy().folder + std::to_string(static_cast<int>(code)), sentence);
   }
+  (void)measured_clock();  // The next measurement is a mean from here on, not of the clock before.
+}
+
+std::optional<Hertz> LinuxBoard::State::measured_clock() {
+  if (options.measure_clock) {
+    return options.measure_clock();
+  }
+  return meter ? meter->measure() : std::nullopt;
 }
 
 /// Daemons and heat change limits behind one's back.
@@ -212,8 +221,7 @@ void LinuxBoard::State::read_reported_clock() {
 
 void LinuxBoard::State::read_clock() {
   read_reported_clock();
-  const auto measured = options.measure_clock ? options.measure_clock() : meter->measure();
-  if (measured) {
+  if (const auto measured = measured_clock()) {
     clock.measured = nearest_listed(*measured, clocks);
   }
   if (clock.reported && clock.measured && differ(*clock.measured, *clock.reported)) {

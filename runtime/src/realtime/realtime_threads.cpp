@@ -153,8 +153,9 @@ void RealtimeEngine::work(std::size_t level) {
     }
     const int node = lane.ready.front();
     lane.ready.erase(lane.ready.begin());
-    // This thread runs the job itself, a successor of its last one in particular.
-    if (int wakes = lane.wanted_wakes; wakes > 0) {
+    // This thread runs the job itself, a successor of its last one in particular. Each job that is
+    // left keeps its wake-up: whoever released it may not have got to waking somebody yet.
+    if (int wakes = lane.wanted_wakes; wakes > static_cast<int>(lane.ready.size())) {
       lane.wanted_wakes.compare_exchange_strong(wakes, wakes - 1);
     }
     begin(node);

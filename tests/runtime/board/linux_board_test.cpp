@@ -5,6 +5,7 @@
 #include "fake_kernel.h"
 #include "fake_trees.h"
 #include "killed_session.h"
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -300,6 +301,18 @@ INSTANTIATE_TEST_SUITE_P(Boards,
                                          Planted{"pi5", fake::plant_pi5},
                                          Planted{"x86", fake::plant_x86}),
                          [](const auto& one) { return std::string{one.param.name}; });
+
+// Cycles are counted from one look to the next, so the first look behind a change is about before.
+TEST_F(LinuxBoardTest, does_not_take_the_clock_before_a_change_for_the_one_after_it) {
+  as_tx2();
+  Hertz mean{2035.2e6};
+  options_.measure_clock = [&mean] { return std::optional{std::exchange(mean, Hertz{345.6e6})}; };
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  mean = Hertz{2035.2e6};
+  board.request({4, Hertz{345.6e6}});
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{345.6e6});
+}
 
 }  // namespace
 }  // namespace flyball

@@ -7,6 +7,7 @@
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/observation.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -31,7 +32,7 @@ struct FallbackSettings {
   int late_maps{2};          ///< Of the last `map_window`: alarm.
   int map_window{20};        ///< At most 64.
   double bound_factor{1.5};  ///< While the alarm lasts: until fewer than `late_maps` were late.
-  /// Granted clock or cores differ from what was requested for so long: a switch takes its time.
+  /// Granted clock or cores are less than what was requested for so long: a switch takes its time.
   Duration mismatch_patience{std::chrono::seconds{1}};
   /// The table asks for the most. What is still granted after so long is what there is (a computer
   /// that is too hot): the policy goes on with it.
@@ -64,8 +65,9 @@ class FallbackLadder {
   struct Grant {
     double frequency_hz{};
     double cores{};
-    bool operator==(const Grant& other) const {
-      return frequency_hz == other.frequency_hz && cores == other.cores;
+    [[nodiscard]] bool is_as(const Grant& other, double tolerance) const {
+      return std::abs(frequency_hz - other.frequency_hz) <= tolerance * other.frequency_hz &&
+             cores == other.cores;
     }
   };
   void note_cap(const Grant& grant, MissionTime now);

@@ -225,5 +225,59 @@ TEST(NavigatorFailures, looks_at_what_it_stands_before_and_not_around_the_next_c
   EXPECT_LT(std::abs(trip.navigator.follower().yaw_rad()), 0.4);
 }
 
+/// Lets the vehicle go on, and says how far its reference goes [m].
+double goes_m(Trip& trip, int ticks) {
+  const Vec3 from_W = trip.navigator.follower().position_W();
+  trip.tick(ticks);
+  return (trip.navigator.follower().position_W() - from_W).norm();
+}
+
+TEST(NavigatorFailures, steps_back_no_farther_while_the_fallback_asks_for_a_hover) {
+  Trip trip;
+  fly_to_the_unknown(trip, {Vec3{0, 0, 1.5}, Vec3{40, 0, 1.5}});
+  (void)stands_before_it_steps_back_s(trip);
+  EXPECT_GT(goes_m(trip, 25), 0.05);
+  KnobsInForce hovers = *trip.rig.knobs;
+  hovers.restraint.must_hover = true;
+  const auto before = std::exchange(trip.rig.knobs, std::make_shared<const KnobsInForce>(hovers));
+  EXPECT_LT(goes_m(trip, 50), 0.001);
+  trip.rig.knobs = before;
+  EXPECT_GT(goes_m(trip, 25), 0.05);
+}
+
+TEST(NavigatorFailures, searches_no_farther_while_the_fallback_asks_for_a_hover) {
+  Trip trip;
+  trip.tick(5);
+  Setpoint search;
+  search.p_WB = Vec3{1, 0, 1.5};
+  EXPECT_EQ(trip.navigator.tick(trip.now, 20ms, trip.where, search).p_WB.x(), 1.0);
+  KnobsInForce hovers = *trip.rig.knobs;
+  hovers.restraint.must_hover = true;
+  trip.navigator.set_knobs(trip.now, std::make_shared<const KnobsInForce>(hovers));
+  search.p_WB.x() = 0.5;
+  EXPECT_EQ(trip.navigator.tick(trip.now, 20ms, trip.where, search).p_WB.x(), 1.0);
+  trip.navigator.set_knobs(trip.now, trip.rig.knobs);
+  EXPECT_EQ(trip.navigator.tick(trip.now, 20ms, trip.where, search).p_WB.x(), 0.5);
+}
+
+// The link to the autopilot is silent: its set-points go on, its navigation samples do not.
+TEST(NavigatorFailures, stops_on_its_path_when_no_poses_come) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  ASSERT_GT(trip.navigator.follower().speed_m_s(), 1.0);
+  Setpoint last;
+  for (int i = 0; i < 200; ++i) {
+    trip.now += 20ms;
+    trip.publish_map(100ms);
+    last = trip.navigator.tick(trip.now, 20ms, trip.where);
+  }
+  EXPECT_LT(trip.navigator.follower().speed_m_s(), 1e-3);
+  EXPECT_LT(last.v_WB.norm(), 1e-3) << "an old pose draws it nowhere";
+  trip.tick(100);
+  EXPECT_GT(trip.navigator.follower().speed_m_s(), 0.5) << "poses come again";
+}
+
 }  // namespace
 }  // namespace flyball

@@ -96,5 +96,21 @@ TEST(LocalizationWatch, asks_to_search_while_it_is_lost) {
   EXPECT_NEAR(status.lost_s, 1.0, 1e-9);
 }
 
+TEST(LocalizationWatch, is_lost_when_the_camera_says_nothing_for_two_seconds) {
+  LocalizationWatch watch;
+  watch.waited(at(9.0));
+  EXPECT_FALSE(watch.is_lost()) << "it has not begun";
+  watch.fixed(at(10.0), fix(true));
+  watch.waited(at(11.9));
+  EXPECT_FALSE(watch.is_lost());
+  watch.waited(at(12.1));
+  EXPECT_TRUE(watch.is_lost());
+  watch.waited(at(30.0));
+  EXPECT_FALSE(watch.has_given_up(at(20.0)));
+  EXPECT_TRUE(watch.has_given_up(at(40.0))) << "lost since 12.1 s, not since the last question";
+  watch.fixed(at(41.0), fix(true));
+  EXPECT_FALSE(watch.is_lost());
+}
+
 }  // namespace
 }  // namespace flyball

@@ -32,13 +32,32 @@ TEST(PoseHistory, interpolates_between_two_poses) {
   EXPECT_NEAR(history.at(MissionTime{100ms})->X_WB.translation().x(), 1.0, 1e-12);
 }
 
-TEST(PoseHistory, answers_with_the_nearest_end_outside_of_what_it_keeps) {
+TEST(PoseHistory, answers_nothing_for_a_time_without_poses) {
   PoseHistory history;
   EXPECT_FALSE(history.at(MissionTime{1s}).has_value());
   history.add(pose_at(1s, 1.0));
-  history.add(pose_at(10s, 2.0));  // Forgets the first.
-  EXPECT_NEAR(history.at(MissionTime{1s})->X_WB.translation().x(), 2.0, 1e-12);
-  EXPECT_NEAR(history.at(MissionTime{99s})->X_WB.translation().x(), 2.0, 1e-12);
+  history.add(pose_at(2s, 2.0));
+  history.add(pose_at(2100ms, 3.0));
+  EXPECT_NEAR(history.at(MissionTime{800ms})->X_WB.translation().x(), 1.0, 1e-12);
+  EXPECT_FALSE(history.at(MissionTime{700ms}).has_value());
+  EXPECT_FALSE(history.at(MissionTime{1500ms}).has_value()) << "between two that are far apart";
+  EXPECT_NEAR(history.at(MissionTime{2200ms})->X_WB.translation().x(), 3.0, 1e-12);
+  EXPECT_FALSE(history.at(MissionTime{2400ms}).has_value()) << "nothing came for too long";
+}
+
+TEST(PoseHistory, keeps_three_seconds) {
+  PoseHistory history;
+  history.add(pose_at(1s, 1.0));
+  history.add(pose_at(10s, 2.0));
+  EXPECT_FALSE(history.at(MissionTime{1s}).has_value());
+}
+
+TEST(PoseHistory, begins_anew_when_stamps_go_back) {
+  PoseHistory history;
+  history.add(pose_at(10s, 1.0));
+  history.add(pose_at(2s, 2.0));
+  EXPECT_FALSE(history.at(MissionTime{10s}).has_value());
+  EXPECT_NEAR(history.at(MissionTime{2s})->X_WB.translation().x(), 2.0, 1e-12);
 }
 
 TEST(CameraPose, looks_along_the_heading_and_stays_level) {

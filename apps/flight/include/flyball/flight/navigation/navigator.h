@@ -88,7 +88,9 @@ class Navigator {
   void tell_map_use(MissionTime now);
   [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *newest_.map}; }
   [[nodiscard]] bool is_leg_ending() const;
+  [[nodiscard]] Setpoint searched(MissionTime now, const Setpoint& search);
   void resume_after_search(MissionTime now, const PoseEstimate& where);
+  [[nodiscard]] PoseEstimate believed(MissionTime now, const PoseEstimate& where);
   void trust_own_place();
   void note_stall(MissionTime now);
   void leave_blocked_place();
@@ -139,6 +141,8 @@ class Navigator {
   double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
   bool is_searching_{};  ///< The localizer is lost, and the vehicle looks for a known place.
+  Setpoint search_{};    ///< Its last set-point while it searched.
+  bool is_blind_{};      ///< No pose has come for too long.
   MissionTime not_before_{};
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};

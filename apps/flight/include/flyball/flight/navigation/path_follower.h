@@ -72,6 +72,8 @@ class PathFollower {
 
   /// While the vehicle stands, the camera looks towards this place and to both sides of it; none:
   /// along the path, or as `face` says.
+  /// Brakes and stays where it is, until told otherwise.
+  void stop(bool must) { must_stop_ = must; }
   void look_for_way_to(const std::optional<Vec3>& p_W) { wants_way_to_W_ = p_W; }
 
   /// Measures the known-free distance again, after the path has changed.
@@ -170,6 +172,7 @@ class PathFollower {
   MissionTime newest_capture_{};
   std::optional<Stall> stall_{};
   std::optional<double> face_yaw_rad_{};
+  bool must_stop_{};
   std::optional<Vec3> wants_way_to_W_{};
   double looked_s_{};  ///< For how long it has looked for a way.
   std::deque<std::pair<MissionTime, double>> odometer_{};

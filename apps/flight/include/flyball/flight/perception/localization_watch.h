@@ -18,6 +18,9 @@ class LocalizationWatch {
  public:
   /// The camera localizer has answered for a frame, with a pose or without one.
   void fixed(MissionTime now, const VisualFix& fix);
+  /// Nothing was answered until now: for two seconds without an answer, as after the camera has
+  /// failed, nobody knows either where the vehicle is.
+  void waited(MissionTime now);
   [[nodiscard]] bool is_lost() const { return lost_since_.has_value(); }
   /// Lost for longer than turning and flying back take: the mission gives up.
   [[nodiscard]] bool has_given_up(MissionTime now) const;
@@ -35,10 +38,12 @@ class LocalizationWatch {
   [[nodiscard]] LocalizationStatus status(MissionTime now, double height_W_m);
 
  private:
+  void lose(MissionTime now);
   /// The estimate from so many metres of track ago, or the oldest one that is remembered.
   [[nodiscard]] const PoseEstimate& passed_before(double path_m) const;
 
   std::deque<PoseEstimate> trail_{};  ///< A decimetre apart, newest last.
+  std::optional<MissionTime> answered_{};
   std::optional<MissionTime> lost_since_{};
   std::optional<double> search_height_W_m_{};
   int times_lost_{};

@@ -17,7 +17,7 @@ class PoseHistory {
   void add(const PoseEstimate& pose);
   /// Takes all that the queue holds.
   void take_from(JobContext& job, Topic<PoseEstimate> poses);
-  /// Interpolated pose at a time; outside the kept range the nearest end. Null when there is none.
+  /// Interpolated pose at a time. Null when there is none within a quarter of a second.
   [[nodiscard]] std::optional<PoseEstimate> at(MissionTime t) const;
 
  private:
