@@ -242,17 +242,18 @@ int fly_into(const std::string& folder,
   place.keep();
   const Status recorded = close_record(onboard_record->get(), record->summary);
   const Status written = write_all(options, folder, scenario, *record, timeline);
-  for (const Status& one : {written, recorded}) {
-    if (!one) {
-      return refuse({one.error()});
-    }
-  }
   print(options.flight.json ? to_json(record->summary) + "\n"
                             : result_text(record->summary, folder));
   if (was_interrupted()) {
     note("interrupted; the record ends early: " + folder);
   }
-  return exit_code_of(record->summary);
+  std::vector<Error> lost;
+  for (const Status& one : {written, recorded, record->map_file}) {
+    if (!one) {
+      lost.push_back(one.error());
+    }
+  }
+  return lost.empty() ? exit_code_of(record->summary) : refuse(lost);
 }
 
 int run(const RunOptions& options) {

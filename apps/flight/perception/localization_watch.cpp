@@ -18,7 +18,7 @@ constexpr double back_m = 3.0;          // Flown back along the own track.
 constexpr double back_speed_m_s = 1.0;  // Slower than the flight in which the pose was lost.
 constexpr double back_s = back_m / back_speed_m_s + 1.0;
 constexpr double patience_s = stop_s + 2.0 * look_s + back_s + 2.0;
-constexpr auto longest_silence = 2s;  // Ten frames at the lowest rate that a policy may choose.
+constexpr auto longest_silence = 2s;  // Eight frames at the lowest rate that a policy may choose.
 constexpr double trail_step_m = 0.1;
 constexpr std::size_t trail_points = 50;  // 5 m, more than is flown back.
 

@@ -112,7 +112,7 @@ class LayeredMapper final : public Mapper {
       }
       return Error{
           ErrorCode::invalid_input,
-          "nothing has been mapped" +
+          "map file \"" + path + "\": nothing has been mapped" +
               (resolution_m ? " at " + std::to_string(*resolution_m) + " m" : std::string{})};
     } catch (const std::exception& e) {
       return failure(e);

@@ -55,6 +55,17 @@ TEST_F(LogCommand, keeps_the_record_before_when_a_flight_is_refused) {
   EXPECT_FALSE(std::filesystem::exists(flyball.place.path("a.mcap.before")));
 }
 
+TEST_F(LogCommand, keeps_a_flight_whose_map_cannot_be_written) {
+  expect_refused(short_flight + "--map missing/a.bt", "there is no folder \"missing\"");
+  EXPECT_TRUE(flyball.place.is_empty()) << "nothing has flown";
+  const auto outcome =
+      flyball.run("run scanning_farm --set mission.time_limit_s=4 --out run --map a.bt");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("a.bt\": nothing has been mapped"), std::string::npos);
+  EXPECT_NE(outcome.output.find("time_limit"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(std::filesystem::exists(flyball.place.path("run/summary.json")));
+}
+
 TEST_F(LogCommand, does_not_write_over_what_it_reads) {
   (void)flyball.place.file("mission.toml", "name = \"mine\"\n");
   expect_refused("run mission.toml --set mission.time_limit_s=2 --out .", "would overwrite it");

@@ -20,6 +20,7 @@ struct MissionRecord {
   World world{};
   bool has_goal{true};                 ///< Whether the world's goal was this mission's.
   std::vector<OccupiedCell> map{};     ///< Where a volume was explored: what its map came to.
+  Status map_file{Done{}};             ///< Whether the flight's map was written, if it was to be.
   std::vector<MissionFrame> frames{};  ///< What the workload wants to be seen.
   /// Channels and fields: see apps/records/README.md. `state` has 10 rows a second.
   std::shared_ptr<MemoryRecorder> trace{};  ///< Owners: the record and whoever writes it out.

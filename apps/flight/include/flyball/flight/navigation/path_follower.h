@@ -70,10 +70,10 @@ class PathFollower {
   /// At the path's end, shortly before it, or hovering, the camera turns to this heading.
   void face(std::optional<double> yaw_rad) { face_yaw_rad_ = yaw_rad; }
 
-  /// While the vehicle stands, the camera looks towards this place and to both sides of it; none:
-  /// along the path, or as `face` says.
   /// Brakes and stays where it is, until told otherwise.
   void stop(bool must) { must_stop_ = must; }
+  /// While the vehicle stands, the camera looks towards this place and to both sides of it; none:
+  /// along the path, or as `face` says.
   void look_for_way_to(const std::optional<Vec3>& p_W) { wants_way_to_W_ = p_W; }
 
   /// Measures the known-free distance again, after the path has changed.
