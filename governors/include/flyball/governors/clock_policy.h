@@ -35,6 +35,7 @@ struct ClockSample {
   double elapsed_s{};  ///< Since the last sample, above 0.
   double load{};       ///< Of the busiest core, 0..1.
   double clock_hz{};   ///< In force; one of the table.
+  /// Those that may be chosen.
   const ClockTable& clocks;
 };
 
