@@ -17,7 +17,6 @@
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>

@@ -21,8 +21,6 @@ using flyball::Vec3;
 // Steady-state Kalman gain for 5 cm of white noise on a fix, and 5 cm/s on the velocity held for
 // the .1 s between fixes: q/r = (.005/.05)^2, gain = (-q/r + sqrt((q/r)^2 + 4 q/r)) / 2 = .095.
 constexpr double usual_gain = 0.1;
-// Chosen: five fixes. So far the velocity carries the position without one.
-constexpr auto longest_carried = std::chrono::milliseconds{500};
 
 /// What kernels/modules/geodesy.cpp offers.
 using GeodeticToEnu = bool (*)(const double* place, const double* origin, double* p_W);
@@ -62,38 +60,44 @@ class GpsLocalizer final : public flyball::Localizer {
 
   void start(const flyball::GeodeticOrigin& origin) override {
     origin_ = origin;
-    fixed_ = last_ = std::nullopt;
+    fixed_ = std::nullopt;
     p_WB_ = v_WB_ = Vec3::Zero();
   }
 
   flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
                                  flyball::Work& work) override {
     work.add("samples", 1.0);
-    const auto now = fixed_ ? std::min(sample.stamp, *fixed_ + longest_carried) : sample.stamp;
-    if (last_) {
-      p_WB_ += flyball::to_seconds(now - *last_) * v_WB_;
-    }
+    carry_on(sample.stamp);
     if (const auto fix_W = to_world(convert_, sample, origin_)) {
-      const bool is_carried = last_ && now == sample.stamp;
+      const bool is_carried = fixed_ && carried_to_ == sample.stamp;
       p_WB_ += (is_carried ? position_gain_ : 1.0) * (*fix_W - p_WB_);
       v_WB_ = sample.v_gps_W;
-      fixed_ = last_ = sample.stamp;
-    } else if (last_) {
-      last_ = now;
+      fixed_ = carried_to_ = sample.stamp;
     }
     // Without a fix for too long nobody knows where the vehicle is: the estimate grows old.
-    flyball::PoseEstimate estimate{last_.value_or(sample.stamp), flyball::Pose::Identity(), v_WB_};
+    flyball::PoseEstimate estimate{fixed_ ? carried_to_ : sample.stamp, flyball::Pose::Identity(),
+                                   v_WB_};
     estimate.X_WB.translation() = p_WB_;
     estimate.X_WB.linear() = sample.q_WB_ahrs.normalized().toRotationMatrix();
     return estimate;
   }
 
  private:
+  /// From the newest fix on, as long as a place may be carried on without one.
+  void carry_on(flyball::MissionTime now) {
+    if (fixed_) {
+      const auto longest = flyball::from_seconds(flyball::longest_reckoning_s);
+      const auto until = std::min(now, *fixed_ + longest);
+      p_WB_ += flyball::to_seconds(until - carried_to_) * v_WB_;
+      carried_to_ = until;
+    }
+  }
+
   GeodeticToEnu convert_;
   double position_gain_{usual_gain};
   flyball::GeodeticOrigin origin_{};
   std::optional<flyball::MissionTime> fixed_{};  ///< Stamp of the newest fix.
-  std::optional<flyball::MissionTime> last_{};   ///< Of `p_WB_`; empty until the first fix.
+  flyball::MissionTime carried_to_{};            ///< Of `p_WB_`, from the first fix on.
   Vec3 p_WB_{Vec3::Zero()};
   Vec3 v_WB_{Vec3::Zero()};
 };

@@ -13,8 +13,8 @@
 namespace flyball {
 
 /// One indicator for each result that a budget stood for, as RoboRun's logs count overruns (DAC
-/// 2021): a result of a job that began while there was no budget to keep is told apart, not
-/// counted. Nothing allocates after construction.
+/// 2021): a result of a job that began while there was no budget to keep is not counted.
+/// Nothing allocates after construction.
 class BudgetLedger {
  public:
   struct Count {

@@ -30,7 +30,7 @@ TEST(BudgetLedger, holds_a_result_against_the_budget_of_the_time_when_its_job_be
   EXPECT_EQ(ledger.all().late, 1U);
 }
 
-TEST(BudgetLedger, tells_results_without_a_budget_apart) {
+TEST(BudgetLedger, does_not_count_results_without_a_budget) {
   BudgetLedger ledger{1, 8};
   ledger.came(at(1s), 100ms);
   ledger.set(at(1s), 0, 0.0);
