@@ -20,6 +20,10 @@ bool is_below(double granted, double wanted) {
   return granted < (1.0 - tolerance) * wanted;
 }
 
+bool is_near(double granted, double before) {
+  return std::abs(granted - before) <= tolerance * before;
+}
+
 /// A board that grants more than was requested (its clock may not be set) is no danger: latency is
 /// learned at the clock that it has.
 bool falls_short(const std::optional<double>& request, double granted, double cap) {
@@ -132,7 +136,9 @@ void FallbackLadder::note_cap(const Grant& grant, MissionTime now) {
   if (is_below(cap_.frequency_hz, grant.frequency_hz) || is_below(cap_.cores, grant.cores)) {
     cap_ = {no_cap, no_cap};
   }
-  if (!is_table_ || !grant.is_as(under_table_, tolerance)) {
+  const bool is_as_before =
+      is_near(grant.frequency_hz, under_table_.frequency_hz) && grant.cores == under_table_.cores;
+  if (!is_table_ || !is_as_before) {
     under_table_ = grant;
     under_table_since_ = now;
   } else if (now - under_table_since_ >= settings_.cap_patience) {

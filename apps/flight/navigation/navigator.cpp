@@ -2,16 +2,14 @@
 #include "flyball/flight/navigation/navigator.h"
 
 #include "flyball/flight/perception/counted_map.h"
+#include "flyball/flight/perception/pose_history.h"
 
 #include <utility>
 
 namespace flyball {
 namespace {
 
-using namespace std::chrono_literals;
-
 // Chosen by hand.
-constexpr auto longest_pose_age = 250ms;  // A dozen ticks.
 constexpr double rests_below_m_s = 0.02;  // The speed of PathFollower's standstill.
 constexpr double moves_above_m_s = 0.2;   // Faster than the creeping before unknown space.
 

@@ -9,8 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_gap = 250ms;  // Chosen: the fastest turn is 22 degrees in it.
-constexpr auto pose_memory = 3s;     // Chosen: a frame waits less for its mapping to begin.
+constexpr auto pose_memory = 3s;  // Chosen: a frame waits less for its mapping to begin.
 
 }  // namespace
 
@@ -41,14 +40,15 @@ std::optional<PoseEstimate> PoseHistory::at(MissionTime t) const {
       poses_.begin(), poses_.end(), t,
       [](const PoseEstimate& pose, MissionTime time) { return pose.stamp < time; });
   if (after == poses_.end()) {
-    return t - poses_.back().stamp <= longest_gap ? std::optional{poses_.back()} : std::nullopt;
+    return t - poses_.back().stamp <= longest_pose_age ? std::optional{poses_.back()}
+                                                       : std::nullopt;
   }
   if (after == poses_.begin() || after->stamp == t) {
-    return after->stamp - t <= longest_gap ? std::optional{*after} : std::nullopt;
+    return after->stamp - t <= longest_pose_age ? std::optional{*after} : std::nullopt;
   }
   const PoseEstimate& a = *(after - 1);
   const PoseEstimate& b = *after;
-  if (b.stamp - a.stamp > longest_gap) {
+  if (b.stamp - a.stamp > longest_pose_age) {
     return std::nullopt;
   }
   const double u = ratio(t - a.stamp, b.stamp - a.stamp);

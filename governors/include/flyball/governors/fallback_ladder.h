@@ -7,7 +7,6 @@
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/observation.h"
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -65,10 +64,6 @@ class FallbackLadder {
   struct Grant {
     double frequency_hz{};
     double cores{};
-    [[nodiscard]] bool is_as(const Grant& other, double tolerance) const {
-      return std::abs(frequency_hz - other.frequency_hz) <= tolerance * other.frequency_hz &&
-             cores == other.cores;
-    }
   };
   void note_cap(const Grant& grant, MissionTime now);
   [[nodiscard]] bool has_coverage_alarm(const Observation& seen);
