@@ -2,6 +2,7 @@
 
 #include "flyball/kernels/localizer.h"
 #include "flyball/recordings/localization_run.h"
+#include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 
 #include "commands.h"
@@ -81,8 +82,8 @@ int localize(const LocalizeOptions& options) {
     return refuse({recording.error()});
   }
   if (!options.out.empty()) {  // Checked first, because a wrong folder would waste the work.
-    if (const Status written = write_tum_trajectory(options.out, {}); !written) {
-      return refuse({written.error()});
+    if (const Status place = check_place(options.out); !place) {
+      return refuse({place.error()});
     }
   }
   catch_interrupt();

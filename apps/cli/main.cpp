@@ -20,6 +20,12 @@ std::string nearest_help(const CLI::App& program) {
   return command + " --help";
 }
 
+/// The parser would answer `flyball nosuch --help` with its own help, as if all was well.
+bool names_unknown_command(const CLI::App& program, const std::string& word) {
+  const auto is_meant = [&word](const CLI::App* command) { return command->check_name(word); };
+  return !word.empty() && word.front() != '-' && program.get_subcommands(is_meant).empty();
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App program{
       "Flies simulated missions of micro aerial vehicles and compares governor policies."};
@@ -49,6 +55,10 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_localize(program, exit_code);
   flyball::add_version(program, exit_code);
   program.footer("`flyball SUBCOMMAND --help` explains the options of one sub-command.");
+  if (argc > 1 && names_unknown_command(program, argv[1])) {
+    flyball::note(std::string{"flyball: no sub-command \""} + argv[1] + "\"; try: flyball --help");
+    return flyball::exit_bad_input;
+  }
   try {
     program.parse(argc, argv);
     if (program.get_subcommands().empty()) {

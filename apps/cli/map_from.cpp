@@ -6,6 +6,7 @@
 #include "flyball/kernels/localizer.h"
 #include "flyball/recordings/localization_run.h"
 #include "flyball/recordings/recorded_map.h"
+#include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 
 #include "commands.h"
@@ -17,7 +18,6 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -41,11 +41,8 @@ Status check(const MapFromOptions& options) {
     return Error{ErrorCode::invalid_input,
                  "--out \"" + options.out + "\" must end in .bt or .ot, as OctoMap's files do"};
   }
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path{"."};
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed) || access(folder.c_str(), W_OK) != 0) {
-    return Error{ErrorCode::invalid_input,
-                 "--out: no folder \"" + folder.string() + "\" that can be written; make it first"};
+  if (Status place = check_place(options.out); !place) {
+    return place;
   }
   if (!options.poses.empty() && !options.localizer.empty()) {
     return Error{ErrorCode::invalid_input,

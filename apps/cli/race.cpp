@@ -3,11 +3,59 @@
 #include "race.h"
 
 #include "flyball/records/report.h"
+#include "flyball/scenario/knobs.h"
+#include "flyball/scenario/policy_choice.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace flyball {
+
+namespace {
+
+/// Those that were not there before: they go again unless they are kept.
+class NewFiles {
+ public:
+  explicit NewFiles(std::vector<std::string> folders) : folders_{std::move(folders)} {}
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+  ~NewFiles() {
+    std::error_code ignored;
+    for (const std::string& path : paths_) {
+      std::filesystem::remove(path, ignored);
+    }
+    remove_empty(folders_);  // None, where files are kept.
+  }
+  void add(const std::string& path) {
+    if (!std::filesystem::exists(path)) {
+      paths_.push_back(path);
+    }
+  }
+  void keep() { paths_.clear(); }
+
+ private:
+  std::vector<std::string> folders_;
+  std::vector<std::string> paths_{};
+};
+
+/// As the flight itself would refuse it, before anything flies.
+Status check_policy(const Scenario& scenario) {
+  const auto platform = find_platform(scenario.platform.name);
+  if (!platform) {
+    return platform.error();
+  }
+  auto knobs = standard_knobs(scenario);
+  if (!knobs) {
+    return knobs.error();
+  }
+  const auto policy =
+      start_policy(scenario, KnobSettings{std::move(*knobs)}, board_model_of(*platform));
+  return policy ? Status{Done{}} : policy.error();
+}
+
+}  // namespace
 
 /// One candidate with one seed.
 struct Race::Heat : StoredFlight {
@@ -19,41 +67,56 @@ Race::Race(RaceSettings settings, FlightStore& store)
 
 /// Under a name that says its parameters: the same candidate has the same file.
 std::string Race::preset_file(const Candidate& candidate) const {
-  std::string name = settings_.policy;
-  for (const auto& [parameter, value] : candidate.parameters) {
-    std::string number = std::to_string(value);
-    std::replace(number.begin(), number.end(), '.', '_');
-    name += "-" + parameter + "-" + number;
-  }
+  std::string name = settings_.policy + " " + parameters_text(candidate);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '='; }, '-');
+  std::replace(name.begin(), name.end(), '.', '_');
   return settings_.presets + "/" + name + ".toml";
 }
 
 Status Race::write_preset(const Candidate& candidate) const {
-  const auto prepared = prepare_folder(settings_.presets);
-  if (!prepared) {
-    return prepared.error();
-  }
   return write_file(preset_file(candidate),
                     preset_text(settings_.policy, "A candidate of a race", candidate));
 }
 
 std::variant<std::vector<Race::Heat>, std::vector<Error>> Race::plan(
     const std::vector<Candidate*>& candidates, std::size_t seeds) const {
+  auto made = prepare_folder(settings_.presets);
+  if (!made) {
+    return std::vector{made.error()};
+  }
+  NewFiles presets{std::move(*made)};
   std::vector<Heat> heats;
   for (Candidate* candidate : candidates) {
+    presets.add(preset_file(*candidate));
     if (const Status written = write_preset(*candidate); !written) {
       return std::vector{written.error()};
     }
-    const std::string file = preset_file(*candidate);
-    for (std::size_t k = candidate->flights.size(); k < seeds; ++k) {
-      auto planned = plan_flight(settings_.flight, file, settings_.seeds[k], settings_.flights);
-      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-        return std::move(*errors);
-      }
-      heats.push_back({{std::move(std::get<PlannedFlight>(planned)), "", std::nullopt}, candidate});
+    if (std::vector<Error> errors = add_heats(*candidate, seeds, heats); !errors.empty()) {
+      return errors;
     }
   }
+  presets.keep();
   return heats;
+}
+
+std::vector<Error> Race::add_heats(Candidate& candidate,
+                                   std::size_t seeds,
+                                   std::vector<Heat>& heats) const {
+  const std::string file = preset_file(candidate);
+  const std::size_t first = candidate.flights.size();
+  for (std::size_t k = first; k < seeds; ++k) {
+    auto planned = plan_flight(settings_.flight, file, settings_.seeds[k], settings_.flights);
+    if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      return std::move(*errors);
+    }
+    auto& flight = std::get<PlannedFlight>(planned);
+    if (const Status checked = k == first ? check_policy(flight.scenario) : Done{}; !checked) {
+      return {checked.error()};
+    }
+    heats.push_back({{std::move(flight), "", std::nullopt}, &candidate});
+  }
+  return {};
 }
 
 std::optional<int> Race::fly(const std::vector<Candidate*>& candidates, std::size_t seeds) {
@@ -61,6 +124,7 @@ std::optional<int> Race::fly(const std::vector<Candidate*>& candidates, std::siz
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
+  has_begun_ = true;
   auto& heats = std::get<std::vector<Heat>>(planned);
   const Flown flown = fly_stored(settings_.batch, store_, pointers_to(heats));
   if (const std::optional<int> code = unfinished(flown)) {

@@ -41,6 +41,8 @@ class Race {
   /// @return As `fly`.
   [[nodiscard]] std::optional<int> halve(std::vector<Candidate>& candidates, RaceOrder is_better);
 
+  /// Whether anything was to fly: no settings were refused.
+  [[nodiscard]] bool has_begun() const { return has_begun_; }
   /// With which it flies as a policy.
   [[nodiscard]] std::string preset_file(const Candidate& candidate) const;
   [[nodiscard]] const RaceSettings& settings() const { return settings_; }
@@ -48,11 +50,17 @@ class Race {
  private:
   struct Heat;
   [[nodiscard]] Status write_preset(const Candidate& candidate) const;
+  /// On errors no preset is left that was not there before.
   [[nodiscard]] std::variant<std::vector<Heat>, std::vector<Error>> plan(
       const std::vector<Candidate*>& candidates, std::size_t seeds) const;
+  /// Of the seeds that the candidate has not flown.
+  [[nodiscard]] std::vector<Error> add_heats(Candidate& candidate,
+                                             std::size_t seeds,
+                                             std::vector<Heat>& heats) const;
 
   RaceSettings settings_;
   FlightStore& store_;
+  bool has_begun_{};
 };
 
 }  // namespace flyball

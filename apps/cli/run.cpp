@@ -5,6 +5,7 @@
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/scenario/override.h"
+#include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
 
 #include "cli/computer/real_computer.h"
@@ -208,7 +209,7 @@ Status write_all(const RunOptions& options,
   if (Status written = write_run(folder, scenario, record); !written) {
     return written;
   }
-  return options.timeline.empty() ? Done{} : timeline.write(options.timeline);
+  return options.timeline.empty() ? Done{} : write_file(options.timeline, timeline.bytes());
 }
 
 /// @param made  Folders that are of no use when nothing flies.
@@ -270,7 +271,16 @@ int run(const RunOptions& options) {
   if (const Status kept = keep_inputs(options, folder); !kept) {
     return refuse({kept.error()});
   }
-  auto computer = RealComputer::open(options.executor);
+  if (!options.timeline.empty()) {
+    if (const Status place = check_place(options.timeline); !place) {
+      return refuse({place.error()});
+    }
+  }
+  const auto platform = find_platform(scenario.platform.name);
+  if (!platform) {
+    return refuse({platform.error()});
+  }
+  auto computer = RealComputer::open(options.executor, *platform);
   if (!computer) {
     return refuse({computer.error()});
   }

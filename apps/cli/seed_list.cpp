@@ -21,23 +21,24 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return whole ? std::optional{value} : std::nullopt;
 }
 
-Error wrong(const std::string& text, const std::string& why) {
+Error wrong(const std::string& option, const std::string& text, const std::string& why) {
   return {ErrorCode::invalid_input,
-          "--seeds " + text + " " + why + "; give for example 1..10 or 3 or 1,4,9"};
+          option + " " + text + " " + why + "; give for example 1..10 or 3 or 1,4,9"};
 }
 
 }  // namespace
 
-Result<std::vector<std::uint64_t>> read_seeds(const std::string& text) {
+Result<std::vector<std::uint64_t>> read_seeds(const std::string& text, const std::string& option) {
   std::vector<std::uint64_t> seeds;
   if (const std::size_t dots = text.find(".."); dots != std::string::npos) {
     const auto first = number(std::string_view{text}.substr(0, dots));
     const auto last = number(std::string_view{text}.substr(dots + 2));
     if (!first || !last) {
-      return wrong(text, "is no range of whole numbers");
+      return wrong(option, text, "is no range of whole numbers up to 2^63 - 1");
     }
     if (*first > *last || *last - *first >= most_seeds) {
-      return wrong(text, *first > *last ? "ends before it begins" : "is more than 100000 seeds");
+      return wrong(option, text,
+                   *first > *last ? "ends before it begins" : "is more than 100000 seeds");
     }
     for (std::uint64_t seed = *first; seed <= *last; ++seed) {
       seeds.push_back(seed);
@@ -48,7 +49,7 @@ Result<std::vector<std::uint64_t>> read_seeds(const std::string& text) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
     const auto seed = number(std::string_view{text}.substr(at, comma - at));
     if (!seed) {
-      return wrong(text, "is no list of whole numbers");
+      return wrong(option, text, "is no list of whole numbers up to 2^63 - 1");
     }
     seeds.push_back(*seed);
     at = comma + 1;

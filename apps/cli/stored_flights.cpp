@@ -52,10 +52,12 @@ std::string time_left(double elapsed_s, std::size_t done, std::size_t all) {
 }
 
 std::vector<StoredFlight*> missing_of(const FlightStore& store,
-                                      const std::vector<StoredFlight*>& flights) {
+                                      const std::vector<StoredFlight*>& flights,
+                                      bool with_records) {
   std::vector<StoredFlight*> missing;
   for (StoredFlight* flight : flights) {
-    if (!flight->summary) {
+    const bool may_be_known = !with_records || finished_run(flight->folder, flight->scenario);
+    if (!flight->summary && may_be_known) {
       flight->summary = store.find(flight->scenario, flight->settings);
     }
     if (!flight->summary) {
@@ -68,7 +70,7 @@ std::vector<StoredFlight*> missing_of(const FlightStore& store,
 Flown fly_stored(const StoredBatch& batch,
                  FlightStore& store,
                  const std::vector<StoredFlight*>& flights) {
-  const std::vector<StoredFlight*> missing = missing_of(store, flights);
+  const std::vector<StoredFlight*> missing = missing_of(store, flights, batch.keeps_records);
   const std::size_t known = flights.size() - missing.size();
   if (known > 0 && batch.shows_progress) {
     note(std::to_string(known) + " of " + std::to_string(flights.size()) +

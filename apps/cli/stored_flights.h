@@ -44,8 +44,10 @@ struct StoredBatch {
                                const std::vector<StoredFlight*>& flights);
 
 /// Those that the store does not know; the others get their summaries.
+/// @param with_records  Known is then only a flight whose whole record stands in its folder.
 [[nodiscard]] std::vector<StoredFlight*> missing_of(const FlightStore& store,
-                                                    const std::vector<StoredFlight*>& flights);
+                                                    const std::vector<StoredFlight*>& flights,
+                                                    bool with_records);
 
 /// `4 min 10 s left`, when so many of all have taken so long.
 [[nodiscard]] std::string time_left(double elapsed_s, std::size_t done, std::size_t all);

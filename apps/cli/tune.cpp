@@ -87,27 +87,30 @@ std::optional<Error> find_shared_seed(const std::vector<std::uint64_t>& training
 
 int tune(const TuneOptions& options) {
   const auto seeds = read_seeds(options.seeds);
-  const auto test_seeds = read_seeds(options.test_seeds);
+  const auto test_seeds = read_seeds(options.test_seeds, "--test-seeds");
   if (!seeds || !test_seeds) {
     return refuse({seeds ? test_seeds.error() : seeds.error()});
   }
   if (const auto shared = find_shared_seed(*seeds, *test_seeds)) {
     return refuse({*shared});
   }
-  std::vector<TriedParameter> tried;
-  for (const std::string& text : options.tried) {
-    auto parameter = read_tried(text);
-    if (!parameter) {
-      return refuse({parameter.error()});
+  const auto tried = read_all_tried(options.tried);
+  if (!tried) {
+    return refuse({tried.error()});
+  }
+  if (!options.preset.empty()) {
+    if (const Status place = check_place(options.preset); !place) {
+      return refuse({place.error()});
     }
-    tried.push_back(std::move(*parameter));
   }
   const std::string folder = out_folder(options);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {
     return refuse({claimed.error()});
   }
-  auto store = FlightStore::open(folder + "/tune.db");
+  const std::string store_file = folder + "/tune.db";
+  const bool is_new = !std::filesystem::exists(store_file);
+  auto store = FlightStore::open(store_file);
   if (!store) {
     return refuse({store.error()});
   }
@@ -118,8 +121,13 @@ int tune(const TuneOptions& options) {
              folder,
              {folder, options.jobs}},
             *store};
-  std::vector<Candidate> candidates = combinations(tried);
+  std::vector<Candidate> candidates = combinations(*tried);
   const std::optional<int> code = race.halve(candidates, is_better);
+  if (code && is_new && !race.has_begun()) {  // Nothing to go on with.
+    std::error_code ignored;
+    std::filesystem::remove(store_file, ignored);
+    remove_empty(claimed->made());
+  }
   return code ? *code : show(options, race, candidates);
 }
 

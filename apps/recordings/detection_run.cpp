@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,16 @@ std::string picture_name(const Picture& picture) {
   return file.stem().string() + (picture.frame > 0 ? number : ".png");
 }
 
+/// Its name among those that are written already: a folder may hold `a.jpg` beside `a.png`.
+std::string free_name(const Picture& picture, std::set<std::string>& written) {
+  std::string name = picture_name(picture);
+  const fs::path file{name};
+  for (int number = 2; !written.insert(name).second; ++number) {
+    name = file.stem().string() + "_" + std::to_string(number) + ".png";
+  }
+  return name;
+}
+
 /// Pictures with boxes have the names of those without.
 Status keep_input(const DetectionRun& run) {
   const fs::path input{run.input};
@@ -53,7 +64,8 @@ Status keep_input(const DetectionRun& run) {
 
 Result<std::string> write_picture(const DetectionRun& run,
                                   Picture picture,
-                                  const std::vector<Detection>& people) {
+                                  const std::vector<Detection>& people,
+                                  std::set<std::string>& written_names) {
   for (const Detection& person : people) {
     draw_box(picture.image, person.box, box_colour);
   }
@@ -61,12 +73,15 @@ Result<std::string> write_picture(const DetectionRun& run,
   if (!content) {
     return content.error();
   }
-  const std::string path = (fs::path{run.out} / picture_name(picture)).string();
+  const std::string path = (fs::path{run.out} / free_name(picture, written_names)).string();
   const Status written = write_file(path, *content);
   return written ? Result<std::string>{path} : written.error();
 }
 
-Result<DetectedFrame> look(const DetectionRun& run, Detector& detector, Picture picture) {
+Result<DetectedFrame> look(const DetectionRun& run,
+                           Detector& detector,
+                           Picture picture,
+                           std::set<std::string>& written_names) {
   DetectedFrame frame{picture.file, picture.frame, {}, {}, 0.0, {}, std::move(picture.trouble)};
   if (!frame.trouble.empty()) {
     return frame;
@@ -80,7 +95,7 @@ Result<DetectedFrame> look(const DetectionRun& run, Detector& detector, Picture 
   frame.host_ms = took.count();
   frame.people = std::move(*people);
   if (!run.out.empty()) {
-    auto written = write_picture(run, std::move(picture), frame.people);
+    auto written = write_picture(run, std::move(picture), frame.people, written_names);
     if (!written) {
       return written.error();
     }
@@ -95,6 +110,7 @@ Status look_at_all(const DetectionRun& run,
                    const std::function<bool(const DetectedFrame&)>& report) {
   std::error_code failed;
   const bool is_folder = fs::is_directory(run.input, failed);
+  std::set<std::string> written_names;
   while (true) {
     auto picture = pictures.next();
     if (!picture) {
@@ -106,7 +122,7 @@ Status look_at_all(const DetectionRun& run,
     if ((*picture)->frame % run.every != 0) {
       continue;
     }
-    const auto frame = look(run, detector, std::move(**picture));
+    const auto frame = look(run, detector, std::move(**picture), written_names);
     if (!frame) {
       return frame.error();
     }

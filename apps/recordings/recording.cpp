@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/recordings/recording.h"
 
+#include "flyball/records/report.h"
+
 #include "recordings/recording_images.h"
 #include "recordings/recording_imu.h"
 #include "recordings/recording_text.h"
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace flyball {
@@ -172,8 +173,7 @@ Result<Recording> read_recording(const std::string& folder, const RecordingSetti
 }
 
 Status write_tum_trajectory(const std::string& file, const std::vector<TimedPose>& poses) {
-  std::ofstream out{file};
-  out << "# timestamp tx ty tz qx qy qz qw\n";
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
   for (const TimedPose& pose : poses) {
     const Vec3 p = pose.X_WB.translation();
     const Eigen::Quaterniond q{pose.X_WB.linear()};
@@ -183,14 +183,9 @@ Status write_tum_trajectory(const std::string& file, const std::vector<TimedPose
                   static_cast<long long>(ns / 1'000'000'000),
                   static_cast<long long>(ns % 1'000'000'000), p.x(), p.y(), p.z(), q.x(), q.y(),
                   q.z(), q.w());
-    out << line;
+    text += line;
   }
-  out.close();
-  if (!out) {
-    return Error{ErrorCode::failed,
-                 "cannot write \"" + file + "\"; choose another place with --out"};
-  }
-  return Done{};
+  return write_file(file, text);
 }
 
 }  // namespace flyball

@@ -34,7 +34,7 @@ std::string content_of(const std::string& path) {
 
 Error cannot_write(const std::string& path, const std::string& why) {
   return {ErrorCode::unavailable,
-          "cannot write \"" + path + "\": " + why + "; choose another place with --out"};
+          "cannot write \"" + path + "\": " + why + "; choose another place"};
 }
 
 /// Of the files that the scenario names: their numbers are part of the mission.
@@ -176,8 +176,11 @@ Result<std::vector<std::string>> prepare_folder(const std::string& folder) {
   constexpr int most_attempts = 1000;
   for (int attempt = 1;; ++attempt) {
     auto made = try_to_prepare(folder);
-    if (made || attempt == most_attempts) {
+    if (made) {
       return made;
+    }
+    if (attempt == most_attempts) {
+      return Error{made.error().code, made.error().message + " with --out"};
     }
   }
 }
@@ -187,6 +190,18 @@ void remove_empty(const std::vector<std::string>& folders) {
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
     fs::remove(*folder, ignored);
   }
+}
+
+Status check_place(const std::string& path) {
+  const fs::path folder = fs::path{path}.has_parent_path() ? fs::path{path}.parent_path() : ".";
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed)) {
+    return cannot_write(path, "there is no folder \"" + folder.string() + "\"");
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    return cannot_write(path, "folder \"" + folder.string() + "\" refuses it");
+  }
+  return Done{};
 }
 
 Status write_file(const std::string& path, const std::string& content) {

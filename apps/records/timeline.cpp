@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <set>
 #include <string_view>
 
@@ -153,18 +152,6 @@ std::string Timeline::bytes() const {
     all += track.packets;
   }
   return all + clock_packets_;
-}
-
-Status Timeline::write(const std::string& path) const {
-  std::ofstream file{path, std::ios::binary | std::ios::trunc};
-  const std::string all = bytes();
-  file.write(all.data(), static_cast<std::streamsize>(all.size()));
-  file.close();
-  if (!file) {
-    return Error{ErrorCode::failed,
-                 "the timeline cannot be written to \"" + path + "\"; is the folder there?"};
-  }
-  return Done{};
 }
 
 }  // namespace flyball

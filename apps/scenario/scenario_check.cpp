@@ -7,7 +7,7 @@
 #include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_keys.h"
@@ -73,11 +73,10 @@ std::string clocks_of(const PlatformModel& platform) {
 }
 
 std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
-  const Result<std::string> file = find_shipped("platforms", scenario.platform.name);
-  if (!file) {
+  if (!find_shipped("platforms", scenario.platform.name)) {
     return {};  // Named as unknown elsewhere.
   }
-  const Result<PlatformModel> platform = load_platform(*file);
+  const Result<PlatformModel> platform = find_platform(scenario.platform.name);
   if (!platform) {
     return {platform.error()};
   }

@@ -2,26 +2,20 @@
 // tested-in: mission
 #include "simulation/mission_checks.h"
 
+#include "flyball/records/report.h"
+
 #include <filesystem>
 
 namespace flyball {
 
 Status check_map_name(const std::string& path) {
-  namespace fs = std::filesystem;
-  const std::string ending = fs::path{path}.extension().string();
+  const std::string ending = std::filesystem::path{path}.extension().string();
   if (!path.empty() && ending != ".bt" && ending != ".ot") {
     return Error{ErrorCode::invalid_input, "map file \"" + path +
                                                "\" must end in .bt (free or occupied) or .ot "
                                                "(log-odds)"};
   }
-  const fs::path folder = fs::path{path}.parent_path();
-  std::error_code ignored;
-  if (!folder.empty() && !fs::is_directory(folder, ignored)) {
-    return Error{ErrorCode::invalid_input, "map file \"" + path + "\": there is no folder \"" +
-                                               folder.string() +
-                                               "\"; make it, or choose another place"};
-  }
-  return Done{};
+  return path.empty() ? Status{Done{}} : check_place(path);
 }
 
 Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {

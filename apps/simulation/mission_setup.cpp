@@ -4,7 +4,7 @@
 #include "flyball/flight/workload.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/policy_choice.h"
-#include "flyball/sim/platform_file.h"
+#include "flyball/scenario/shipped_platform.h"
 #include "flyball/sim/worlds.h"
 
 #include "scenario/kernel_choice.h"
@@ -43,11 +43,7 @@ Result<Airframe> make_airframe(const Scenario& scenario) {
 }
 
 Result<std::unique_ptr<ModeledPlatform>> make_platform(const Scenario& scenario) {
-  const auto file = find_shipped("platforms", scenario.platform.name);
-  if (!file) {
-    return file.error();
-  }
-  auto model = load_platform(*file);
+  auto model = find_platform(scenario.platform.name);
   if (!model) {
     return model.error();
   }

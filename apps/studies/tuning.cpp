@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -49,7 +50,7 @@ Result<TriedParameter> read_tried(const std::string& text) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
     double value = 0.0;
     const auto [end, failed] = std::from_chars(text.data() + at, text.data() + comma, value);
-    if (failed != std::errc{} || end != text.data() + comma) {
+    if (failed != std::errc{} || end != text.data() + comma || !std::isfinite(value)) {
       return wrong(text, "has a value that is no number");
     }
     tried.values.push_back(value);
@@ -60,6 +61,22 @@ Result<TriedParameter> read_tried(const std::string& text) {
     return wrong(text, "has a value twice");
   }
   return tried;
+}
+
+Result<std::vector<TriedParameter>> read_all_tried(const std::vector<std::string>& texts) {
+  std::vector<TriedParameter> all;
+  std::set<std::string> names;
+  for (const std::string& text : texts) {
+    auto tried = read_tried(text);
+    if (!tried) {
+      return tried.error();
+    }
+    if (!names.insert(tried->name).second) {
+      return wrong(text, "names a parameter that another --try has; give all its values in one");
+    }
+    all.push_back(std::move(*tried));
+  }
+  return all;
 }
 
 int Candidate::failures() const {

@@ -64,8 +64,8 @@ class GpsLocalizer final : public flyball::Localizer {
     p_WB_ = v_WB_ = Vec3::Zero();
   }
 
-  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
-                                 flyball::Work& work) override {
+  std::optional<flyball::PoseEstimate> estimate(const flyball::NavigationSample& sample,
+                                                flyball::Work& work) override {
     work.add("samples", 1.0);
     carry_on(sample.stamp);
     if (const auto fix_W = to_world(convert_, sample, origin_)) {
@@ -74,9 +74,11 @@ class GpsLocalizer final : public flyball::Localizer {
       v_WB_ = sample.v_gps_W;
       fixed_ = carried_to_ = sample.stamp;
     }
+    if (!fixed_) {
+      return std::nullopt;
+    }
     // Without a fix for too long nobody knows where the vehicle is: the estimate grows old.
-    flyball::PoseEstimate estimate{fixed_ ? carried_to_ : sample.stamp, flyball::Pose::Identity(),
-                                   v_WB_};
+    flyball::PoseEstimate estimate{carried_to_, flyball::Pose::Identity(), v_WB_};
     estimate.X_WB.translation() = p_WB_;
     estimate.X_WB.linear() = sample.q_WB_ahrs.normalized().toRotationMatrix();
     return estimate;

@@ -5,16 +5,21 @@
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/registry.h"
 
+#include <optional>
+
 namespace {
 
 class Truth final : public flyball::Localizer {
  public:
-  void start(const flyball::GeodeticOrigin& /*origin*/) override {}
+  void start(const flyball::GeodeticOrigin& /*origin*/) override { truth_ = std::nullopt; }
 
-  flyball::PoseEstimate estimate(const flyball::NavigationSample& sample,
-                                 flyball::Work& work) override {
+  std::optional<flyball::PoseEstimate> estimate(const flyball::NavigationSample& sample,
+                                                flyball::Work& work) override {
     work.add("samples", 1.0);
-    return {sample.stamp, truth_.X_WB, truth_.v_WB};
+    if (!truth_) {
+      return std::nullopt;
+    }
+    return flyball::PoseEstimate{sample.stamp, truth_->X_WB, truth_->v_WB};
   }
 
   [[nodiscard]] flyball::LocalizerInputs inputs() const override {
@@ -25,7 +30,7 @@ class Truth final : public flyball::Localizer {
   void reveal(const flyball::TruePose& pose) override { truth_ = pose; }
 
  private:
-  flyball::TruePose truth_{};
+  std::optional<flyball::TruePose> truth_{};
 };
 
 }  // namespace

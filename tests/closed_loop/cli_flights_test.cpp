@@ -3,6 +3,7 @@
 #include "flyball_program.h"
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <thread>
 
 #include <fcntl.h>
@@ -248,6 +249,21 @@ TEST(CliFlights, a_tournament_flies_a_policy_without_each_of_its_parts) {
   EXPECT_EQ(told["parts"][0]["pairs"], 1);
   EXPECT_NE(flyball.place.content("t/tournament.html").find("What each part earns"),
             std::string::npos);
+}
+
+TEST(CliFlights, tuning_leaves_nothing_where_it_refuses) {
+  const FlyballProgram flyball;
+  const std::string tune = "tune " + short_world(flyball, "near") + " --seeds 1001 --out t ";
+  for (const auto& [given, said] : std::map<std::string, std::string>{
+           {"--try range_m=7,1e9", "range_m"},
+           {"--try nothing=7", "nothing"},
+           {"--try range_m=7 --try range_m=15", "another --try has"},
+           {"--try range_m=7 --preset missing/p.toml", "there is no folder \"missing\""}}) {
+    const auto refused = flyball.run(tune + given);
+    EXPECT_EQ(refused.exit_code, 2) << given;
+    EXPECT_NE(refused.errors.find(said), std::string::npos) << refused.errors;
+    EXPECT_FALSE(fs::exists(flyball.place.path("t"))) << given;
+  }
 }
 
 TEST(CliFlights, tuning_writes_the_setting_that_took_the_least_energy) {

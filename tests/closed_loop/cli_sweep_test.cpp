@@ -39,6 +39,14 @@ TEST(CliSweep, flies_every_combination_and_goes_on_where_it_was_stopped) {
     EXPECT_TRUE(fs::exists(flyball.place.path(file))) << file;
   }
   EXPECT_FALSE(fs::exists(flyball.place.path("s/flights"))) << "records go when they are counted";
+
+  const auto kept = flyball.run(line + "--seeds 1 --keep-records");
+  ASSERT_EQ(kept.exit_code, 0) << kept.errors;
+  std::size_t records = 0;
+  for (const auto& entry : fs::recursive_directory_iterator{flyball.place.path("s/flights")}) {
+    records += entry.path().filename() == "trace.jsonl" ? 1 : 0;
+  }
+  EXPECT_EQ(records, 4U) << "known flights whose records are gone fly again";
 }
 
 /// What stands between `before` and `after`.

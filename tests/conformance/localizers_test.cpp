@@ -26,10 +26,14 @@ class LocalizerCulprit final : public Localizer {
   }
   void reveal(const TruePose& pose) override { honest_->reveal(pose); }
 
-  PoseEstimate estimate(const NavigationSample& sample, Work& work) override {
+  std::optional<PoseEstimate> estimate(const NavigationSample& sample, Work& work) override {
     Work honest;
-    PoseEstimate estimate = honest_->estimate(sample, honest);
+    const auto found = honest_->estimate(sample, honest);
     work.add("samples", crime_ == "idle" ? 0.0 : 1.0);
+    if (crime_ == "silent" || (!found && crime_ != "invents")) {
+      return std::nullopt;
+    }
+    PoseEstimate estimate = found.value_or(PoseEstimate{sample.stamp});
     off_m_ += crime_ == "drifts"      ? 0.01
               : crime_ == "remembers" ? 1e-6
               : crime_ == "leaks"     ? 1e-9 * all_missions_++
@@ -76,6 +80,8 @@ TEST(LocalizerConformance, finds_each_kind_of_breach) {
        {"drifts", "is off by more than .3 m"},
        {"leaks", "estimates differently in a second mission"},
        {"poisoned", "is poisoned by a fix that is not finite"},
+       {"silent", "estimates no pose although it was told where it is"},
+       {"invents", "estimates a pose before anything told it one"},
        {"timeless", "does not stamp its estimate"},
        {"twisted", "estimates a pose that is none"},
        {"turned", "is wrong about the attitude"},

@@ -167,10 +167,10 @@ TEST(VisualSlam, begins_a_young_map_anew_where_the_vehicle_is_reckoned_to_be) {
   const auto localizer = make();
   Clock clock;
   Work work;
-  PoseEstimate reckoned = localizer->estimate(felt_at(0.0, 400.0), work);
+  PoseEstimate reckoned = localizer->estimate(felt_at(0.0, 400.0), work).value();
   ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
   for (int i = 1; i <= 300; ++i) {
-    reckoned = localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work);
+    reckoned = localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work).value();
   }
   clock.frames = 30;
   Pose X_WC = kit::circle_pose(20.0);  // It sees nothing that it knows.

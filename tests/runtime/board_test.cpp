@@ -31,5 +31,13 @@ TEST(BoardModel, of_a_platform_that_never_gets_too_hot_has_no_heat) {
   EXPECT_FALSE(board_model_of({}).thermal);
 }
 
+TEST(BoardModel, knows_which_clocks_of_others_it_lacks) {
+  BoardModel board;
+  const std::vector<Hertz> wanted{Hertz{0.6e9}, Hertz{1.02e9}, Hertz{2.0e9}};
+  EXPECT_TRUE(clocks_missing_on(board, wanted).empty()) << "nothing is known";
+  board.frequencies = {Hertz{0.6e9}, Hertz{1.0e9}, Hertz{1.5e9}};
+  EXPECT_EQ(clocks_missing_on(board, wanted), (std::vector<Hertz>{Hertz{2.0e9}}));
+}
+
 }  // namespace
 }  // namespace flyball

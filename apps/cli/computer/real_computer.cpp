@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/computer/real_computer.h"
 
+#include "flyball/records/text_table.h"
 #include "flyball/scenario/files.h"
 #include "flyball/simulation/realtime_flight.h"
 
@@ -61,7 +62,8 @@ void add_executor(CLI::App& command, ExecutorOptions& options) {
                    "restores it");
 }
 
-Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& options) {
+Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& options,
+                                                         const PlatformModel& expected) {
   const bool is_modeled = options.executor == "virtual";
   if (is_modeled && (options.fifo_priority > 0 || options.sets_clocks)) {
     return Error{ErrorCode::invalid_input,
@@ -70,14 +72,14 @@ Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& 
   }
   std::unique_ptr<RealComputer> computer{new RealComputer{options}};
   if (options.sets_clocks) {
-    if (const Status opened = computer->open_board(); !opened) {
+    if (const Status opened = computer->open_board(expected); !opened) {
       return opened.error();
     }
   }
   return computer;
 }
 
-Status RealComputer::open_board() {
+Status RealComputer::open_board(const PlatformModel& expected) {
   system_ = linux_system();
   auto file = choose_board({}, discover_board(*system_).model);
   if (!file) {
@@ -85,11 +87,18 @@ Status RealComputer::open_board() {
   }
   LinuxBoardOptions options;
   options.file = std::move(*file);
+  options.power_prior = expected.power;
   auto opened = LinuxBoard::open(*system_, options);
   if (!opened) {
     return opened.error();
   }
   board_ = std::move(*opened);
+  const std::vector<Hertz> missing = clocks_missing_on(board_->model(), expected.frequencies);
+  if (!missing.empty()) {
+    note("platform \"" + expected.name + "\" has " + std::to_string(missing.size()) +
+         " clocks that this computer lacks, such as " + rounded(missing.back().value() * 1e-9, 2) +
+         " GHz; try: flyball calibrate");
+  }
   shared_board_ = std::make_unique<RealtimeBoard>(*board_);
   return Done{};
 }

@@ -40,7 +40,10 @@ class RealComputer {
   /// Before other threads start. For a modeled computer it does nothing.
   /// @error `invalid_input`: an option that a modeled computer has no use for; those of
   ///        `LinuxBoard::open`.
-  static Result<std::unique_ptr<RealComputer>> open(const ExecutorOptions& options);
+  /// @param expected  What the policy is told of the computer: says on standard error where this
+  ///                  one has other clocks, and estimates the power where it has no meter.
+  static Result<std::unique_ptr<RealComputer>> open(const ExecutorOptions& options,
+                                                    const PlatformModel& expected);
 
   /// Makes the mission fly on it; outlives the flight.
   void equip(MissionHooks& hooks);
@@ -49,7 +52,7 @@ class RealComputer {
 
  private:
   explicit RealComputer(ExecutorOptions options) : options_{std::move(options)} {}
-  Status open_board();
+  Status open_board(const PlatformModel& expected);
 
   ExecutorOptions options_;
   std::unique_ptr<LinuxSystem> system_{};

@@ -170,8 +170,9 @@ Result<std::string> start_array(const FlightArray& flights,
 }
 
 std::vector<std::size_t> numbers_missing(const FlightStore& store,
-                                         const std::vector<StoredFlight*>& flights) {
-  (void)missing_of(store, flights);
+                                         const std::vector<StoredFlight*>& flights,
+                                         bool with_records) {
+  (void)missing_of(store, flights, with_records);
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < flights.size(); ++i) {
     if (!flights[i]->summary) {
@@ -202,7 +203,7 @@ std::optional<int> fly_on_slurm(const FlightArray& array,
     if (const auto code = await_and_collect(meeting, store)) {
       return code;
     }
-    const std::vector<std::size_t> missing = numbers_missing(store, flights);
+    const std::vector<std::size_t> missing = numbers_missing(store, flights, array.keeps_records);
     if (missing.empty()) {
       return std::nullopt;
     }

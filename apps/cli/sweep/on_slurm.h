@@ -21,6 +21,7 @@ struct FlightArray {
   std::string folder{};                ///< All nodes share it.
   std::vector<std::string> command{};  ///< Of one task, up to its part: `2/8`.
   std::size_t processors{};
+  bool keeps_records{};
 };
 
 /// Flies what the store does not know, array after array, as long as each brings something. Where a

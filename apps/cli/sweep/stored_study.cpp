@@ -52,7 +52,8 @@ std::optional<int> fly_study(const Study& study, const StudyOptions& options) {
     return refuse({store.error()});
   }
   if (processors > 0) {
-    return fly_on_slurm({folder, study.slurm_task, processors}, *store, study.flights);
+    return fly_on_slurm({folder, study.slurm_task, processors, study.batch.keeps_records}, *store,
+                        study.flights);
   }
   return unfinished(fly_stored(study.batch, *store, study.flights));
 }

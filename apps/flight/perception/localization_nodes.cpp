@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace flyball {
@@ -63,15 +64,31 @@ class Localize {
     if (const auto truth = vehicle_.true_pose ? job.latest(*vehicle_.true_pose) : nullptr) {
       localizer_->reveal(*truth);
     }
-    const PoseEstimate pose = localizer_->estimate(sample, work);
+    const auto pose = localizer_->estimate(sample, work);
+    tell_of_first(job, pose.has_value());
+    if (!pose) {
+      return;  // Without a pose no mission takes off, and nothing is mapped.
+    }
     if (!watch_.is_lost()) {
-      watch_.passed(pose);
+      watch_.passed(*pose);
     }
     if (fixes_) {
-      job.publish(topics_.status, watch_.status(job.now(), pose.X_WB.translation().z()));
+      job.publish(topics_.status, watch_.status(job.now(), pose->X_WB.translation().z()));
     }
-    job.publish(topics_.pose, pose);
-    job.publish(topics_.poses, pose);
+    job.publish(topics_.pose, *pose);
+    job.publish(topics_.poses, *pose);
+  }
+
+  /// Who waits for a vehicle that does not take off wants to know what it waits for.
+  void tell_of_first(JobContext& job, bool is_known) {
+    if (is_known_ != is_known) {
+      if (!is_known) {
+        log_event(job, mission_, "waiting for a first position");
+      } else if (is_known_) {
+        log_event(job, mission_, "position known");
+      }
+      is_known_ = is_known;
+    }
   }
 
   VehicleTopics vehicle_;
@@ -80,6 +97,7 @@ class Localize {
   Fixes fixes_;
   std::shared_ptr<Localizer> localizer_;  ///< See MissionKernels.
   LocalizationWatch watch_{};
+  std::optional<bool> is_known_{};  ///< Whether the newest estimate was a pose.
 };
 
 void add_localize(Graph& graph,
@@ -101,8 +119,8 @@ void add_localize(Graph& graph,
   } else {
     spec.reads.push_back(fixes->index);
     spec.writes.insert(spec.writes.end(), {topics.status.index, parts.mission.end.index});
-    declare_log(spec, parts.mission);
   }
+  declare_log(spec, parts.mission);
   auto localize = std::make_shared<Localize>(parts, topics, fixes);  // Owner: this node alone.
   graph.node(std::move(spec), [localize](JobContext& job) { return (*localize)(job); });
 }

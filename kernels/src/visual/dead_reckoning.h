@@ -47,7 +47,7 @@ class DeadReckoning {
 class SeeingLocalizer : public Localizer {
  public:
   void correct(const VisualFix& fix) final { reckoning_.correct(fix); }
-  PoseEstimate estimate(const NavigationSample& sample, Work& work) final {
+  std::optional<PoseEstimate> estimate(const NavigationSample& sample, Work& work) final {
     work.add("samples", 1.0);
     return reckoning_.estimate(sample);
   }

@@ -2,11 +2,13 @@
 #include "flyball/runtime/text/toml_text.h"
 
 #include <algorithm>
+#include <string>
 
 namespace flyball {
 namespace {
 
 constexpr std::string_view blanks = " \t";
+constexpr int most_parts = 16;
 constexpr std::string_view marks_of_value = "\"'[{";  // Those that begin one which is not bare.
 
 bool is_digit(char c) {
@@ -73,6 +75,7 @@ class TomlScan {
       what_ = "letters outside of ASCII must stand in quotes";
       return;
     }
+    count_part(next);
     if (next == '[' || next == '{') {
       open_ += next;
     } else if (next == '}' && !open_.empty() && open_.back() == '[') {
@@ -86,6 +89,16 @@ class TomlScan {
       expects_value_ = next == '=' || next == '[' || (next == ',' && is_in_list);
     }
     ++at_;
+  }
+
+  /// Each part of a name is a table in a table, and whoever walks through them does so by
+  /// recursion.
+  void count_part(char next) {
+    if (next == '.' && ++points_ == most_parts) {
+      what_ = "a name has more than " + std::to_string(most_parts) + " parts";
+    } else if (next != '.' && !is_key_character(next) && blanks.find(next) == blanks.npos) {
+      points_ = 0;
+    }
   }
 
   /// A number, a date, a time, `true`, `inf`. toml++ reads on to the next blank or bracket,
@@ -211,6 +224,7 @@ class TomlScan {
   std::size_t at_{};
   std::string open_{};    ///< The brackets of lists and of tables in a line that are not closed.
   bool expects_value_{};  ///< Behind `=`, or in a list behind `[` or a comma.
+  int points_{};          ///< In the name so far.
   std::string what_{};
 };
 

@@ -216,6 +216,15 @@ TEST_F(Cli, lists_its_commands_when_it_is_given_none) {
   }
 }
 
+TEST_F(Cli, knows_no_command_of_another_name) {
+  for (const char* words : {"nosuch", "nosuch --help", "nosuch delivery_forest"}) {
+    const FlyballProgram::Outcome outcome = flyball.run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_EQ(outcome.output, "") << words;
+    EXPECT_EQ(outcome.errors, "flyball: no sub-command \"nosuch\"; try: flyball --help\n") << words;
+  }
+}
+
 TEST_F(Cli, says_when_its_output_cannot_be_written) {
   for (const char* command :
        {"", "--help", "run --help", "version", "list scenarios", "list workloads", "list kernels",

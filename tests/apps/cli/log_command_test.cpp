@@ -44,6 +44,8 @@ TEST_F(LogCommand, refuses_a_place_where_no_record_can_be_made_before_it_flies) 
   expect_refused(short_flight + "--mcap missing/a.mcap", "missing/a.mcap\" cannot be made");
   EXPECT_TRUE(flyball.place.is_empty());
   expect_refused(short_flight + "--mcap ''", "--mcap");
+  expect_refused(short_flight + "--timeline missing/a.pftrace", "there is no folder \"missing\"");
+  EXPECT_TRUE(flyball.place.is_empty());
 }
 
 TEST_F(LogCommand, keeps_the_record_before_when_a_flight_is_refused) {

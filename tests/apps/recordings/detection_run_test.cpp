@@ -5,6 +5,7 @@
 
 #include "scratch_folder.h"
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -66,6 +67,23 @@ TEST_F(Detecting, of_a_folder_goes_on_after_a_picture_that_cannot_be_read) {
   EXPECT_NE(unreadable.find("a.jpg\" cannot be read"), std::string::npos) << unreadable;
   EXPECT_NE(unreadable.find("cut.png\" cannot be read"), std::string::npos) << unreadable;
   EXPECT_FALSE(std::filesystem::exists(folder.path("out/cut.png")));
+}
+
+TEST_F(Detecting, gives_pictures_of_one_stem_different_names) {
+  run.input = folder.path("all");
+  std::filesystem::create_directory(run.input);
+  for (const char* name : {"all/a.jpg", "all/a.png", "all/a_2.png"}) {
+    (void)folder.file(name, grey_png());
+  }
+  run.out = folder.path("out");
+  ASSERT_TRUE(detect().ok());
+  std::set<std::string> written;
+  for (const DetectedFrame& frame : frames) {
+    written.insert(frame.picture);
+  }
+  EXPECT_EQ(written.size(), 3U);
+  EXPECT_FALSE(folder.content("out/a.png").empty());
+  EXPECT_FALSE(folder.content("out/a_2.png").empty());
 }
 
 TEST_F(Detecting, refuses_a_single_picture_that_cannot_be_read) {

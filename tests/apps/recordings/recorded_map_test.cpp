@@ -231,7 +231,8 @@ TEST(MapFrom, refuses_bad_input_in_one_sentence_and_leaves_no_file) {
   const std::string folder = flight().place.path();
   refused("nowhere --out a.bt", "no folder \"nowhere\"");
   refused(folder + " --out a.pcd", "must end in .bt or .ot");
-  refused(folder + " --out nowhere/a.bt", "no folder \"nowhere\" that can be written");
+  refused(folder + " --out nowhere/a.bt",
+          "cannot write \"nowhere/a.bt\": there is no folder \"nowhere\"");
   refused(folder + " --out a.bt --mapper voxels", "no mapper \"voxels\"; there are: flyball, oct");
   refused(folder + " --out a.bt --resolution 0", "--resolution");
   refused(folder + " --out a.bt --range nan", "--range");

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/records/timeline.h"
 
-#include "scratch_folder.h"
 #include <chrono>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -180,18 +177,6 @@ TEST_F(TimelineTest, shows_cores_late_and_killed_jobs_and_the_clock) {
   ASSERT_EQ(shown.counter.size(), 2U);
   EXPECT_EQ(shown.counter[0], (std::pair<std::uint64_t, double>{12, 2.0}));
   EXPECT_EQ(shown.counter[1], (std::pair<std::uint64_t, double>{70, 0.345e9 * 1e-9}));
-}
-
-TEST_F(TimelineTest, is_written_whole_or_refused_in_a_sentence) {
-  timeline.note(job(0, 10, 12, 15));
-  const ScratchFolder folder;
-  const std::string path = folder.path() + "/jobs.pftrace";
-  ASSERT_TRUE(timeline.write(path));
-  std::ifstream file{path, std::ios::binary};
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>{file}, {}), timeline.bytes());
-  const Status refused = timeline.write(folder.path() + "/missing/jobs.pftrace");
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("missing/jobs.pftrace"), std::string::npos);
 }
 
 }  // namespace

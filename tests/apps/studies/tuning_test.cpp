@@ -31,11 +31,22 @@ TEST(Tuning, reads_what_to_try) {
   ASSERT_TRUE(tried);
   EXPECT_EQ(tried->name, "range_m");
   EXPECT_EQ(tried->values, (std::vector<double>{7.0, 15.5, 25.0}));
-  for (const char* text : {"range_m", "=7", "range_m=", "range_m=7,", "range_m=7,x", "a=1,2,1"}) {
+  for (const char* text :
+       {"range_m", "=7", "range_m=", "range_m=7,", "range_m=7,x", "a=1,2,1", "a=nan", "a=1,inf"}) {
     const auto refused = read_tried(text);
     ASSERT_FALSE(refused) << text;
     EXPECT_NE(refused.error().message.find(text), std::string::npos);
   }
+}
+
+TEST(Tuning, refuses_a_parameter_that_comes_twice) {
+  const auto both = read_all_tried({"a=1,2", "b=3"});
+  ASSERT_TRUE(both);
+  EXPECT_EQ((*both)[1].name, "b");
+  const auto twice = read_all_tried({"a=1,2", "b=3", "a=4"});
+  ASSERT_FALSE(twice);
+  EXPECT_NE(twice.error().message.find("--try a=4 names a parameter that another --try has"),
+            std::string::npos);
 }
 
 TEST(Tuning, tries_every_combination) {

@@ -91,6 +91,18 @@ TEST(TomlText, finds_lists_that_end_as_tables_do) {
   EXPECT_EQ(0, line_of_fault("a = {b = [{c = 1}, {}]}"));
 }
 
+TEST(TomlText, finds_names_of_too_many_parts) {
+  std::string parts;
+  for (int i = 0; i < 15; ++i) {
+    parts += i % 2 == 0 ? "a . " : "'b'.";
+  }
+  EXPECT_EQ(0, line_of_fault(parts + "a = 1.5\n" + parts + "b = 2.5"));
+  EXPECT_EQ(0, line_of_fault("[" + parts + "a]\nb = {" + parts + "c = 1, " + parts + "d = 2}"));
+  EXPECT_EQ(1, line_of_fault(parts + "b.a = 1"));
+  EXPECT_EQ(2, line_of_fault("\n[[" + parts + "b.a]]"));
+  EXPECT_EQ(1, line_of_fault("a = {" + parts + "b.a = 1}"));
+}
+
 TEST(TomlText, finds_tables_whose_name_begins_with_no_letter) {
   using namespace std::string_view_literals;
   for (const auto text : {"[\0]"sv, "[=]"sv, "[.a]"sv, "[[ .a]]"sv, "a = [1]\n [\n"sv, "[[["sv,

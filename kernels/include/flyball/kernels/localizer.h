@@ -11,6 +11,8 @@
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/work.h"
 
+#include <optional>
+
 namespace flyball {
 
 /// Where W's origin lies on the earth.
@@ -44,8 +46,10 @@ class Localizer : public Kernel {
  public:
   /// Once it is configured: where W lies. What was estimated before is forgotten.
   virtual void start(const GeodeticOrigin& origin) = 0;
-  /// Samples arrive in order of their stamps. Adds `samples` to `work`.
-  [[nodiscard]] virtual PoseEstimate estimate(const NavigationSample& sample, Work& work) = 0;
+  /// Samples arrive in order of their stamps. Adds `samples` to `work`. Empty as long as nothing
+  /// has told where the vehicle is, as before the first fix of a satellite receiver.
+  [[nodiscard]] virtual std::optional<PoseEstimate> estimate(const NavigationSample& sample,
+                                                             Work& work) = 0;
 
   [[nodiscard]] virtual LocalizerInputs inputs() const { return {}; }
   /// Where the vehicle stands; to be said before the first frame, and it stands still until then.

@@ -46,6 +46,11 @@ struct BoardModel {
 /// flight.
 [[nodiscard]] BoardModel board_model_of(const PlatformModel& platform);
 
+/// Those of `wanted` of which the board has none within 2 %: it would run at another clock than
+/// whoever asked for them expects. Empty where its clocks are not known.
+[[nodiscard]] std::vector<Hertz> clocks_missing_on(const BoardModel& board,
+                                                   const std::vector<Hertz>& wanted);
+
 /// Power of parts of the computer; 0 where the board has no meter for that part alone.
 struct RailPower {
   Watts cpu{};

@@ -8,6 +8,7 @@
 #include "mission_rig.h"
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -123,6 +124,44 @@ TEST(Map, tells_its_mapper_what_is_clear_and_what_is_in_doubt) {
   EXPECT_EQ(mapper->clear_W, std::vector<Vec3>{here_W});
   EXPECT_EQ(mapper->doubted_W, std::vector<Vec3>{there_W});
   EXPECT_EQ(mapper->doubted_m, std::vector<double>{12.0});
+}
+
+TEST(Localize, publishes_no_pose_before_anything_tells_where_the_vehicle_is) {
+  const kit::GridMap map = kit::corridor(10.0);
+  kit::MissionRig rig{map};
+  rig.kernels.localizer = rig.scenario.plugins.make<Localizer>("truth");
+  Graph graph{"localization"};
+  VehicleExtras extras;
+  extras.true_pose = true;
+  const FlightParts parts = rig.parts(graph, extras);
+  const LocalizationTopics topics = add_localization(graph, parts);
+  MemoryRecorder trace;
+  add_record(graph, parts.mission, trace);
+  EventQueue queue;
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+  std::vector<PoseEstimate> poses;
+  executor.subscribe<PoseEstimate>(topics.pose,
+                                   [&](const PoseEstimate& pose) { poses.push_back(pose); });
+  const auto sample_at = [&](Duration t) {
+    NavigationSample sample;
+    sample.stamp = MissionTime{t};
+    executor.publish(parts.vehicle.navigation, sample);
+    queue.run([&] { return queue.now() >= MissionTime{t}; });
+  };
+  sample_at(1s);
+  sample_at(2s);
+  EXPECT_TRUE(poses.empty());
+  TruePose truth;
+  truth.X_WB.translation() = Vec3{1, 2, 3};
+  executor.publish(*parts.vehicle.true_pose, truth);
+  sample_at(3s);
+  ASSERT_EQ(poses.size(), 1U);
+  EXPECT_EQ(poses.front().X_WB.translation(), (Vec3{1, 2, 3}));
+  std::vector<std::string> events;
+  for (const MemoryRecorder::Row& row : trace.rows()) {
+    events.push_back(std::get<std::string>(row.fields.front().value));
+  }
+  EXPECT_EQ(events, (std::vector<std::string>{"waiting for a first position", "position known"}));
 }
 
 }  // namespace

@@ -20,6 +20,10 @@ Result<std::vector<std::string>> prepare_folder(const std::string& folder);
 /// Undoes `prepare_folder`, except for folders that hold something by now.
 void remove_empty(const std::vector<std::string>& folders);
 
+/// Whether `write_file` would find a folder to write to: ask before flying.
+/// @error `unavailable`.
+Status check_place(const std::string& path);
+
 /// Writes a file under a temporary name and renames it: it appears whole or not at all.
 /// @error `unavailable`; an older file of this name is untouched.
 Status write_file(const std::string& path, const std::string& content);

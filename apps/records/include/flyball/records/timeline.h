@@ -5,7 +5,6 @@
 /// When each job ran, for a person who wants to see it: a trace for Perfetto (ui.perfetto.dev).
 
 #include "flyball/runtime/executor.h"
-#include "flyball/runtime/result.h"
 
 #include <map>
 #include <string>
@@ -27,8 +26,6 @@ class Timeline {
   void begin(const Graph& graph);
   /// Jobs in the order of their ends: for `Executor::on_job`. @pre `begin` was called.
   void note(const JobRecord& job);
-  /// @error `failed`: the file cannot be written.
-  [[nodiscard]] Status write(const std::string& path) const;
   /// What `write` writes.
   [[nodiscard]] std::string bytes() const;
 

@@ -11,7 +11,8 @@
 namespace flyball {
 
 /// The platform that `find_shipped` finds.
-/// @error Its `not_found`, and those of `load_platform`.
+/// @error Its `not_found`, those of `load_platform`, and `invalid_input` where the prices of one of
+/// Flyball's kernels lack what it counts or name what nobody counts: that work would be free.
 [[nodiscard]] Result<PlatformModel> find_platform(const std::string& name_or_path);
 
 }  // namespace flyball

@@ -25,6 +25,11 @@ struct TriedParameter {
 /// @error `invalid_input` for anything else, and for a value that comes twice.
 [[nodiscard]] Result<TriedParameter> read_tried(const std::string& text);
 
+/// Reads several of them.
+/// @error Those of `read_tried`, and `invalid_input` for a parameter that comes twice.
+[[nodiscard]] Result<std::vector<TriedParameter>> read_all_tried(
+    const std::vector<std::string>& texts);
+
 /// One combination of values, and its flights so far.
 struct Candidate {
   std::map<std::string, double> parameters{};

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ class LocalizerConformance : public KernelConformance<Localizer> {
 
   [[nodiscard]] std::vector<std::string> breaches() {
     return checked({}, [this] {
+      check_start();
       check_motion();
       check_broken_fix();
       check_frames();
@@ -123,6 +125,7 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     std::vector<double> trace{};
     double worst_m{};
     double worst_rad{};
+    bool answered{true};
     bool stamps_right{true};
     bool poses_sound{true};
     bool tracked{true};
@@ -130,8 +133,10 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     int samples{};
   };
 
-  void note(const PoseEstimate& estimate, int at_ms, Flight& flight) const {
+  void note(const std::optional<PoseEstimate>& found, int at_ms, Flight& flight) const {
+    flight.answered = flight.answered && found;
     const TruePose truth = truth_at(at_ms);
+    const PoseEstimate estimate = found.value_or(PoseEstimate{truth.stamp});
     const Vec3 p_W = estimate.X_WB.translation();
     const Eigen::Matrix3d R = estimate.X_WB.linear();
     flight.stamps_right = flight.stamps_right && estimate.stamp == truth.stamp;
@@ -175,9 +180,20 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     return flight;
   }
 
+  void check_start() {
+    const auto localizer = made();
+    localizer->start(GeodeticOrigin{});
+    NavigationSample empty = sample_at(100);
+    empty.has_fix = false;
+    Work work;
+    require(localizer->inputs().images || !localizer->estimate(empty, work),
+            "estimates a pose before anything told it one");
+  }
+
   void check_motion() {
     const auto localizer = made();
     const Flight flight = fly(*localizer);
+    require(flight.answered, "estimates no pose although it was told where it is");
     require(flight.stamps_right, "does not stamp its estimate with the sample's time");
     require(flight.poses_sound, "estimates a pose that is none");
     require(flight.worst_m < most_error_m, "is off by more than .3 m after two seconds");

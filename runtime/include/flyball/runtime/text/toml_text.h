@@ -5,7 +5,8 @@
 /// A look at the text of a TOML file before toml++ reads it. Some texts that are no TOML make
 /// toml++ 3.3 (Debian 12's) do what C++ leaves undefined, or end the program where asserts are on:
 /// letters outside of ASCII that are not quoted or stand behind a backslash, a table whose name
-/// begins with no letter, a list that ends with a brace. Found by tests/fuzz.
+/// begins with no letter, a list that ends with a brace, a name of thousands of parts. Found by
+/// tests/fuzz.
 
 #include <optional>
 #include <string>
