@@ -5,9 +5,9 @@
 // with it, and it reads all messages of that moment.
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/realtime/cpus.h"
 
 #include "core_shares.h"
-#include "realtime/cpu_meter.h"
 #include "virtual_computer.h"
 #include <algorithm>
 #include <functional>
@@ -164,7 +164,7 @@ void VirtualComputer::compute(int node) {
   exchange.open(node, context);
   const Duration begin = thread_cpu_time();
   job.record.work = graph.nodes()[index(node)].body(context);
-  job.record.host_s = to_seconds(thread_cpu_time() - begin);
+  job.record.host_s = to_seconds(thread_cpu_time() - begin + take_helpers_time());
   exchange.close(node, context);
   context.note_questions();
   job.record.reads = context.record.reads;

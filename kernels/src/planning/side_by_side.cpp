@@ -18,7 +18,7 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
       job(i);
     }
   };
-  std::vector<std::future<void>> others;
+  std::vector<std::future<Duration>> others;
   const std::size_t useful = std::min(count, static_cast<std::size_t>(std::max(1, threads)));
   try {
     while (others.size() + 1 < useful) {
@@ -26,13 +26,14 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
         step_back();  // Else, with the priority of the caller, all cores would be taken from
                       // others.
         work();
+        return thread_cpu_time();
       }));
     }
   } catch (const std::system_error&) {  // The system has no more; `work` below does the rest.
   }
   work();
-  for (std::future<void>& other : others) {
-    other.get();
+  for (std::future<Duration>& other : others) {
+    add_helpers_time(other.get());
   }
 }
 

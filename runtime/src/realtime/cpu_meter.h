@@ -4,27 +4,24 @@
 /// @file
 /// CPU time of the jobs of one thread.
 
+#include "flyball/runtime/realtime/cpus.h"
 #include "flyball/runtime/time.h"
 
 #include <algorithm>
-#include <ctime>
 
 namespace flyball {
-
-/// CPU time that the calling thread has used.
-[[nodiscard]] inline Duration thread_cpu_time() {
-  timespec used{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-  return std::chrono::seconds{used.tv_sec} + Duration{used.tv_nsec};
-}
 
 /// The thread's CPU clock takes a system call, up to 2 us in a virtual machine, which is more than
 /// the rest of a hop. So it is read after long jobs only; a short one counts by the clock on the
 /// wall.
 class CpuMeter {
  public:
-  /// Of a job that has just ended after `wall`. What the executor did for it counts too.
-  [[nodiscard]] Duration job(Duration wall) {
+  /// Of a job that has just ended after `wall`. What the executor did for it counts too, and so
+  /// does what other threads did.
+  [[nodiscard]] Duration job(Duration wall) { return own(wall) + take_helpers_time(); }
+
+ private:
+  [[nodiscard]] Duration own(Duration wall) {
     if (wall < short_job) {
       short_jobs_ += wall;
       return wall;
@@ -36,7 +33,6 @@ class CpuMeter {
     return std::clamp(used, Duration::zero(), wall);
   }
 
- private:
   static constexpr Duration short_job = std::chrono::microseconds{50};  // Chosen: 25 readings.
   Duration last_{thread_cpu_time()};
   Duration short_jobs_{};

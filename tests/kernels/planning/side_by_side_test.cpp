@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/side_by_side.h"
 
+#include "flyball/runtime/realtime/cpus.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <stdexcept>
@@ -34,6 +36,25 @@ TEST(SideBySide, has_as_many_calls_at_once_as_threads) {
     all_are_here.wait(lock, [&] { return here == threads; });
   });
   EXPECT_EQ(here, threads);
+}
+
+TEST(SideBySide, tells_what_the_other_threads_took) {
+  const auto works_for_a_millisecond = [](std::size_t /*i*/) {
+    const Duration begin = thread_cpu_time();
+    while (thread_cpu_time() - begin < std::chrono::milliseconds{1}) {
+    }
+  };
+  (void)take_helpers_time();
+  for_each_index(4, 1, works_for_a_millisecond);
+  EXPECT_EQ(take_helpers_time(), Duration::zero()) << "there are no others";
+  // One thread may be through with all calls before the other one begins.
+  Duration taken{};
+  while (taken == Duration::zero()) {
+    for_each_index(50, 2, works_for_a_millisecond);
+    taken = take_helpers_time();
+    EXPECT_LT(taken, std::chrono::milliseconds{200});
+  }
+  EXPECT_EQ(take_helpers_time(), Duration::zero()) << "it is told once";
 }
 
 TEST(SideBySide, hands_on_what_a_call_throws) {

@@ -35,8 +35,8 @@ struct JobRecord {
   Work work{};
   bool killed{};  ///< By `OnMiss::skip`.
   bool missed{};  ///< Its deadline.
-  /// Host time of the computation, never part of the trace hash: CPU time of its thread on a
-  /// modeled computer, and as time passes in real time.
+  /// Host time of the computation, never part of the trace hash: CPU time of its threads on
+  /// a modeled computer, and as time passes in real time.
   double host_s{};
   int core{-1};   ///< On which it began; -1: not known, as on a modeled computer.
   Hertz clock{};  ///< That was granted when it began.
