@@ -54,7 +54,8 @@ struct RecordThread::Parts {
         later(wanted.most_later),
         sequences(wanted.file.channels.size()),
         dropped(wanted.file.channels.size()),
-        unwritten(wanted.file.channels.size()) {}
+        unwritten(wanted.file.channels.size()),
+        open(wanted.file.channels.size()) {}
 
   RecordThreadSettings settings;
   std::unique_ptr<McapWriter> writer;  // Of the writing thread while it runs.
@@ -72,7 +73,8 @@ struct RecordThread::Parts {
   std::vector<std::uint32_t> sequences;
   std::vector<std::uint64_t> dropped;
   // Of the writing thread.
-  std::vector<std::uint64_t> unwritten;  // After a write that failed.
+  std::vector<std::uint64_t> unwritten;  // After a write that failed, or in it.
+  std::vector<std::uint64_t> open;       // In the chunk that is not closed yet.
   std::uint64_t written{};
   std::chrono::steady_clock::time_point chunk_begun{};
 
@@ -82,7 +84,8 @@ struct RecordThread::Parts {
   void run();
   void drain();
   void write(const RowHead& head, const std::string& row);
-  void close_old_chunk() const;
+  void close_old_chunk();
+  void settle_chunk();
   [[nodiscard]] std::map<std::string, std::string> counts_as_text() const;
   [[nodiscard]] RecordCounts counts() const;
 };
@@ -160,19 +163,33 @@ void RecordThread::Parts::write(const RowHead& head, const std::string& row) {
   const bool had_chunk = writer->has_open_chunk();
   const std::size_t chunks = writer->chunks();
   writer->add(head.channel, head.sequence, time_of(head), row);
-  ++written;
   // The row also begins a chunk where its time closes the one before.
-  if (!had_chunk || writer->chunks() > chunks) {
+  const bool begins = !had_chunk || writer->chunks() > chunks || !writer->status();
+  if (begins) {
+    settle_chunk();
     chunk_begun = std::chrono::steady_clock::now();
+  }
+  ++open[head.channel];
+  if (!writer->has_open_chunk()) {
+    settle_chunk();
+  }
+}
+
+/// The rows of a chunk that has just been closed: they are in the file, or lost with it.
+void RecordThread::Parts::settle_chunk() {
+  const bool is_written = writer->status().ok();
+  for (std::size_t channel = 0; channel < open.size(); ++channel) {
+    (is_written ? written : unwritten[channel]) += std::exchange(open[channel], 0);
   }
 }
 
 /// Without it the rows of the last second would stay in memory when no further ones come. Not in
 /// simulated time: the host's clock would decide where a chunk ends.
-void RecordThread::Parts::close_old_chunk() const {
+void RecordThread::Parts::close_old_chunk() {
   if (settings.when_full == WhenFull::drop && writer->has_open_chunk() &&
       std::chrono::steady_clock::now() - chunk_begun >= settings.file.chunk_time) {
     writer->close_chunk();
+    settle_chunk();
   }
 }
 
@@ -264,6 +281,8 @@ Status RecordThread::close() {
   p.is_closing.store(true, std::memory_order_release);
   p.news.wake();
   p.thread.join();
+  p.writer->close_chunk();
+  p.settle_chunk();
   p.is_closed = true;
   p.writer->add_metadata("flyball.record", p.counts_as_text());
   return p.writer->close();

@@ -3,7 +3,6 @@
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/board/clock_meter.h"
-#include "flyball/runtime/realtime/cpus.h"
 #include "flyball/studies/calibration.h"
 #include "flyball/studies/heat_measurement.h"
 #include "flyball/studies/power_measurement.h"
@@ -135,7 +134,7 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
   PowerMeasurement how;
   how.clocks = clock.settable.empty() ? std::vector<Hertz>{clock.current} : clock.settable;
   how.set = clock.settable.empty() ? nullptr : clock.set;
-  how.cpus = usable_cpus();
+  how.cpus = cores_for_jobs(bench.file);
   how.meter = [&bench] { return look(bench).computer_power; };
   const auto samples = measure_power(how);
   if (!samples) {
@@ -157,7 +156,7 @@ Status calibrate_power(Bench& bench, const ClockChoice& clock, PlatformModel& mo
 /// What is measured: all cores busy at the clock at which power was measured last, the highest.
 HeatMeasurement heat_measurement(const Bench& bench, const CalibrateArguments& given) {
   HeatMeasurement how;
-  how.cpus = usable_cpus();
+  how.cpus = cores_for_jobs(bench.file);
   how.phase = from_seconds(given.heat_s);
   how.stop = was_interrupted;
   how.meter = [&bench] {
@@ -203,11 +202,13 @@ Status calibrate_heat(Bench& bench, const CalibrateArguments& given, PlatformMod
   return Done{};
 }
 
-CalibrationOptions options_of(const CalibrateArguments& given, const ClockChoice& clock) {
+CalibrationOptions options_of(const CalibrateArguments& given,
+                              const Bench& bench,
+                              const ClockChoice& clock) {
   CalibrationOptions options;
   options.like = given.like;
   options.draft = given.out + ".draft.toml";
-  options.cores = static_cast<int>(usable_cpus().size());
+  options.cores = static_cast<int>(cores_for_jobs(bench.file).size());
   options.flight_s = given.flight_s;
   options.clock = clock;
   options.stop = was_interrupted;
@@ -241,7 +242,7 @@ Status write_platform(const std::string& out, Bench& bench, Calibration& calibra
 /// Kernels first, then power and heat; the board is as it was afterwards.
 Result<Calibration> measure(const CalibrateArguments& given, Bench& bench) {
   const ClockChoice clock = clocks_of(bench, given);
-  auto calibration = calibrate(options_of(given, clock));
+  auto calibration = calibrate(options_of(given, bench, clock));
   if (!calibration) {
     return calibration;
   }

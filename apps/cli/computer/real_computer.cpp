@@ -2,10 +2,12 @@
 #include "cli/computer/real_computer.h"
 
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/realtime/cpus.h"
 #include "flyball/scenario/files.h"
 #include "flyball/simulation/realtime_flight.h"
 
 #include "cli/console.h"
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,17 @@ Result<BoardFile> choose_board(const std::string& name, const std::string& model
   return found.models.empty() && is_x86() ? board_named("generic_x86") : Result<BoardFile>{found};
 }
 
+std::vector<int> cores_for_jobs(const BoardFile& board) {
+  const std::vector<int> usable = usable_cpus();
+  std::vector<int> cores;
+  for (const int core : board.core_order) {
+    if (std::find(usable.begin(), usable.end(), core) != usable.end()) {
+      cores.push_back(core);
+    }
+  }
+  return cores.empty() ? usable : cores;
+}
+
 void add_executor(CLI::App& command, ExecutorOptions& options) {
   command
       .add_option("--executor", options.executor,
@@ -71,6 +84,15 @@ Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& 
                      " is of no use to a modeled computer; add --executor realtime"};
   }
   std::unique_ptr<RealComputer> computer{new RealComputer{options}};
+  if (is_modeled) {
+    return computer;
+  }
+  computer->system_ = linux_system();
+  auto file = choose_board({}, discover_board(*computer->system_).model);
+  if (!file) {
+    return file.error();
+  }
+  computer->file_ = std::move(*file);
   if (options.sets_clocks) {
     if (const Status opened = computer->open_board(expected); !opened) {
       return opened.error();
@@ -80,13 +102,8 @@ Result<std::unique_ptr<RealComputer>> RealComputer::open(const ExecutorOptions& 
 }
 
 Status RealComputer::open_board(const PlatformModel& expected) {
-  system_ = linux_system();
-  auto file = choose_board({}, discover_board(*system_).model);
-  if (!file) {
-    return file.error();
-  }
   LinuxBoardOptions options;
-  options.file = std::move(*file);
+  options.file = file_;
   options.power_prior = expected.power;
   auto opened = LinuxBoard::open(*system_, options);
   if (!opened) {
@@ -108,6 +125,7 @@ void RealComputer::equip(MissionHooks& hooks) {
     return;
   }
   RealtimeSettings settings;
+  settings.cpus = cores_for_jobs(file_);
   if (options_.fifo_priority > 0) {
     settings.fifo_priority = options_.fifo_priority;
   }

@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
@@ -33,6 +34,10 @@ void add_executor(CLI::App& command, ExecutorOptions& options);
 /// file names is `generic_x86`, and any other computer is described by an empty file.
 /// @error `not_found`: no shipped file has this name; those of `load_board_file`.
 [[nodiscard]] Result<BoardFile> choose_board(const std::string& name, const std::string& model);
+
+/// The cores of the board's file, in its order, as far as the process may use them; all that it may
+/// use where the file names none.
+[[nodiscard]] std::vector<int> cores_for_jobs(const BoardFile& board);
 
 /// This computer, if the options ask for it. Its settings are restored when it goes.
 class RealComputer {
@@ -55,6 +60,7 @@ class RealComputer {
   Status open_board(const PlatformModel& expected);
 
   ExecutorOptions options_;
+  BoardFile file_{};
   std::unique_ptr<LinuxSystem> system_{};
   std::unique_ptr<LinuxBoard> board_{};
   std::unique_ptr<RealtimeBoard> shared_board_{};  ///< Null: its clock is left alone.

@@ -85,6 +85,9 @@ void PowerMeter::sample(Duration now) {
   }
   if (value) {
     readings_.push_back({now, *value});
+  } else if (!readings_.empty() && now - readings_.back().at > window) {
+    readings_.clear();  // What a counter said before it vanished is no power of today's.
+    last_uj_.clear();
   }
   // A counter needs a reading from before the window to have a difference.
   const std::size_t least = rail_ ? 0 : 2;

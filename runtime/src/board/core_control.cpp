@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace flyball {
+namespace {
+
+std::string switch_of(int core) {
+  return "/sys/devices/system/cpu/cpu" + std::to_string(core) + "/online";
+}
+
+}  // namespace
 
 CoreControl::CoreControl(LinuxSystem& system,
                          SettingsKeeper& keeper,
@@ -37,8 +44,20 @@ Status CoreControl::attach(pid_t thread) {
   return system_.set_affinity(thread, active_);
 }
 
+bool CoreControl::has_changed() {
+  bool has = false;
+  for (Core& core : order_) {
+    const auto now = core.has_switch ? integer_in(system_, switch_of(core.id)) : std::nullopt;
+    if (now && (*now != 0) != core.is_online) {
+      core.is_online = *now != 0;
+      has = true;
+    }
+  }
+  return has;
+}
+
 Status CoreControl::write_switch(Core& core, bool on) {
-  const std::string path = "/sys/devices/system/cpu/cpu" + std::to_string(core.id) + "/online";
+  const std::string path = switch_of(core.id);
   const Status written = keeper_.write(path, on ? "1" : "0");
   const auto now = integer_in(system_, path);
   core.is_online = now ? *now != 0 : core.is_online;
@@ -60,7 +79,7 @@ std::vector<Error> CoreControl::plug_in(int count) {
     if (static_cast<int>(active_.size()) >= count) {
       break;
     }
-    if (!core.is_online) {
+    if (!core.is_online && unplugs_) {
       if (const Status on = write_switch(core, true); !on) {
         errors.push_back(on.error());
       }

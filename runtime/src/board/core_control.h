@@ -31,9 +31,11 @@ class CoreControl {
   /// The thread gets the affinity of every later change too.
   Status attach(pid_t thread);
 
-  /// Makes the first `count` cores that can be had the active ones, and switches on what that
-  /// needs; before the clocks are set.
+  /// Makes the first `count` cores that can be had the active ones, and, where it may, switches on
+  /// what that needs; before the clocks are set.
   std::vector<Error> plug_in(int count);
+  /// Whether somebody else has switched a core off or on since the last look at it.
+  [[nodiscard]] bool has_changed();
   /// Binds all attached threads to the active cores; those that have ended are forgotten.
   std::vector<Error> bind();
   /// Switches off the rest, at most once a second: it takes tens of milliseconds.

@@ -89,8 +89,12 @@ struct LinuxBoard::State {
   BoardReading reading{};
   Duration now{};
   double busy_before_s{process_seconds()};
-  double busy_cores{};  ///< Of this process, since the refresh before.
+  double busy_at_refresh_s{busy_before_s};
+  double busy_cores{};  ///< Of this process, between the last two refreshes.
+  int wanted_cores{cores.max_cores()};
   bool may_set_clock{true};
+  bool has_set_clock{};    ///< Once at least.
+  bool last_set_failed{};  ///< In part, or as a whole.
   std::string power_source{};
   std::vector<std::string> notes{};
   std::set<std::string> noted{};
@@ -110,6 +114,7 @@ struct LinuxBoard::State {
   void add_controls();
   void set_clock(Hertz wanted);
   void look_after_clock();
+  void look_after_cores();
   void read_reported_clock();
   [[nodiscard]] std::optional<Hertz> measured_clock();
   void read_clock();
@@ -169,14 +174,19 @@ void LinuxBoard::State::note_meters() {
 void LinuxBoard::State::set_clock(Hertz wanted) {
   clock.requested = wanted;
   clock.measured.reset();
+  last_set_failed = false;
   for (ClockControl& control : controls) {
     const Status set = control.set(wanted);
     if (set) {
+      has_set_clock = true;
       continue;
     }
+    last_set_failed = true;
     const ErrorCode code = set.error().code;
     std::string sentence = set.error().message;
-    if (code == ErrorCode::unavailable) {
+    if (code == ErrorCode::unavailable && has_set_clock) {
+      sentence += "; it is tried again";  // The files of a core are made anew when it comes back.
+    } else if (code == ErrorCode::unavailable) {
       may_set_clock = false;
       sentence +=
           "; the clock stays as it is; run as root, or let a group write it: flyball board "
@@ -201,15 +211,25 @@ void LinuxBoard::State::look_after_clock() {
   if (!may_set_clock || clock.requested == Hertz{}) {
     return;
   }
-  const bool is_as_set = std::all_of(controls.begin(), controls.end(),
-                                     [](const ClockControl& one) { return one.is_as_set(); });
-  if (is_as_set) {
+  const auto is_as_set = [](const ClockControl& one) { return one.is_as_set(); };
+  if (!last_set_failed && std::all_of(controls.begin(), controls.end(), is_as_set)) {
     return;
   }
-  note("changed",
-       "somebody else has changed the limits or the governor of the clock; it is set again");
-  note_rivals(find_rivals(system));
+  if (!last_set_failed) {
+    note("changed",
+         "somebody else has changed the limits or the governor of the clock; it is set again");
+    note_rivals(find_rivals(system));
+  }
   set_clock(clock.requested);
+}
+
+/// A change of the power mode, or a person, switches cores off and on.
+void LinuxBoard::State::look_after_cores() {
+  if (cores.has_changed()) {
+    note("cores", "somebody else has switched cores off or on");
+    note_all("core", cores.plug_in(wanted_cores));
+    note_all("bind", cores.bind());
+  }
 }
 
 void LinuxBoard::State::read_reported_clock() {
@@ -326,7 +346,8 @@ BoardReading LinuxBoard::read() const {
 void LinuxBoard::request(const OperatingPoint& point) {
   State& state = *state_;
   const int most = std::max(1, state.cores.max_cores());
-  state.note_all("core", state.cores.plug_in(std::clamp(point.cores, 1, most)));
+  state.wanted_cores = std::clamp(point.cores, 1, most);
+  state.note_all("core", state.cores.plug_in(state.wanted_cores));
   if (state.may_set_clock && point.frequency > Hertz{}) {
     state.set_clock(point.frequency);
   }
@@ -338,11 +359,13 @@ void LinuxBoard::request(const OperatingPoint& point) {
 
 void LinuxBoard::refresh(Duration now) {
   const double passed_s = to_seconds(now - state_->now);
-  const double busy_s = process_seconds() - state_->busy_before_s - state_->reading.busy_core_s;
+  const double busy_s = process_seconds();
   if (passed_s > 0.0) {
-    state_->busy_cores = std::max(0.0, busy_s / passed_s);
+    state_->busy_cores = std::max(0.0, (busy_s - state_->busy_at_refresh_s) / passed_s);
+    state_->busy_at_refresh_s = busy_s;
   }
   state_->now = now;
+  state_->look_after_cores();
   state_->look_after_clock();
   state_->read_clock();
   state_->read_power();

@@ -135,11 +135,18 @@ std::vector<KeptSetting> SettingsJournal::read() const {
 }
 
 Status SettingsJournal::append(const KeptSetting& kept) {
+  if (is_broken_) {
+    return Error{ErrorCode::failed, "the journal " + path_ + " ends with a part of a record"};
+  }
   const std::string record = part_of(kept.path) + part_of(kept.content);
   // One call, so that a kill leaves the whole record or none of it.
+  const off_t before = lseek(journal_, 0, SEEK_END);
   const ssize_t count = ::write(journal_, record.data(), record.size());
   if (count != static_cast<ssize_t>(record.size())) {
-    return system_error("the journal " + path_ + " cannot be written", count < 0 ? errno : ENOSPC);
+    const int number = count < 0 ? errno : ENOSPC;
+    // A part of it would hide whatever is written behind it.
+    is_broken_ = is_broken_ || (count > 0 && ftruncate(journal_, before) != 0);
+    return system_error("the journal " + path_ + " cannot be written", number);
   }
   return Done{};
 }

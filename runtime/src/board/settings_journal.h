@@ -49,6 +49,7 @@ class SettingsJournal {
   int lock_;
   int journal_;
   std::string path_;  ///< Of the journal.
+  bool is_broken_{};  ///< It ends with a part of a record that could not be taken back.
 };
 
 }  // namespace flyball

@@ -8,8 +8,7 @@ OperatingPoint RealtimeBoard::grant(const OperatingPoint& wanted) {
   // The platform asks again when the board has changed by itself: that is no request of ours.
   if (wanted != requested_) {
     requested_ = wanted;
-    board_.request(wanted);
-    board_.refresh(refreshed_at_);
+    board_.request(wanted);  // It has read the clock and the cores again, but not the meters.
   }
   const std::lock_guard lock{mutex_};
   last_ = board_.read();

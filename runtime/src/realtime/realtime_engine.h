@@ -6,13 +6,13 @@
 /// and keep time in realtime_threads.cpp; what the owner's thread does is in realtime_executor.cpp.
 
 #include "flyball/runtime/realtime/parking.h"
+#include "flyball/runtime/realtime/priority_mutex.h"
 #include "flyball/runtime/realtime/realtime_executor.h"
 
 #include "message_exchange.h"
 #include "node_job.h"
 #include "realtime/cpu_meter.h"
 #include "realtime/news.h"
-#include "realtime/priority_mutex.h"
 #include <atomic>
 #include <deque>
 #include <mutex>
@@ -81,6 +81,8 @@ struct RealtimeEngine {
   void begin_period(int node, MissionTime at);
   /// Lets the lock go and wakes the threads that have got something to do.
   void unlock_and_wake(Lock& lock);
+  /// From which SCHED_FIFO priority on every thread gets its own; empty: ordinary scheduling.
+  [[nodiscard]] std::optional<int> fifo_from();
   /// What the calling thread asks of the system; `level` counts from 0, the most urgent.
   void set_up(const std::string& name, std::size_t level);
   /// On the owner's thread, until the condition holds, which is asked with the lock held; false
@@ -125,6 +127,7 @@ struct RealtimeEngine {
   std::vector<pid_t> thread_ids{};
   std::vector<clockid_t> cpu_clocks{};
   std::vector<std::string> notes{};
+  std::optional<int> fifo{};  ///< What `fifo_from` said.
   std::size_t threads_ready{};
   std::size_t threads_left{};  ///< Have ended, or are about to.
   bool is_stopping{};
@@ -148,6 +151,7 @@ struct RealtimeEngine {
   bool is_stopped{};
   Duration longest_delay{};
   NewsList told{};
+  bool is_telling{};
   std::vector<std::deque<std::function<void(const Message&)>>> listeners;
   std::deque<std::function<void(const JobRecord&)>> job_listeners{};
   std::deque<std::function<void(int, OnMiss)>> miss_listeners{};

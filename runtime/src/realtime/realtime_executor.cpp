@@ -108,6 +108,7 @@ void RealtimeEngine::tell_news() {
     const std::lock_guard lock{mutex};
     told.swap(news);
   }
+  is_telling = true;
   for (std::size_t i = 0; i < told.size(); ++i) {
     const News& one = told[i];
     const auto tell = [](auto& them, const auto&... what) {
@@ -136,6 +137,7 @@ void RealtimeEngine::tell_news() {
     }
   }
   told.clear();
+  is_telling = false;
 }
 
 RealtimeExecutor::RealtimeExecutor(const Graph& graph,
@@ -150,7 +152,9 @@ RealtimeExecutor::RealtimeExecutor(const std::shared_ptr<MessagePool>& pool,
     : Executor{pool}, engine_{std::make_unique<RealtimeEngine>(graph, settings, point, pool)} {}
 
 RealtimeExecutor::~RealtimeExecutor() {
-  stop();
+  if (!engine_->is_stopped) {
+    engine_->stop();  // Whoever listened may be gone by now.
+  }
 }
 
 MissionTime RealtimeExecutor::now() const {
@@ -168,6 +172,7 @@ void RealtimeExecutor::serve_until(MissionTime at) {
     }
     engine_->tell_news();
     if (engine_->is_stopped) {
+      engine_->tell_news();  // What happened until a listener stopped it.
       return;
     }
     if (const Duration late = engine_->now() - at; late >= Duration::zero()) {
@@ -227,8 +232,12 @@ std::uint64_t RealtimeExecutor::drops() const {
 }
 
 void RealtimeExecutor::stop() {
-  if (!engine_->is_stopped) {
-    engine_->stop();
+  if (engine_->is_stopped) {
+    return;
+  }
+  engine_->stop();
+  if (!engine_->is_telling) {
+    engine_->tell_news();
   }
 }
 

@@ -66,10 +66,13 @@ void RealtimeEngine::end(int node, Lock& lock) {
   RealtimeNode& here = nodes[index(node)];
   NodeJob& job = here.job;
   note_running(-1);
-  here.deadline = never;
   here.stuck_from = never;
   job.note_questions();
   job.record.ended = running_since;
+  if (job.record.ended > here.deadline) {  // The timer's thread has not got to it.
+    pass_deadline(node);
+  }
+  here.deadline = never;
   job.record.killed = job.is_told_to_stop;
   if (!job.record.killed && !job.last_actions.empty()) {
     lock.unlock();

@@ -56,6 +56,7 @@ void RealtimeEngine::start() {
   };
   note_if(settings.lock_memory ? lock_process_memory() : std::nullopt);
   note_if(settings.fifo_priority ? real_time_throttle() : std::nullopt);
+  fifo = fifo_from();
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
     const auto count = std::min(index(lanes[lane].nodes), cpus.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -85,12 +86,26 @@ void RealtimeEngine::start() {
   timer.wake_all();
 }
 
+// If each thread asked for itself, the most urgent ones would be refused first, and the others
+// would keep them from running.
+std::optional<int> RealtimeEngine::fifo_from() {
+  if (!settings.fifo_priority) {
+    return std::nullopt;
+  }
+  const int above = static_cast<int>(lanes.size());  // Of the clock's thread.
+  const FifoGrant granted = grantable_fifo(*settings.fifo_priority, above);
+  if (!granted.note.empty()) {
+    notes.push_back(granted.note);
+  }
+  return granted.from;
+}
+
 void RealtimeEngine::set_up(const std::string& name, std::size_t level) {
   ThreadWish wish;
   wish.name = name;
   wish.prefault_stack = settings.lock_memory;
-  if (settings.fifo_priority) {
-    wish.fifo_priority = *settings.fifo_priority + static_cast<int>(lanes.size() - level);
+  if (fifo) {
+    wish.fifo_priority = *fifo + static_cast<int>(lanes.size() - level);
   } else {
     const int below_timer = std::max(0, static_cast<int>(level) - 1);
     wish.nice = std::min(most_nice, process_nice() + nice_per_level * below_timer);

@@ -4,11 +4,13 @@
 #include "flyball/runtime/realtime/cpus.h"
 #include "flyball/runtime/text/listed.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <thread>
 #include <utility>
 
 #include <pthread.h>
@@ -112,6 +114,30 @@ std::optional<std::string> bind_thread(pid_t thread, const std::vector<int>& cpu
   }
   return "a thread could not be bound to the cores " + listed(cpus) + " (" +
          (is_set ? "the system granted fewer" : reason(failed)) + "); is one of them off-line?";
+}
+
+FifoGrant grantable_fifo(int from, int above) {
+  constexpr int highest = 99;  // Of Linux.
+  FifoGrant grant;
+  std::thread{[&] {
+    for (int lowest = std::min(from, highest - above); lowest >= 1 && !grant.from; --lowest) {
+      if (!set_fifo("", lowest + above)) {
+        grant.from = lowest;
+      }
+    }
+  }}.join();
+  const std::string way_out = "give the program CAP_SYS_NICE, or its user an rtprio limit of " +
+                              std::to_string(std::min(from + above, highest));
+  if (!grant.from) {
+    grant.note = "jobs run under ordinary scheduling, not SCHED_FIFO from priority " +
+                 std::to_string(from) + " on; " + way_out;
+  } else if (*grant.from < from) {
+    grant.note = "SCHED_FIFO begins at priority " + std::to_string(*grant.from) + " instead of " +
+                 std::to_string(from) + ", so that the most urgent of " +
+                 std::to_string(above + 1) + " gets its own" +
+                 (from + above > highest ? "" : "; " + way_out);
+  }
+  return grant;
 }
 
 std::optional<std::string> real_time_throttle(const std::string& folder) {

@@ -23,6 +23,16 @@ struct ThreadWish {
 /// what would help.
 [[nodiscard]] std::vector<std::string> set_up_thread(const ThreadWish& wish);
 
+/// From where on SCHED_FIFO can be had.
+struct FifoGrant {
+  std::optional<int> from{};  ///< Empty: not at all.
+  std::string note{};         ///< Where it is not what was asked for: what would help.
+};
+
+/// The highest priority up to `from` to which `above` more can be added. Tries on a thread of its
+/// own.
+[[nodiscard]] FifoGrant grantable_fifo(int from, int above);
+
 /// What the kernel withholds from real-time threads that never sleep, as a sentence; empty where it
 /// withholds nothing. `folder` is where its settings stand.
 [[nodiscard]] std::optional<std::string> real_time_throttle(

@@ -219,6 +219,8 @@ TEST_F(RecordThreadTest, goes_on_counting_when_the_disk_takes_no_more) {
   const auto done = recover_mcap(folder.path("a.mcap"), folder.path("b.mcap"));
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_GE(done->chunks, 2U);
+  EXPECT_EQ(McapReader{folder.path("b.mcap")}.messages().size(), counts.written)
+      << "what went with the chunk that did not fit is no part of the file";
 }
 
 }  // namespace

@@ -111,5 +111,25 @@ TEST(ClosestHeat, prefers_a_zone_that_takes_clocks_away) {
   EXPECT_EQ(heat->zone, "acpitz");  // The other one is hotter and has no trip.
 }
 
+TEST(PowerMeter, has_nothing_to_say_after_a_counter_has_gone_and_begins_anew_when_it_is_back) {
+  const Metered board{fake::plant_x86};
+  const std::string file = "/sys/class/powercap/intel-rapl:1/energy_uj";
+  PowerMeter meter = board.meter();
+  board.tree.put(file, "1000000\n");
+  meter.sample({});
+  board.tree.put(file, "6000000\n");
+  meter.sample(second);
+  EXPECT_NEAR(meter.power()->value(), 5.0, 1e-9);
+  board.tree.put(file, "\n");
+  meter.sample(3 * second);
+  EXPECT_FALSE(meter.power());
+  board.tree.put(file, "100000000\n");
+  meter.sample(4 * second);
+  EXPECT_FALSE(meter.power()) << "nobody knows what happened meanwhile";
+  board.tree.put(file, "103000000\n");
+  meter.sample(5 * second);
+  EXPECT_NEAR(meter.power()->value(), 3.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace flyball

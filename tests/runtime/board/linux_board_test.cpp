@@ -5,6 +5,7 @@
 #include "fake_kernel.h"
 #include "fake_trees.h"
 #include "killed_session.h"
+#include <ctime>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -312,6 +313,55 @@ TEST_F(LinuxBoardTest, does_not_take_the_clock_before_a_change_for_the_one_after
   board.request({4, Hertz{345.6e6}});
   board.refresh(second);
   EXPECT_EQ(board.read().granted.frequency, Hertz{345.6e6});
+}
+
+TEST_F(LinuxBoardTest, estimates_the_power_of_all_work_since_the_last_look) {
+  PowerCost prior;
+  prior.board_w = 1.0;
+  prior.core_linear_w = 2.0;
+  options_.power_prior = prior;
+  LinuxBoard& board = open(fake::plant_pi5);
+  board.refresh(second);
+  const std::clock_t begin = std::clock();
+  while (std::clock() - begin < CLOCKS_PER_SEC / 50) {
+  }
+  board.request({4, Hertz{2000e6}});  // Which changes nothing about what was done before it.
+  board.refresh(second + second / 50);
+  EXPECT_GE(board.read().computer_power.value(),
+            prior.power(board.read().granted.frequency, 0.9).value());
+}
+
+TEST_F(LinuxBoardTest, notices_cores_that_somebody_else_switches) {
+  as_tx2();
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  const std::string core4 = "/sys/devices/system/cpu/cpu4/online";
+  tree_.put(core4, "0\n");
+  board.refresh(second);
+  EXPECT_EQ(board.active_cpus(), (Numbers{0, 3, 5}));
+  EXPECT_EQ(board.read().granted.cores, 3);
+  EXPECT_EQ(board.notes(), (Lines{"somebody else has switched cores off or on"}));
+  board.request({4, Hertz{2035.2e6}});
+  EXPECT_EQ(board.read().granted.cores, 3);
+  EXPECT_EQ(tree_.get(core4), "0\n") << "it is not ours to switch it on";
+  tree_.put(core4, "1\n");
+  board.refresh(2 * second);
+  EXPECT_EQ(board.active_cpus(), (Numbers{0, 3, 4, 5}));
+}
+
+TEST_F(LinuxBoardTest, sets_the_clock_later_where_a_file_could_not_be_written_for_a_moment) {
+  as_tx2();
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  board.request({4, Hertz{1574.4e6}});
+  kernel_.refused["scaling_setspeed"] = EACCES;
+  board.request({4, Hertz{345.6e6}});
+  EXPECT_EQ(board.read().granted.frequency, Hertz{1574.4e6});
+  EXPECT_EQ(board.notes(), (Lines{"\"345600\" cannot be written to " + policy0 +
+                                  "scaling_setspeed: Permission denied; it is tried again"}));
+  kernel_.refused.clear();
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{345.6e6});
+  EXPECT_FALSE(board.model().frequencies.empty());
+  EXPECT_EQ(board.notes().size(), 1U);
 }
 
 }  // namespace

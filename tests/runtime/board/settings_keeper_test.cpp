@@ -5,8 +5,10 @@
 #include "fake_kernel.h"
 #include "fake_trees.h"
 #include "killed_session.h"
+#include <csignal>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 namespace flyball {
@@ -249,6 +251,23 @@ TEST(SettingsJournal, leaves_out_a_record_that_was_cut_off) {
     (void)folder.file("board.journal", whole.substr(0, length));
     EXPECT_EQ(journal->read().size(), length >= first ? 1U : 0U) << length;
   }
+}
+
+TEST(SettingsJournal, takes_back_what_a_full_disk_took_of_a_record) {
+  const ScratchFolder folder;
+  auto journal = SettingsJournal::lock(folder.path());
+  ASSERT_TRUE(journal->append({policy0 + "a", "1\n"}).ok());
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{folder.content("board.journal").size() + 5, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_FALSE(journal->append({policy0 + "b", "2\n"}).ok());
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, ignored);
+  ASSERT_TRUE(journal->append({policy0 + "c", "3\n"}).ok());
+  ASSERT_EQ(journal->read().size(), 2U);
+  EXPECT_EQ(journal->read()[1].path, policy0 + "c");
 }
 
 }  // namespace

@@ -31,5 +31,20 @@ TEST(RealTimeThrottle, says_nothing_where_the_kernel_withholds_nothing_or_has_no
   EXPECT_FALSE(real_time_throttle(folder.path()));
 }
 
+TEST(GrantableFifo, leaves_room_for_all_priorities_or_says_that_there_is_none) {
+  const FifoGrant low = grantable_fifo(1, 0);
+  const FifoGrant high = grantable_fifo(97, 5);
+  if (!low.from) {  // This user may not have any.
+    EXPECT_NE(low.note.find("CAP_SYS_NICE"), std::string::npos) << low.note;
+    EXPECT_FALSE(high.from);
+    return;
+  }
+  EXPECT_EQ(low.note, "");
+  ASSERT_TRUE(high.from);
+  EXPECT_LE(*high.from, 94);
+  EXPECT_EQ(high.note.rfind("SCHED_FIFO begins at priority ", 0), 0U) << high.note;
+  EXPECT_FALSE(grantable_fifo(50, 99).from) << "there are not so many";
+}
+
 }  // namespace
 }  // namespace flyball

@@ -4,6 +4,8 @@
 /// @file
 /// Memory that messages give back and take again, so that a running graph asks the system for none.
 
+#include "flyball/runtime/realtime/priority_mutex.h"
+
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -14,7 +16,8 @@
 namespace flyball {
 
 /// Blocks of 64 bytes to 4 KiB, in sizes that double. What a block once was is kept for the next
-/// one of its size; larger ones come from the heap each time. Any thread may use it.
+/// one of its size; larger ones come from the heap each time. Any thread may use it, and an urgent
+/// one does not wait for those between it and a less urgent one.
 class MessagePool {
  public:
   MessagePool() = default;
@@ -63,7 +66,7 @@ class MessagePool {
     Block* next;
   };
   struct Size {
-    std::mutex mutex{};
+    PriorityMutex mutex{};
     Block* free{};
   };
   /// The number of sizes for a block that is too large for all of them.

@@ -21,8 +21,10 @@ namespace flyball {
 /// rotors and battery from whoever talks with the vehicle. Any thread may use it: the board is a
 /// thing for one thread, and a lock makes this one that thread.
 ///
-///     RealtimeBoard computer{**LinuxBoard::open(*system, options)};
+///     auto board = LinuxBoard::open(*system, options);  // Restores the settings when it goes.
+///     RealtimeBoard computer{**board};
 ///     RealtimeSettings settings;
+///     settings.cpus = (*board)->active_cpus();  // In the order of the board's file.
 ///     settings.grant = [&](const OperatingPoint& wanted) { return computer.grant(wanted); };
 ///     RealtimeExecutor executor{graph, start, settings};
 ///     computer.connect(executor);

@@ -22,8 +22,9 @@ struct RealtimeSettings {
   /// process may use.
   std::vector<int> cpus{};
   /// SCHED_FIFO from this priority on (1 to 99), one more for each higher priority of the graph's
-  /// nodes, and one more for the clock. Empty: ordinary scheduling, with nice values that rise as
-  /// priorities fall.
+  /// nodes, and one more for the clock; from a lower one on where the system does not grant the
+  /// highest of them. Empty, or where it grants none: ordinary scheduling, with nice values that
+  /// rise as priorities fall.
   std::optional<int> fifo_priority{};
   /// A thread without a job looks for one so long before it sleeps. It costs power: zero on a
   /// battery.
@@ -83,7 +84,8 @@ class RealtimeExecutor final : public Executor {
   [[nodiscard]] double busiest_core_s() const override;
   [[nodiscard]] double busy_cores() const override;
   [[nodiscard]] std::uint64_t drops() const override;
-  /// Jobs that run are told to stop.
+  /// Jobs that run are told to stop. Listeners hear of what ended until then, but not from the
+  /// destructor.
   void stop() override;
   void run_last(int node) override;
 
