@@ -20,9 +20,23 @@ Intrinsics DepthCameraSpec::intrinsics() const {
   return pinhole(width_px, height_px, horizontal_field_rad);
 }
 
+namespace {
+
+double rgbd_noise_m(double depth_m) {
+  if (depth_m < RgbdNoise::bend_m) {
+    return std::max(0.0, RgbdNoise::near_sigma[0] * depth_m + RgbdNoise::near_sigma[1]);
+  }
+  // The second line begins below zero: what it is at the bend counts until it is as far above.
+  const auto far_m = [](double at_m) {
+    return std::abs(RgbdNoise::far_sigma[0] * at_m + RgbdNoise::far_sigma[1]);
+  };
+  return std::max(far_m(RgbdNoise::bend_m), far_m(depth_m));
+}
+
+}  // namespace
+
 double DepthCameraSpec::noise_m(double depth_m) const {
-  const auto& [a, b_m] = depth_m < RgbdNoise::bend_m ? RgbdNoise::near_sigma : RgbdNoise::far_sigma;
-  return std::hypot(rgbd_noise ? std::max(0.0, a * depth_m + b_m) : 0.0, extra_noise_m);
+  return std::hypot(rgbd_noise ? rgbd_noise_m(depth_m) : 0.0, extra_noise_m);
 }
 
 }  // namespace flyball

@@ -37,5 +37,14 @@ TEST(DepthCameraSpec, has_the_noise_of_its_two_sources_together) {
   EXPECT_NEAR(spec.noise_m(10.0), 0.1, 1e-9);
 }
 
+TEST(DepthCameraSpec, has_a_noise_that_does_not_fall_with_the_depth) {
+  const DepthCameraSpec spec;
+  EXPECT_NEAR(spec.noise_m(6.0), 0.0251, 1e-9);
+  EXPECT_NEAR(spec.noise_m(6.38), 0.0251, 1e-9) << "where the second line crosses zero";
+  for (double depth_m = 0.0; depth_m < 20.0; depth_m += 0.01) {
+    EXPECT_LE(spec.noise_m(depth_m), spec.noise_m(depth_m + 0.01)) << depth_m;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

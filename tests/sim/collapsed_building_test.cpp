@@ -55,5 +55,24 @@ TEST(CollapsedBuilding, lets_the_body_come_to_where_it_sees_the_person) {
   EXPECT_NE(std::find(space.cells.begin(), space.cells.end(), beside), space.cells.end());
 }
 
+TEST(CollapsedBuilding, refuses_walls_that_leave_no_room_for_start_and_person) {
+  for (const double length_m : {9.0, 15.0, 20.0}) {
+    for (double walls = 1.0; walls <= 8.0; walls += 1.0) {
+      const auto world = made_world("collapsed_building", 1,
+                                    {{"length_m", length_m}, {"walls", walls}, {"slabs", 0.0}});
+      const double bay_m = length_m / (walls + 1.0);
+      EXPECT_EQ(world.ok(), bay_m > 2.6) << length_m << " m, " << walls << " walls";
+      if (world) {
+        const Clearance clearance{*world};
+        EXPECT_GT(clearance.distance_m(world->start_W + Vec3{0, 0, 1.25}, {1.0, 1.25}, 2.0, true),
+                  0.0);
+      } else {
+        EXPECT_NE(world.error().message.find("have at most "), std::string::npos)
+            << world.error().message;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace flyball

@@ -65,5 +65,17 @@ TEST(ObservableSpace, holds_nothing_where_the_body_does_not_fit_at_the_start) {
   EXPECT_TRUE(observable_space(world, request_in(world)).cells.empty());
 }
 
+TEST(ObservableSpace, of_a_camera_that_looks_down_ends_below_the_ceiling) {
+  const World world = two_closed_rooms();
+  ObservableRequest request = request_in(world);
+  request.camera.pitch_down_rad = 0.6;  // More than half its field of view.
+  const ObservableSpace space = observable_space(world, request);
+  const auto level = observable_space(world, request_in(world));
+  EXPECT_LT(space.cells.size(), level.cells.size());
+  EXPECT_GT(space.cells.size(), level.cells.size() / 2);
+  EXPECT_TRUE(has(space.cells, {1.0, 1.0, 0.2}));
+  EXPECT_FALSE(has(space.cells, {2.0, 1.5, 2.3})) << "above all places where the camera can be";
+}
+
 }  // namespace
 }  // namespace flyball

@@ -66,5 +66,19 @@ TEST(Office, refuses_a_goal_in_a_room_that_there_is_not) {
       << world.error().message;
 }
 
+TEST(Office, says_how_near_the_walls_of_a_narrow_corridor_are) {
+  for (const double width_m : {1.8, 2.1, 2.4, 4.0}) {
+    const auto world = made_world("office", 1, {{"corridor_width_m", width_m}});
+    ASSERT_TRUE(world);
+    EXPECT_LE(world->start_clear_m, 1.0);
+    const Clearance clearance{*world};
+    const Cylinder promised{world->start_clear_m - 1e-6, 1.25};
+    EXPECT_GT(clearance.distance_m(world->start_W + Vec3{0, 0, 1.25}, promised, 2.0, true), 0.0)
+        << width_m;
+    EXPECT_EQ(world->goal_clear_m, world->start_clear_m) << "they are one place";
+  }
+  EXPECT_EQ(made_world("office", 1)->start_clear_m, 1.0);
+}
+
 }  // namespace
 }  // namespace flyball

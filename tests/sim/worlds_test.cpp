@@ -189,5 +189,20 @@ TEST(OctomapFile, ships_pairs_that_the_vehicle_can_fly_between) {
   }
 }
 
+TEST(Farm, has_no_crop_where_a_field_is_all_path) {
+  const auto world = made_world("farm", 1, {{"width_m", 20.0}, {"fields", 20.0}});
+  ASSERT_TRUE(world) << world.error().message;
+  for (const Aabb& box : world->boxes) {
+    EXPECT_GT((box.max - box.min).minCoeff(), 0.0);
+  }
+}
+
+TEST(CityBlocks, refuses_lorries_without_a_street_for_them) {
+  const auto world = made_world("city_blocks", 1, {{"lorries", 3.0}, {"columns", 1.0}});
+  ASSERT_FALSE(world);
+  EXPECT_NE(world.error().message.find("set columns to 2"), std::string::npos);
+  EXPECT_TRUE(made_world("city_blocks", 1, {{"lorries", 3.0}, {"columns", 2.0}}));
+}
+
 }  // namespace
 }  // namespace flyball

@@ -31,6 +31,9 @@ ExploreRequest explore_request(const Brief& brief, const Viewpoint& from) {
   request.field.horizontal_rad = 2.0 * std::atan(0.5 * camera.width_px / camera.focal_px);
   request.field.vertical_rad = 2.0 * std::atan(0.5 * camera.height_px / camera.focal_px);
   request.field.range_m = request.settings.gain_range_m;
+  request.field.pitch_down_rad = brief.settings.camera.pitch_down_rad;
+  request.field.forward_m = brief.settings.camera.forward_m;
+  request.field.up_m = brief.settings.camera.up_m;
   return request;
 }
 

@@ -85,7 +85,9 @@ double KnownShare::percent(const OccupancyView& map) {
   }
   const std::size_t reachable = front_.size() - free_cells;
   const auto all = static_cast<double>(known + reachable);
-  return known == 0 ? 0.0 : 100.0 * static_cast<double>(known) / all;
+  // Where nothing is known to be free, as behind a first look at a floor, nothing can be said of
+  // what can be reached.
+  return free_cells == 0 ? 0.0 : 100.0 * static_cast<double>(known) / all;
 }
 
 double known_area_m2(const OccupancyView& map, const Aabb& volume_W, double z_m, double square_m) {

@@ -49,7 +49,7 @@ GridCell nearest_to(const Vec3& p_W, const StateGrid& grid, const std::vector<Gr
 class Search {
  public:
   Search(const ExploreRequest& request, const StateGrid& grid, const StandingPlaces& places)
-      : request_{request}, grid_{grid}, places_{places} {}
+      : request_{request}, grid_{grid}, places_{places}, pyramid_{request.field} {}
 
   /// From two of the places that see the frontier: the first one on the way, and the one nearest to
   /// the frontier. The first sees it past the edge of a door, the nearest also what is behind it.
@@ -60,12 +60,13 @@ class Search {
     std::vector<FrontierView> views;
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const Place& place : places_.thinned()) {
-      const Vec3 camera_W = grid_.centre(place.cell);
-      const Vec3 to = target_W - camera_W;
-      if (to.norm() >= nearest_m || !is_in_view(to)) {
+      const Vec3 here_W = grid_.centre(place.cell);
+      const Vec3 to = target_W - here_W;
+      const Viewpoint view{here_W, yaw_of(to)};
+      const Vec3 camera_W = pyramid_.apex_W(view);
+      if (to.norm() >= nearest_m || !is_in_view(target_W - camera_W)) {
         continue;
       }
-      const Viewpoint view{camera_W, yaw_of(to)};
       if (!is_spent(request_, view) && grid_.sees(camera_W, frontier.cell, ray_cells)) {
         if (views.size() == 2) {
           views.pop_back();
@@ -83,14 +84,14 @@ class Search {
   [[nodiscard]] bool is_in_view(const Vec3& to) const {
     constexpr double behind_m = 1.0;
     const double across_m = to.head<2>().norm();
-    return across_m > 0.5 &&
-           std::abs(to.z()) < std::tan(0.5 * request_.field.vertical_rad) * across_m &&
+    return across_m > 0.5 && pyramid_.to_edge_m(across_m, to.z()) > 0.0 &&
            to.norm() < request_.field.range_m - behind_m;
   }
 
   const ExploreRequest& request_;
   const StateGrid& grid_;
   const StandingPlaces& places_;
+  Pyramid pyramid_;
 };
 
 double worth(double seen, double path_m) {

@@ -7,13 +7,25 @@
 
 namespace flyball {
 
+Pyramid::Pyramid(const ViewField& field)
+    : tan_across_{std::tan(0.5 * field.horizontal_rad)},
+      tan_up_{std::tan(0.5 * field.vertical_rad)},
+      cos_{std::cos(field.pitch_down_rad)},
+      sin_{std::sin(field.pitch_down_rad)},
+      forward_m_{field.forward_m},
+      up_m_{field.up_m} {}
+
+Vec3 Pyramid::apex_W(const Viewpoint& view) const {
+  return view.p_W +
+         Vec3{forward_m_ * std::cos(view.yaw_rad), forward_m_ * std::sin(view.yaw_rad), up_m_};
+}
+
 ViewGain::ViewGain(const StateGrid& grid, const Aabb& volume_W, const ViewField& field, int threads)
     : grid_{grid},
       first_{grid.cell_of(volume_W.min)},
       last_{grid.cell_of(volume_W.max - Vec3::Constant(1e-6))},
       range_m_{field.range_m},
-      tan_across_{std::tan(0.5 * field.horizontal_rad)},
-      tan_up_{std::tan(0.5 * field.vertical_rad)},
+      pyramid_{field},
       threads_{threads} {
   for (std::size_t i = 0; i < 3; ++i) {
     first_[i] = std::max(first_[i], grid.first()[i]);
@@ -22,11 +34,10 @@ ViewGain::ViewGain(const StateGrid& grid, const Aabb& volume_W, const ViewField&
 }
 
 bool ViewGain::is_in_field(const Viewpoint& view, const GridCell& cell) const {
-  const Vec3 to = grid_.centre(cell) - view.p_W;
+  const Vec3 to = grid_.centre(cell) - pyramid_.apex_W(view);
   const double forward = std::cos(view.yaw_rad) * to.x() + std::sin(view.yaw_rad) * to.y();
   const double left = std::cos(view.yaw_rad) * to.y() - std::sin(view.yaw_rad) * to.x();
-  return forward > 0.0 && std::abs(left) <= tan_across_ * forward &&
-         std::abs(to.z()) <= tan_up_ * forward && to.squaredNorm() <= range_m_ * range_m_;
+  return pyramid_.holds(forward, left, to.z()) && to.squaredNorm() <= range_m_ * range_m_;
 }
 
 double ViewGain::gain_m3(const Viewpoint& view) {
@@ -48,8 +59,9 @@ std::vector<double> ViewGain::gains_m3(const std::vector<Viewpoint>& views) {
 
 ViewGain::Seen ViewGain::seen_from(const Viewpoint& view) const {
   const Vec3 reach = Vec3::Constant(range_m_);
-  GridCell low = grid_.cell_of(view.p_W - reach);
-  GridCell high = grid_.cell_of(view.p_W + reach);
+  const Vec3 camera_W = pyramid_.apex_W(view);
+  GridCell low = grid_.cell_of(camera_W - reach);
+  GridCell high = grid_.cell_of(camera_W + reach);
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = std::max(low[i], first_[i]);
     high[i] = std::min(high[i], last_[i]);
@@ -58,7 +70,7 @@ ViewGain::Seen ViewGain::seen_from(const Viewpoint& view) const {
   Seen seen;
   for (int y = low[1]; y <= high[1]; ++y) {
     for (int x = low[0]; x <= high[0]; ++x) {
-      look_along(view.p_W, heading, {x, y, low[2]}, high[2], seen);
+      look_along(camera_W, heading, {x, y, low[2]}, high[2], seen);
     }
   }
   return seen;
@@ -71,12 +83,12 @@ void ViewGain::look_along(
   const double forward = heading.x() * to.x() + heading.y() * to.y();
   const double left = heading.x() * to.y() - heading.y() * to.x();
   const double spare_m2 = range_m_ * range_m_ - to.head<2>().squaredNorm();
-  if (forward <= 0.0 || std::abs(left) > tan_across_ * forward || spare_m2 < 0.0) {
+  if (spare_m2 < 0.0 || pyramid_.leaves_out(forward, left)) {
     return;
   }
-  const double up_m = std::min(tan_up_ * forward, std::sqrt(spare_m2));
+  const double most_m = std::sqrt(spare_m2);
   for (double z_m = to.z(); cell[2] <= top; ++cell[2], z_m += grid_.cell_m()) {
-    if (std::abs(z_m) <= up_m) {
+    if (std::abs(z_m) <= most_m && pyramid_.holds(forward, left, z_m)) {
       seen.looked_at += 1.0;
       const bool is_new = grid_.at(cell) == CellState::unknown;
       seen.fresh += is_new && grid_.sees(camera_W, cell, seen.crossed) ? 1.0 : 0.0;

@@ -7,9 +7,39 @@
 #include "flyball/kernels/explorer.h"
 
 #include "planning/state_grid.h"
+#include <cmath>
 #include <vector>
 
 namespace flyball {
+
+/// The directions that a camera sees, in the level frame of the body's heading: forward, left, up.
+class Pyramid {
+ public:
+  explicit Pyramid(const ViewField& field);
+  /// The camera, where the body is at the view.
+  [[nodiscard]] Vec3 apex_W(const Viewpoint& view) const;
+  [[nodiscard]] bool holds(double forward_m, double left_m, double up_m) const {
+    const double depth_m = cos_ * forward_m - sin_ * up_m;
+    return depth_m > 0.0 && std::abs(left_m) <= tan_across_ * depth_m &&
+           to_edge_m(forward_m, up_m) >= 0.0;
+  }
+  /// From there to the upper or the lower edge, whichever is nearer; negative outside.
+  [[nodiscard]] double to_edge_m(double forward_m, double up_m) const {
+    return tan_up_ * (cos_ * forward_m - sin_ * up_m) - std::abs(sin_ * forward_m + cos_ * up_m);
+  }
+  /// Whether it holds nothing at this bearing, at any height; a level one knows without asking.
+  [[nodiscard]] bool leaves_out(double forward_m, double left_m) const {
+    return sin_ == 0.0 && (forward_m <= 0.0 || std::abs(left_m) > tan_across_ * forward_m);
+  }
+
+ private:
+  double tan_across_;
+  double tan_up_;
+  double cos_;
+  double sin_;
+  double forward_m_;
+  double up_m_;
+};
 
 class ViewGain {
  public:
@@ -45,8 +75,7 @@ class ViewGain {
   GridCell first_{};  ///< Of the volume.
   GridCell last_{};
   double range_m_;
-  double tan_across_;
-  double tan_up_;
+  Pyramid pyramid_;
   int threads_;
   double cells_{};
   double ray_cells_{};

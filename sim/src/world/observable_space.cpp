@@ -132,14 +132,20 @@ DepthCameraSpec coarse_camera(const ObservableRequest& request) {
   return camera;
 }
 
-Pose level_camera(const Vec3& p_W, double yaw_rad) {
+/// Of a level body at `p_W`.
+Pose mounted_camera(const DepthCameraSpec& mount, const Vec3& p_W, double yaw_rad) {
   Eigen::Matrix3d R_BC;  // clang-format off
   R_BC << 0, 0, 1,
          -1, 0, 0,
           0, -1, 0;  // clang-format on
   Pose X_WC = Pose::Identity();
-  X_WC.linear() = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix() * R_BC;
-  X_WC.translation() = p_W;
+  const Eigen::Matrix3d R_WB = Eigen::AngleAxisd{yaw_rad, Vec3::UnitZ()}.toRotationMatrix();
+  X_WC.linear() = R_WB * R_BC;
+  if (mount.pitch_down_rad != 0.0) {
+    const Eigen::AngleAxisd tilt{mount.pitch_down_rad, Vec3::UnitY()};
+    X_WC.linear() = R_WB * tilt.toRotationMatrix() * R_BC;
+  }
+  X_WC.translation() = p_W + R_WB * Vec3{mount.forward_m, 0.0, mount.up_m};
   return X_WC;
 }
 
@@ -152,7 +158,7 @@ class Observer {
         range_m_{request.range_m},
         camera_{world, coarse_camera(request), 0},
         rays_{rays_of(camera_.spec().intrinsics())},
-        headings_{static_cast<int>(std::ceil(two_pi / request.camera.horizontal_field_rad))},
+        headings_{headings_of(request.camera)},
         seen_(lattice.size(), unseen) {}
 
   void look_around(const Vec3& p_W) {
@@ -168,7 +174,7 @@ class Observer {
       }
     });
     for (int i = 0; i < headings_; ++i) {
-      look(level_camera(p_W, two_pi * i / headings_));
+      look(mounted_camera(camera_.spec(), p_W, two_pi * i / headings_));
     }
   }
 
@@ -199,6 +205,11 @@ class Observer {
     double range_1m_m;  ///< How far from the camera that is.
   };
 
+  /// A tilted camera sees less of the circle at each height, so it looks twice as often.
+  static int headings_of(const DepthCameraSpec& camera) {
+    const int level = static_cast<int>(std::ceil(two_pi / camera.horizontal_field_rad));
+    return camera.pitch_down_rad == 0.0 ? level : 2 * level;
+  }
   static std::vector<PixelRay> rays_of(const Intrinsics& camera) {
     std::vector<PixelRay> rays;
     for (int v = 0; v < camera.height_px; ++v) {

@@ -74,6 +74,12 @@ class CityBlocks final : public flyball::WorldGenerator {
     const Grid grid{given.number("block_m"), given.number("street_m"),
                     static_cast<int>(given.number("columns")),
                     static_cast<int>(given.number("rows"))};
+    if (given.number("lorries") > 0.0 && grid.columns < 2) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "world \"city_blocks\": lorries go to and fro in the streets between "
+                            "start and goal, and with columns = 1 there is none; set columns to 2 "
+                            "or more, or lorries to 0"};
+    }
     World world;
     world.ground_material = Material::asphalt;
     world.goal_W = {grid.street_at(grid.columns), grid.street_at(grid.rows), 0.0};

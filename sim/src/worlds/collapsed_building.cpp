@@ -28,6 +28,8 @@ constexpr double top_z_m = 2.025;
 constexpr double step_m = 0.15;        // Of a slab, which is a stair of boxes.
 constexpr double slab_m = 0.12;        // Thick: a usual concrete floor less its screed.
 constexpr double passage_m = 1.6;      // Kept free around start and holes.
+constexpr double behind_wall_m = 1.6;  // Between the last cross wall and the person, at least, ...
+constexpr double before_wall_m = 1.0;  // ... and from there to the east wall.
 constexpr double person_room_m = 1.0;  // Kept free around the person.
 constexpr int tries = 60;
 
@@ -77,6 +79,18 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     RandomStream person{seed, "world/collapsed_building/person"};
     Ruin ruin;
     ruin.length_m = flyball::on_wall_grid(given.number("length_m"));
+    const auto cross_walls = static_cast<int>(given.number("walls"));
+    if (!has_room(ruin.length_m, cross_walls)) {
+      int most = cross_walls;
+      while (most > 0 && !has_room(ruin.length_m, most)) {
+        --most;
+      }
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "world \"collapsed_building\": walls = " + std::to_string(cross_walls) +
+                                " leaves no room for start and person in a length_m of " +
+                                std::to_string(ruin.length_m) + "; lengthen it, or have at most " +
+                                std::to_string(most) + " walls"};
+    }
     ruin.half_width_m = flyball::on_wall_grid(0.5 * given.number("width_m"));
     ruin.world.start_W = ruin.world.goal_W = {start_m, 0.0, 0.0};
     ruin.free.emplace_back(ruin.world.start_W, passage_m);
@@ -95,6 +109,18 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
   }
 
  private:
+  /// Between the west wall and the first cross wall, and behind the last one.
+  static bool has_room(double length_m, int walls) {
+    const double first_m = wall_at_m(length_m, 1, walls);
+    const double last_m = wall_at_m(length_m, walls, walls);
+    return walls == 0 || (first_m - flyball::half_wall_m - start_m >= 1.0 &&
+                          last_m + behind_wall_m <= length_m - before_wall_m);
+  }
+  /// Where one of them stands.
+  static double wall_at_m(double length_m, int number, int walls) {
+    return flyball::on_wall_grid(length_m * number / (walls + 1.0));
+  }
+
   static flyball::Building shell(const Ruin& ruin) {
     const double w = ruin.half_width_m;
     flyball::Building building;
@@ -118,7 +144,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
     plan.door_width_m = given.number("hole_m");
     double at_m = 0.0;
     for (int i = 1; i <= walls; ++i) {
-      at_m = flyball::on_wall_grid(ruin.length_m * i / (walls + 1.0));
+      at_m = wall_at_m(ruin.length_m, i, walls);
       const double reach_m = ruin.half_width_m - 0.5 * plan.door_width_m - 0.6;
       const double hole_m =
           door_centre_m(plan, random.uniform(-reach_m, reach_m), -reach_m, reach_m);
@@ -151,7 +177,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
 
   static void add_person(Ruin& ruin, double last_wall_m, bool lies, RandomStream& random) {
     for (int i = 0; i < tries; ++i) {
-      const double x_m = random.uniform(last_wall_m + 1.6, ruin.length_m - 1.0);
+      const double x_m = random.uniform(last_wall_m + behind_wall_m, ruin.length_m - before_wall_m);
       const double y_m = random.uniform(1.0 - ruin.half_width_m, ruin.half_width_m - 1.0);
       const Vec3 foot_W{x_m, y_m, 0.0};
       const double to_hole_m = (ruin.free.back().first - foot_W).head<2>().norm();

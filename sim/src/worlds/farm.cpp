@@ -71,9 +71,10 @@ class Farm final : public flyball::WorldGenerator {
     for (int i = 0; i < fields; ++i) {
       const double y_m = i * strip_m;
       const double crop_m = given.number("crop_height_m") * random.uniform(0.5, 1.5);
-      if (crop_m > 0.0) {
+      constexpr double path_m = 1.0;  // Beside each fence.
+      if (crop_m > 0.0 && strip_m > 2.0 * path_m) {
         world.boxes.push_back(
-            {{1.0, y_m + 1.0, 0.0}, {size.x() - 1.0, y_m + strip_m - 1.0, crop_m}});
+            {{path_m, y_m + path_m, 0.0}, {size.x() - path_m, y_m + strip_m - path_m, crop_m}});
       }
       if (i > 0) {
         add_fence(world, size.x(), y_m, random.uniform(0.0, size.x() - gate_m));

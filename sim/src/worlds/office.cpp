@@ -89,6 +89,12 @@ class Office final : public flyball::WorldGenerator {
     world.bounds_W = world.volume_W;
     world.bounds_W.min.z() = office_lowest_m;
     world.bounds_W.max.z() -= office_below_ceiling_m;
+    // A narrow corridor's walls are nearer than is usual.
+    const double to_wall_m = 0.5 * layout.corridor_m - flyball::half_wall_m;
+    world.start_clear_m = std::min(world.start_clear_m, to_wall_m);
+    if (goal_room == 0) {
+      world.goal_clear_m = world.start_clear_m;
+    }
     world.zones = {{building.extent_W, given.number("indoor_speed_m_s")}};
     world.cruise_height_m = 1.2;
     return world;

@@ -81,5 +81,39 @@ TEST(ViewGain, is_the_same_for_several_views_at_once) {
   EXPECT_EQ(together.ray_cells(), alone.ray_cells());
 }
 
+TEST(ViewGain, of_a_tilted_camera_is_the_same_pyramid_turned) {
+  const Aabb box{{-8, -8, -8}, {8, 8, 8}};
+  const kit::GridMap map{box, 0.2, CellState::unknown};
+  const StateGrid grid{map, box};
+  ViewField field;
+  field.horizontal_rad = 1.2;
+  field.vertical_rad = 0.8;
+  ViewGain level{grid, box, field};
+  field.pitch_down_rad = 0.7;
+  ViewGain tilted{grid, box, field};
+  const Viewpoint view{{0.03, 0.02, 0.01}, 0.4};
+  EXPECT_NEAR(tilted.gain_m3(view), level.gain_m3(view), 0.02 * level.gain_m3(view));
+  const auto cell_at = [&](double ahead_m, double up_m) {
+    return grid.cell_of(view.p_W + Vec3{ahead_m * std::cos(0.4), ahead_m * std::sin(0.4), up_m});
+  };
+  EXPECT_TRUE(tilted.is_in_field(view, cell_at(3.0, -3.0 * std::tan(0.7))));
+  EXPECT_FALSE(level.is_in_field(view, cell_at(3.0, -3.0 * std::tan(0.7))));
+  EXPECT_FALSE(tilted.is_in_field(view, cell_at(3.0, 0.0)));
+}
+
+TEST(ViewGain, looks_from_where_the_camera_is_mounted) {
+  const Aabb box{{-8, -8, -8}, {8, 8, 8}};
+  const kit::GridMap map{box, 0.2, CellState::unknown};
+  const StateGrid grid{map, box};
+  ViewField field;
+  const double centred_m3 =
+      ViewGain{grid, box, field}.gain_m3({{1.0, 2.0, 0.5}, 1.5 * half_turn_rad});
+  field.forward_m = 2.0;
+  field.up_m = 0.5;
+  ViewGain mounted{grid, box, field};
+  EXPECT_NEAR(mounted.gain_m3({{1.0, 4.0, 0.0}, 1.5 * half_turn_rad}), centred_m3, 0.05)
+      << "but for rounding at the edges";
+}
+
 }  // namespace
 }  // namespace flyball

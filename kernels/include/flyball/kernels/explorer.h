@@ -14,17 +14,20 @@
 
 namespace flyball {
 
-/// Where a level camera stands, and its heading.
+/// Where a vehicle's body is, and its heading.
 struct Viewpoint {
   Vec3 p_W{Vec3::Zero()};
   double yaw_rad{};
 };
 
-/// What a camera sees: a pyramid, cut at a distance.
+/// What a camera sees: a pyramid, cut at a distance; and how the camera is mounted on the body.
 struct ViewField {
   double horizontal_rad{1.5707963267948966};
   double vertical_rad{1.0};
   double range_m{6.0};
+  double pitch_down_rad{};  ///< Of the pyramid's axis, from level.
+  double forward_m{};       ///< Of the camera, from the body's centre.
+  double up_m{};
 };
 
 struct ExploreSettings {

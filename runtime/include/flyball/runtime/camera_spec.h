@@ -13,7 +13,8 @@ namespace flyball {
 /// The ideal camera: square pixels, axis through the middle of the image.
 [[nodiscard]] Intrinsics pinhole(int width_px, int height_px, double horizontal_field_rad);
 
-/// MAVBench's RGB-D camera (its code): the standard deviation of a depth d is a d + b, at least 0.
+/// MAVBench's RGB-D camera (its code): a depth d is wrong by a d + b times a normal number. At 6 to
+/// 6.38 m its second line is below zero, which is as good as its size; the first one is cut at 0.
 struct RgbdNoise {
   static constexpr double bend_m = 6.0;  ///< From here on the second line holds.
   static constexpr std::array<double, 2> near_sigma{0.0035, -0.0023};  ///< a, b [m]
@@ -35,7 +36,8 @@ struct DepthCameraSpec {
   double delay_s{};         ///< From the moment that an image shows to its message.
 
   [[nodiscard]] Intrinsics intrinsics() const;
-  /// Standard deviation of a depth [m]; it does not fall with the depth.
+  /// Standard deviation of a depth [m], or of a smaller one where that is larger: it does not fall
+  /// with the depth.
   [[nodiscard]] double noise_m(double depth_m) const;
 };
 

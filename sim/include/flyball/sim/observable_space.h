@@ -16,7 +16,7 @@ namespace flyball {
 struct ObservableRequest {
   Cylinder body{};
   Vec3 start_W{Vec3::Zero()};  ///< Of the body's centre, in the air.
-  DepthCameraSpec camera{};    ///< Its field of view and rate; noise and pixel count do not matter.
+  DepthCameraSpec camera{};  ///< Its field of view and mount; noise and pixel count do not matter.
   double range_m{7.0};
   double cell_m{0.15};
 };

@@ -54,5 +54,12 @@ TEST(KnownShare, sees_a_room_behind_an_open_door) {
   EXPECT_NEAR(share.percent(map), 50.0, 1.0);
 }
 
+TEST(KnownShare, is_zero_while_only_a_floor_is_known) {
+  kit::GridMap map = unknown_map();
+  map.fill({Vec3{0, 0, 0}, Vec3{1.0, 1.0, 0.1}}, CellState::occupied);
+  KnownShare share{volume, 0.1};
+  EXPECT_EQ(share.percent(map), 0.0);
+}
+
 }  // namespace
 }  // namespace flyball
