@@ -4,8 +4,8 @@
 
 #include "children.h"
 #include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
 
 namespace flyball {
 namespace {
@@ -127,11 +127,15 @@ std::optional<int> unfinished(const Flown& flown) {
 }
 
 Status check_distinct(const std::vector<std::string>& policies) {
-  std::set<std::string> folders;
+  std::map<std::string, std::string> by_folder;
   for (const std::string& policy : policies) {
-    if (!folders.insert(run_folder("", policy, 0)).second) {
+    const auto [other, is_new] = by_folder.emplace(run_folder("", policy, 0), policy);
+    if (!is_new) {
       return Error{ErrorCode::invalid_input,
-                   "--policies has two that are called \"" + policy + "\"; name each once"};
+                   other->second == policy
+                       ? "--policies has \"" + policy + "\" twice; name each once"
+                       : "--policies has \"" + other->second + "\" and \"" + policy +
+                             "\", whose flights would have the same name; rename one of them"};
     }
   }
   return Done{};

@@ -2,7 +2,10 @@
 
 #include "race.h"
 
+#include "flyball/governors/policy_file.h"
+#include "flyball/governors/preset.h"
 #include "flyball/records/report.h"
+#include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/scenario/shipped_platform.h"
@@ -57,6 +60,29 @@ Status check_policy(const Scenario& scenario) {
 
 }  // namespace
 
+Result<RacedPolicy> raced_policy(const std::string& name) {
+  namespace fs = std::filesystem;
+  const auto file = find_shipped("presets", name);
+  if (!file) {
+    return RacedPolicy{name, {}};  // Whether there is such a policy shows before it flies.
+  }
+  if (fs::path{*file}.extension() != ".toml") {
+    return RacedPolicy{fs::absolute(*file).string(), {}};
+  }
+  auto preset = load_preset(*file);
+  if (!preset) {
+    return preset.error();
+  }
+  if (preset->is_combination()) {
+    return Error{ErrorCode::invalid_input, "policy \"" + name + "\" is a combination of \"" +
+                                               preset->application + "\" and \"" + preset->clock +
+                                               "\"; name one of them"};
+  }
+  const fs::path beside = fs::absolute(*file).parent_path() / preset->policy;
+  return RacedPolicy{is_policy_file(preset->policy) ? beside.string() : preset->policy,
+                     std::move(preset->parameters)};
+}
+
 /// One candidate with one seed.
 struct Race::Heat : StoredFlight {
   Candidate* candidate{};
@@ -67,16 +93,24 @@ Race::Race(RaceSettings settings, FlightStore& store)
 
 /// Under a name that says its parameters: the same candidate has the same file.
 std::string Race::preset_file(const Candidate& candidate) const {
-  std::string name = settings_.policy + " " + parameters_text(candidate);
+  const std::string stem = std::filesystem::path{settings_.policy.policy}.stem().string();
+  std::string name = stem + " " + parameters_text(candidate);
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ' ' || c == '='; }, '-');
   std::replace(name.begin(), name.end(), '.', '_');
   return settings_.presets + "/" + name + ".toml";
 }
 
+std::string Race::preset_of(const Candidate& candidate, const std::string& description) const {
+  auto parameters = settings_.policy.parameters;
+  for (const auto& [name, value] : candidate.parameters) {
+    parameters[name] = value;
+  }
+  return preset_text(settings_.policy.policy, description, parameters);
+}
+
 Status Race::write_preset(const Candidate& candidate) const {
-  return write_file(preset_file(candidate),
-                    preset_text(settings_.policy, "A candidate of a race", candidate));
+  return write_file(preset_file(candidate), preset_of(candidate, "A candidate of a race"));
 }
 
 std::variant<std::vector<Race::Heat>, std::vector<Error>> Race::plan(

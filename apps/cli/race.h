@@ -9,6 +9,7 @@
 #include "stored_flights.h"
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -16,9 +17,19 @@
 
 namespace flyball {
 
+/// A policy, and what is given for it beside what is tried.
+struct RacedPolicy {
+  std::string policy{};  ///< A name, or an absolute path to a script or a library.
+  std::map<std::string, ParameterValue> parameters{};
+};
+
+/// The policy of this name, or the one that a preset or a file holds.
+/// @error Those of `load_preset`; `invalid_input` for a combination.
+[[nodiscard]] Result<RacedPolicy> raced_policy(const std::string& name);
+
 struct RaceSettings {
   FlightOptions flight{};
-  std::string policy{};
+  RacedPolicy policy{};
   std::vector<std::uint64_t> seeds{};
   std::string presets{};  ///< The folder of the candidates' presets; it is made.
   std::string flights{};  ///< The folder of the flights' records.
@@ -45,6 +56,9 @@ class Race {
   [[nodiscard]] bool has_begun() const { return has_begun_; }
   /// With which it flies as a policy.
   [[nodiscard]] std::string preset_file(const Candidate& candidate) const;
+  /// What stands in such a file.
+  [[nodiscard]] std::string preset_of(const Candidate& candidate,
+                                      const std::string& description) const;
   [[nodiscard]] const RaceSettings& settings() const { return settings_; }
 
  private:

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -54,7 +55,7 @@ int show(const TuneOptions& options, const Race& race, const std::vector<Candida
   const std::string path =
       options.preset.empty() ? out_folder(options) + "/tuned.toml" : options.preset;
   const std::string description = told(options, stem, race.settings().seeds, ranked.size());
-  const Status written = write_file(path, preset_text(options.policy, description, ranked.front()));
+  const Status written = write_file(path, race.preset_of(ranked.front(), description));
   if (!written) {
     return refuse({written.error()});
   }
@@ -103,6 +104,10 @@ int tune(const TuneOptions& options) {
       return refuse({place.error()});
     }
   }
+  auto policy = raced_policy(options.policy);
+  if (!policy) {
+    return refuse({policy.error()});
+  }
   const std::string folder = out_folder(options);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {
@@ -115,7 +120,7 @@ int tune(const TuneOptions& options) {
     return refuse({store.error()});
   }
   Race race{{options.flight,
-             options.policy,
+             std::move(*policy),
              *seeds,
              folder + "/candidates",
              folder,

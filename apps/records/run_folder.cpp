@@ -6,6 +6,7 @@
 #include "flyball/records/version.h"
 #include "flyball/runtime/text/listed.h"
 #include "flyball/scenario/files.h"
+#include "flyball/scenario/policy_choice.h"
 #include "flyball/sim/platform_file.h"
 
 #include "records/frame_files.h"
@@ -42,15 +43,23 @@ std::string data_fingerprint(const Scenario& scenario) {
   TraceHash hash;
   const Result<std::string> airframe = find_shipped("airframes", scenario.vehicle.airframe);
   hash.add(airframe ? content_of(*airframe) : std::string{});
-  const Result<std::string> platform = find_shipped("platforms", scenario.platform.name);
-  for (const std::string& file :
-       platform ? files_of_platform(*platform) : std::vector<std::string>{}) {
+  for (const std::string& name : {scenario.platform.name, scenario.edge.platform}) {
+    const Result<std::string> platform = find_shipped("platforms", name);
+    for (const std::string& file : platform
+                                       ? files_of_platform(*platform, share_folder("platforms"))
+                                       : std::vector<std::string>{}) {
+      hash.add(content_of(file));
+    }
+  }
+  for (const std::string& file : files_behind_policy(scenario.governor.policy)) {
     hash.add(content_of(file));
   }
-  // A preset may stand for a program in another file.
-  const Result<std::string> policy = find_shipped("presets", scenario.governor.policy);
-  for (const std::string& file : policy ? files_of_policy(*policy) : std::vector<std::string>{}) {
-    hash.add(content_of(file));
+  for (const auto& [name, value] : scenario.world.parameters) {  // A map, a mesh.
+    const std::string* file = std::get_if<std::string>(&value);
+    std::error_code failed;
+    if (file != nullptr && fs::is_regular_file(*file, failed)) {
+      hash.add(content_of(*file));
+    }
   }
   for (const std::string& file : scenario.plugins.libraries()) {
     hash.add(content_of(file));

@@ -140,8 +140,9 @@ void read_computing(const Json& json, Summary& summary) {
 
 std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {
   return faults == 0 ? ""
-                     : "failed in " + std::to_string(faults) + " of " + std::to_string(decisions) +
-                           " decisions and was replaced by safe settings there: " + why;
+                     : "was replaced by safe settings in " + std::to_string(faults) + " of " +
+                           std::to_string(decisions) +
+                           " decisions (after some faults in a row it is not asked again): " + why;
 }
 
 std::string to_json(const Summary& summary, int indent) {

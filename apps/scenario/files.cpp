@@ -14,12 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool looks_like_path(const std::string& kind, const std::string& text) {
-  const std::string ending = fs::path{text}.extension().string();
-  const bool is_program = kind == "presets" && (ending == ".lua" || ending == ".so");
-  return text.find('/') != std::string::npos || ending == ".toml" || is_program;
-}
-
 /// Those that may hold what is shipped, in the order in which they are asked.
 std::vector<fs::path> data_folders() {
   // Read before any thread is started.
@@ -64,6 +58,12 @@ std::vector<std::string> shipped(const std::string& kind) {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+bool looks_like_path(const std::string& kind, const std::string& text) {
+  const std::string ending = fs::path{text}.extension().string();
+  const bool is_program = kind == "presets" && (ending == ".lua" || ending == ".so");
+  return text.find('/') != std::string::npos || ending == ".toml" || is_program;
 }
 
 Result<std::string> find_shipped(const std::string& kind, const std::string& name_or_path) {

@@ -7,6 +7,7 @@
 
 #include "scenario/scenario_parameters.h"
 #include <filesystem>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -45,26 +46,28 @@ Result<std::unique_ptr<Policy>> start_half(const std::string& name,
   return start_one(name, scenario, knobs, board);
 }
 
-/// The library that one policy comes from; empty: none.
-std::string library_of_one(const std::string& name) {
+}  // namespace
+
+std::vector<std::string> files_behind_policy(const std::string& name) {
   const auto file = find_shipped("presets", name);
-  for (const std::string& part : file ? files_of_policy(*file) : std::vector<std::string>{}) {
+  std::vector<std::string> files = file ? files_of_policy(*file) : std::vector<std::string>{};
+  const Preset both = combination_of(name);
+  for (const std::string& half : {both.application, both.clock}) {
+    const auto half_file = find_shipped("presets", half);
+    for (std::string& part : half_file ? files_of_policy(*half_file) : std::vector<std::string>{}) {
+      files.push_back(std::move(part));
+    }
+  }
+  return files;
+}
+
+std::string library_of_policy(const std::string& name) {
+  for (std::string& part : files_behind_policy(name)) {
     if (std::filesystem::path{part}.extension() == ".so") {
-      return part;
+      return std::move(part);
     }
   }
   return {};
-}
-
-}  // namespace
-
-std::string library_of_policy(const std::string& name) {
-  const Preset both = combination_of(name);
-  if (!both.is_combination()) {
-    return library_of_one(name);
-  }
-  const std::string library = library_of_one(both.application);
-  return library.empty() ? library_of_one(both.clock) : library;
 }
 
 Result<PolicyChoice> choose_policy(const std::string& name,

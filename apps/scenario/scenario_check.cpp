@@ -63,9 +63,14 @@ std::vector<NamedThing> files_of(const Scenario& scenario) {
   };
 }
 
-/// With the kinds of `find_shipped` for `files_of`: a path to a file is as good as a name.
+/// As `find_shipped` has it.
+std::string kind_of(const NamedThing& wanted) {
+  return wanted.list == "policies" ? "presets" : wanted.list;
+}
+
+/// For `files_of`: a path to a file is as good as a name.
 Result<std::string> file_of(const NamedThing& wanted) {
-  return find_shipped(wanted.list == "policies" ? "presets" : wanted.list, wanted.name);
+  return find_shipped(kind_of(wanted), wanted.name);
 }
 
 std::string clocks_of(const PlatformModel& platform) {
@@ -161,8 +166,9 @@ std::vector<Error> check_names(const Scenario& scenario, const GivenValues& give
   }
   for (const NamedThing& thing : files_of(scenario)) {
     if (const auto file = file_of(thing); !is_known(thing) && !file) {
-      // Where nothing is shipped at all, the place is what is wrong, not the name.
-      errors.push_back(thing.known.empty() ? file.error() : unknown(thing, given));
+      // Where nothing is shipped at all, or a path is given, the place is what is wrong.
+      const bool is_place = thing.known.empty() || looks_like_path(kind_of(thing), thing.name);
+      errors.push_back(is_place ? file.error() : unknown(thing, given));
     }
   }
   for (Error& error : check_operating_point(scenario, given)) {

@@ -78,7 +78,7 @@ Result<PlatformModel> find_platform(const std::string& name_or_path) {
   if (!file) {
     return file.error();
   }
-  Result<PlatformModel> model = load_platform(*file);
+  Result<PlatformModel> model = load_platform(*file, share_folder("platforms"));
   if (model) {
     if (const Status works = check_works(*model, *file); !works) {
       return works.error();

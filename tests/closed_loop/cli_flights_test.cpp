@@ -258,12 +258,31 @@ TEST(CliFlights, tuning_leaves_nothing_where_it_refuses) {
            {"--try range_m=7,1e9", "range_m"},
            {"--try nothing=7", "nothing"},
            {"--try range_m=7 --try range_m=15", "another --try has"},
+           {"--policy fixed_fine_schedutil_10ms --try range_m=7", "is a combination of"},
            {"--try range_m=7 --preset missing/p.toml", "there is no folder \"missing\""}}) {
     const auto refused = flyball.run(tune + given);
     EXPECT_EQ(refused.exit_code, 2) << given;
     EXPECT_NE(refused.errors.find(said), std::string::npos) << refused.errors;
     EXPECT_FALSE(fs::exists(flyball.place.path("t"))) << given;
   }
+}
+
+TEST(CliFlights, tunes_a_script_and_a_preset_with_the_parameters_that_it_has) {
+  const FlyballProgram flyball;
+  (void)flyball.place.file("limit.lua",
+                           "parameters = {{name = 'top', default = 2, min = 1, max = 9}}\n"
+                           "function start(given) top = given.top end\n"
+                           "function decide() return {['mission.max_speed_m_s'] = top} end\n");
+  (void)flyball.place.file("base.toml", "policy = \"fixed\"\n[parameters]\nrange_m = 9.0\n");
+  const std::string tune = "tune " + short_world(flyball, "near") + " --seeds 1001 --out ";
+  const auto preset = flyball.run(tune + "p --policy base.toml --try max_speed_m_s=1,4");
+  ASSERT_EQ(preset.exit_code, 0) << preset.errors;
+  const std::string tuned = flyball.place.content("p/tuned.toml");
+  EXPECT_NE(tuned.find("range_m = 9"), std::string::npos) << tuned;
+  EXPECT_NE(tuned.find("max_speed_m_s = 4"), std::string::npos) << tuned;
+  const auto script = flyball.run(tune + "s --policy limit.lua --try top=1,4");
+  ASSERT_EQ(script.exit_code, 0) << script.errors;
+  EXPECT_NE(flyball.place.content("s/tuned.toml").find("top = 4"), std::string::npos);
 }
 
 TEST(CliFlights, tuning_writes_the_setting_that_took_the_least_energy) {

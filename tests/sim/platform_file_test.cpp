@@ -216,6 +216,30 @@ TEST(PlatformFile, that_is_like_another_one_may_price_one_kernel_anew) {
   EXPECT_EQ(model->kernels.at("octomap").scale, 2.0) << "the others keep their prices";
 }
 
+TEST(PlatformFile, may_be_like_one_that_is_shipped) {
+  const ScratchFolder own;
+  const ScratchFolder shipped;
+  const std::string base = shipped.file("board.toml", whole);
+  const std::string path = own.file("mine.toml", "like = \"board\"\nmax_cores = 1\n");
+  EXPECT_FALSE(load_platform(path));
+  const auto model = load_platform(path, shipped.path());
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->max_cores, 1);
+  EXPECT_EQ(files_of_platform(path, shipped.path()), (std::vector<std::string>{path, base}));
+}
+
+TEST(PlatformFile, cannot_be_like_one_that_is_like_another) {
+  const ScratchFolder scratch;
+  (void)scratch.file("board.toml", whole);
+  (void)scratch.file("hot.toml", "like = \"board\"\n");
+  const auto refused = load_platform(scratch.file("hotter.toml", "like = \"hot\"\n"));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("hot.toml\" is itself like another; name that one"),
+            std::string::npos)
+      << refused.error().message;
+  EXPECT_FALSE(load_platform(scratch.file("self.toml", "like = \"self\"\n")));
+}
+
 TEST(PlatformFile, that_is_like_nothing_is_named) {
   EXPECT_NE(failure_of("like = \"moon\"\n").find("there is no"), std::string::npos);
 }

@@ -132,7 +132,7 @@ std::variant<BestSettings, int> find_best_settings(const Tournament& held) {
   BestSettings best;
   for (const std::string& world : held.options.worlds) {
     const RaceSettings settings{flight_in(held.options, world),
-                                "fixed",
+                                {"fixed", {}},
                                 held.seeds,
                                 out_folder(held.options) + "/candidates",
                                 folder_of(held.options, world),

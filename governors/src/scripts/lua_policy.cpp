@@ -8,8 +8,8 @@ namespace flyball {
 Result<std::unique_ptr<Policy>> open_lua_policy(const std::string& path, std::uint64_t /*seed*/) {
   return Error{ErrorCode::unavailable,
                path +
-                   ": this Flyball was built without Lua 5.4; install liblua5.4-dev, configure "
-                   "and build it again"};
+                   ": this program or library has no Lua; the C library never has, and others were "
+                   "built without liblua5.4-dev: install it, configure and build again"};
 }
 
 }  // namespace flyball

@@ -201,15 +201,41 @@ toml::table parsed(const std::string& path) {
   return toml::parse(content, path);
 }
 
+/// Where files are looked for that others are like.
+struct Place {
+  std::string path;  ///< Of the other file.
+  std::string shipped;
+};
+
 /// The file that this one is like; empty when it stands alone.
-std::string base_path(const toml::table& file, const std::string& path) {
+std::string base_path(const toml::table& file, const Place& place) {
   const auto base = file["like"].value<std::string>();
-  return base ? (std::filesystem::path{path}.parent_path() / (*base + ".toml")).string() : "";
+  if (!base) {
+    return {};
+  }
+  const auto beside = std::filesystem::path{place.path}.parent_path() / (*base + ".toml");
+  const auto shipped = std::filesystem::path{place.shipped} / (*base + ".toml");
+  std::error_code failed;
+  const bool is_shipped = !place.shipped.empty() &&
+                          !std::filesystem::is_regular_file(beside, failed) &&
+                          std::filesystem::is_regular_file(shipped, failed);
+  return (is_shipped ? shipped : beside).string();
+}
+
+/// Why there is nothing that the file could take over; empty: there is, or nothing is asked for.
+std::string fault_of_base(const std::string& base) {
+  std::error_code failed;
+  if (!base.empty() && !std::filesystem::is_regular_file(base, failed)) {
+    return "there is no \"" + base + "\"; copy it there, or name one of: flyball list platforms";
+  }
+  if (!base.empty() && parsed(base).contains("like")) {
+    return "\"" + base + "\" is itself like another; name that one";
+  }
+  return {};
 }
 
 /// With what it takes over from the file that it is like.
-toml::table completed(toml::table own, const std::string& path) {
-  const std::string base = base_path(own, path);
+toml::table completed(toml::table own, const std::string& base) {
   own.erase("like");
   if (base.empty()) {
     return own;
@@ -239,7 +265,7 @@ std::string joined(const std::vector<std::string>& problems) {
 
 }  // namespace
 
-Result<PlatformModel> load_platform(const std::string& path) {
+Result<PlatformModel> load_platform(const std::string& path, const std::string& shipped) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed) || !std::ifstream{path}) {
     return Error{ErrorCode::not_found,
@@ -247,12 +273,12 @@ Result<PlatformModel> load_platform(const std::string& path) {
   }
   try {
     toml::table own = parsed(path);
-    if (own.contains("like") && !std::filesystem::is_regular_file(base_path(own, path))) {
+    const std::string base = base_path(own, {path, shipped});
+    if (const std::string fault = fault_of_base(base); !fault.empty()) {
       return Error{ErrorCode::invalid_input,
-                   "platform file \"" + path + "\" must be like another platform beside it, and " +
-                       "there is no \"" + base_path(own, path) + "\""};
+                   "platform file \"" + path + "\" is to be like another, but " + fault};
     }
-    const toml::table file = completed(std::move(own), path);
+    const toml::table file = completed(std::move(own), base);
     std::vector<std::string> problems;
     PlatformModel model = read_model(file, problems);
     if (!problems.empty()) {
@@ -269,10 +295,10 @@ Result<PlatformModel> load_platform(const std::string& path) {
   }
 }
 
-std::vector<std::string> files_of_platform(const std::string& path) {
+std::vector<std::string> files_of_platform(const std::string& path, const std::string& shipped) {
   std::vector<std::string> files{path};
   try {
-    const std::string base = base_path(parsed(path), path);
+    const std::string base = base_path(parsed(path), {path, shipped});
     if (!base.empty()) {
       files.push_back(base);
     }

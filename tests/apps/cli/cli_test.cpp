@@ -88,6 +88,11 @@ TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
 }
 
 TEST_F(Cli, refuses_a_policy_twice) {
+  expect_refused("compare delivery_forest --policies a/one.lua,b/one.toml",
+                 "--policies has \"a/one.lua\" and \"b/one.toml\", whose flights would have the "
+                 "same name; rename one of them");
+  expect_refused("run delivery_forest --policy nosuch.lua",
+                 "no file \"nosuch.lua\" to read the policy from");
   expect_refused("compare delivery_forest --policies fixed_fine,fixed_fine", "name each once");
   expect_refused("tournament --worlds delivery_forest --policies fixed_fine,fixed_fine",
                  "name each once");

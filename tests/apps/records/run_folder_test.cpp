@@ -167,5 +167,22 @@ TEST(RunFolder, a_file_that_cannot_be_replaced_keeps_its_content) {
   }
 }
 
+TEST(RunFolder, a_mission_is_another_one_when_a_file_that_it_names_changes) {
+  const ScratchFolder scratch;
+  Scenario scenario;
+  const std::string world = scratch.file("world.bt", "one");
+  scenario.world.parameters["file"] = world;
+  scenario.edge.platform = scratch.file("edge.toml", "like = \"jetson_tx2\"\n");
+  const std::string rule = scratch.file("rule.lua", "-- one");
+  scenario.governor.policy =
+      scratch.file("both.toml", "application = \"" + rule + "\"\nclock = \"schedutil_10ms\"\n");
+  for (const char* changed : {"world.bt", "edge.toml", "rule.lua"}) {
+    const std::string before = mission_file(scenario);
+    (void)scratch.file(changed, scratch.content(changed) + "# another\n");
+    EXPECT_NE(mission_file(scenario), before) << changed;
+    EXPECT_EQ(mission_file(scenario), mission_file(scenario)) << changed;
+  }
+}
+
 }  // namespace
 }  // namespace flyball

@@ -2,6 +2,7 @@
 #include "flyball/scenario/policy_choice.h"
 
 #include "flyball/governors/policy_conformance.h"
+#include "flyball/scenario/files.h"
 
 #include "scratch_folder.h"
 
@@ -46,6 +47,18 @@ TEST(PolicyChoice, says_which_library_would_run_without_loading_it) {
         std::string{"two_level_schedutil_10ms"}, std::string{"./gone.so"}, script}) {
     EXPECT_EQ("", library_of_policy(harmless)) << harmless;
   }
+}
+
+TEST(PolicyChoice, consists_of_all_files_that_a_combination_names) {
+  const ScratchFolder folder;
+  const std::string rule = folder.file("rule.lua", "function decide() return {} end");
+  const std::string nested = folder.file("nested.toml", "policy = \"" + rule + "\"\n");
+  const std::string both =
+      folder.file("both.toml", "application = \"" + nested + "\"\nclock = \"schedutil_10ms\"\n");
+  EXPECT_EQ(files_behind_policy(both),
+            (std::vector<std::string>{both, nested, rule,
+                                      find_shipped("presets", "schedutil_10ms").value()}));
+  EXPECT_TRUE(files_behind_policy("nosuch").empty());
 }
 
 }  // namespace

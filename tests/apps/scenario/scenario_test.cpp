@@ -82,7 +82,7 @@ TEST(Scenario, what_it_names_must_exist) {
        {"no policy \"just_in_tme\" (--set); try: flyball list policies",
         "no platform \"jetson\" (--set); try: flyball list platforms",
         "no world \"frest\" (--set); did you mean forest? try: flyball list worlds",
-        "no airframe \"a/b.toml\" (--set); try: flyball list airframes",
+        "no file \"a/b.toml\" to read the airframe from; give a path to a .toml file",
         "no workload \"tour\" (--set); try: flyball list workloads"}) {
     EXPECT_NE(said.find(sentence), std::string::npos) << sentence << "\nis missing from\n" << said;
   }

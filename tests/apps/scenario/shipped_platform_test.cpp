@@ -25,9 +25,7 @@ TEST(ShippedPlatform, names_what_is_unknown_and_what_cannot_be_read) {
 
 std::string refused(const std::string& text) {
   const ScratchFolder scratch;
-  const std::string shipped = find_shipped("platforms", "jetson_tx2").value();
-  const std::string base = shipped.substr(0, shipped.size() - std::string{".toml"}.size());
-  const auto model = find_platform(scratch.file("mine.toml", "like = \"" + base + "\"\n" + text));
+  const auto model = find_platform(scratch.file("mine.toml", "like = \"jetson_tx2\"\n" + text));
   return model ? "" : model.error().message;
 }
 

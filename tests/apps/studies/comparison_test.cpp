@@ -100,7 +100,8 @@ TEST(Comparison, says_in_one_sentence_that_a_policy_was_replaced) {
   flights[0].policy_faults = 0;
   flights[2].policy_trouble = "a later one";
   const std::string sentence =
-      "policy bad failed in 20 of 800 decisions and was replaced by safe settings there: threw: ";
+      "policy bad was replaced by safe settings in 20 of 800 decisions (after some faults in a row "
+      "it is not asked again): threw: ";
   const Comparison comparison = compare_flights(flights);
   EXPECT_NE(to_text(comparison).find(sentence + "<enough>\n"), std::string::npos)
       << to_text(comparison);

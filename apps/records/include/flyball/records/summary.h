@@ -78,8 +78,8 @@ struct Summary {
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
 /// {name: {...}}`, `quality {name: number}` and `latency_bounds`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
-/// `failed in 3 of 400 decisions and was replaced by safe settings there: threw: no more`; empty
-/// where it never failed.
+/// `was replaced by safe settings in 3 of 400 decisions (after some faults in a row it is not asked
+/// again): threw: no more`; empty where it never failed.
 [[nodiscard]] std::string trouble_text(std::uint64_t faults,
                                        std::uint64_t decisions,
                                        const std::string& why);

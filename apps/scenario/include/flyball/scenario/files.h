@@ -17,6 +17,8 @@ namespace flyball {
 [[nodiscard]] std::string share_folder(const std::string& kind);
 /// Stems of the .toml files of a kind, sorted.
 [[nodiscard]] std::vector<std::string> shipped(const std::string& kind);
+/// Whether it is taken for a path to a file and not for a name.
+[[nodiscard]] bool looks_like_path(const std::string& kind, const std::string& text);
 /// The file of a bare name, or the path itself when it has a slash or ends in .toml; of
 /// `presets` also in .lua or .so.
 /// @error `not_found`: lists the command that shows the names.

@@ -7,6 +7,9 @@
 #include "flyball/governors/policy_file.h"
 #include "flyball/scenario/scenario.h"
 
+#include <string>
+#include <vector>
+
 namespace flyball {
 
 /// @param name     A preset, a policy with its default parameters, or a path to a policy's file
@@ -17,6 +20,9 @@ namespace flyball {
 [[nodiscard]] Result<PolicyChoice> choose_policy(const std::string& name,
                                                  const Plugins& plugins,
                                                  std::uint64_t seed);
+
+/// All files that the policy consists of, also those that a preset or a combination names.
+[[nodiscard]] std::vector<std::string> files_behind_policy(const std::string& name);
 
 /// The library whose code would run if the policy was chosen, also where a preset or a combination
 /// names it; empty: none. Loads nothing.
