@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -18,8 +19,8 @@ struct CheckOptions {
   Plugins plugins{};
 };
 
-int check(const CheckOptions& options) {
-  const std::string& file = options.file;
+/// Of one policy that is asked.
+int check_one(const std::string& file, const CheckOptions& options) {
   constexpr std::uint64_t seed = 1;
   const Result<PolicyChoice> choice = choose_policy(file, options.plugins, seed);
   if (!choice) {
@@ -46,13 +47,24 @@ int check(const CheckOptions& options) {
   return exit_mission_failed;
 }
 
+int check(const CheckOptions& options) {
+  int exit_code = exit_success;
+  for (const std::string& one : asked_policies(options.file)) {
+    exit_code = std::max(exit_code, check_one(one, options));
+  }
+  return exit_code;
+}
+
 }  // namespace
 
 void add_policy(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("policy", "checks a policy before it flies");
   command->require_subcommand(1);
-  CLI::App* check_command = command->add_subcommand(
-      "check", "checks a policy against the contract of all policies, and lists what it breaks");
+  CLI::App* check_command =
+      command->add_subcommand("check",
+                              "checks a policy against the contract of all policies, both of a "
+                              "combination, and lists what it "
+                              "breaks");
   const auto options = std::make_shared<CheckOptions>();  // Owners: the parser's callbacks.
   check_command
       ->add_option("FILE", options->file,

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "flight_options.h"
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -43,6 +44,10 @@ int describe_world(const WorldOptions& options) {
     return refuse({plan.error()});
   }
   if (!options.picture.empty()) {
+    if (std::filesystem::path{options.picture}.extension() != ".png") {
+      return refuse({{ErrorCode::invalid_input,
+                      "--picture \"" + options.picture + "\" must end in .png, which it becomes"}});
+    }
     const auto png = png_of(picture_of(*plan));
     if (!png) {
       return refuse({png.error()});

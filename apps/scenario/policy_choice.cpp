@@ -48,13 +48,20 @@ Result<std::unique_ptr<Policy>> start_half(const std::string& name,
 
 }  // namespace
 
-std::vector<std::string> files_behind_policy(const std::string& name) {
-  const auto file = find_shipped("presets", name);
-  std::vector<std::string> files = file ? files_of_policy(*file) : std::vector<std::string>{};
+std::vector<std::string> asked_policies(const std::string& name) {
   const Preset both = combination_of(name);
-  for (const std::string& half : {both.application, both.clock}) {
-    const auto half_file = find_shipped("presets", half);
-    for (std::string& part : half_file ? files_of_policy(*half_file) : std::vector<std::string>{}) {
+  return both.is_combination() ? std::vector{both.application, both.clock} : std::vector{name};
+}
+
+std::vector<std::string> files_behind_policy(const std::string& name) {
+  std::vector<std::string> names = asked_policies(name);
+  if (names.front() != name) {
+    names.insert(names.begin(), name);
+  }
+  std::vector<std::string> files;
+  for (const std::string& one : names) {
+    const auto file = find_shipped("presets", one);
+    for (std::string& part : file ? files_of_policy(*file) : std::vector<std::string>{}) {
       files.push_back(std::move(part));
     }
   }

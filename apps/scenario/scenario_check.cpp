@@ -14,6 +14,8 @@
 #include "scenario/scenario_parameters.h"
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -71,6 +73,16 @@ std::string kind_of(const NamedThing& wanted) {
 /// For `files_of`: a path to a file is as good as a name.
 Result<std::string> file_of(const NamedThing& wanted) {
   return find_shipped(kind_of(wanted), wanted.name);
+}
+
+std::optional<Error> missing_file(const NamedThing& wanted, const GivenValues& given) {
+  const auto file = file_of(wanted);
+  if (is_known(wanted) || file) {
+    return std::nullopt;
+  }
+  // Where nothing is shipped at all, or a path is given, the place is what is wrong.
+  const bool is_place = wanted.known.empty() || looks_like_path(kind_of(wanted), wanted.name);
+  return is_place ? file.error() : unknown(wanted, given);
 }
 
 std::string clocks_of(const PlatformModel& platform) {
@@ -165,10 +177,8 @@ std::vector<Error> check_names(const Scenario& scenario, const GivenValues& give
     }
   }
   for (const NamedThing& thing : files_of(scenario)) {
-    if (const auto file = file_of(thing); !is_known(thing) && !file) {
-      // Where nothing is shipped at all, or a path is given, the place is what is wrong.
-      const bool is_place = thing.known.empty() || looks_like_path(kind_of(thing), thing.name);
-      errors.push_back(is_place ? file.error() : unknown(thing, given));
+    if (auto error = missing_file(thing, given)) {
+      errors.push_back(std::move(*error));
     }
   }
   for (Error& error : check_operating_point(scenario, given)) {

@@ -26,7 +26,11 @@ namespace {
 
 constexpr std::size_t prefaulted_bytes = 262'144;  // Chosen: more than OMPL's deepest recursion.
 
-thread_local Duration helpers_time{};
+/// Of the calling thread.
+Duration& helpers_time() {
+  thread_local Duration used{};
+  return used;
+}
 
 std::string reason(int number) {
   return std::strerror(number);  // NOLINT(concurrency-mt-unsafe): glibc's is safe per thread.
@@ -167,11 +171,11 @@ Duration thread_cpu_time() {
 }
 
 void add_helpers_time(Duration used) {
-  helpers_time += used;
+  helpers_time() += used;
 }
 
 Duration take_helpers_time() {
-  return std::exchange(helpers_time, Duration{});
+  return std::exchange(helpers_time(), Duration{});
 }
 
 std::optional<std::string> lock_process_memory() {

@@ -87,6 +87,18 @@ TEST_F(Cli, refuses_an_output_folder_that_cannot_be_written) {
                  "Not a directory; choose another place with --out");
 }
 
+TEST_F(Cli, checks_both_policies_of_a_combination) {
+  const FlyballProgram::Outcome outcome = flyball.run("policy check fixed_fine_schedutil_10ms");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;
+  EXPECT_EQ(outcome.output,
+            "fixed_fine keeps the contract of a policy\n"
+            "schedutil_10ms keeps the contract of a policy\n");
+  (void)flyball.place.file("both.toml", "application = \"fixed_fine\"\nclock = \"nosuch\"\n");
+  const FlyballProgram::Outcome half = flyball.run("policy check ./both.toml");
+  EXPECT_EQ(half.exit_code, 2);
+  EXPECT_NE(half.errors.find("\"nosuch\""), std::string::npos) << half.errors;
+}
+
 TEST_F(Cli, refuses_a_policy_twice) {
   expect_refused("compare delivery_forest --policies a/one.lua,b/one.toml",
                  "--policies has \"a/one.lua\" and \"b/one.toml\", whose flights would have the "
@@ -299,6 +311,9 @@ TEST_F(Cli, world_draws_a_plan_and_says_how_far_a_place_reaches) {
   (void)flyball.place.file("hall.obj",
                            "v -1 -4 0\nv 11 -4 0\nv 11 4 0\nv -1 4 0\nf 1 2 3 4\n"
                            "v 5.05 -2 0\nv 5.05 2 0\nv 5.05 2 3\nv 5.05 -2 3\nf 5 6 7 8\n");
+  const auto other = flyball.run("world hall.obj --picture plan.jpg");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.errors.find("--picture \"plan.jpg\" must end in .png"), std::string::npos);
   const auto outcome = flyball.run("world hall.obj --picture plan.png");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("-1.00 to 11"), std::string::npos) << outcome.output;

@@ -21,6 +21,9 @@ namespace flyball {
                                                  const Plugins& plugins,
                                                  std::uint64_t seed);
 
+/// The policies that are asked: this one, or the two that a combination names.
+[[nodiscard]] std::vector<std::string> asked_policies(const std::string& name);
+
 /// All files that the policy consists of, also those that a preset or a combination names.
 [[nodiscard]] std::vector<std::string> files_behind_policy(const std::string& name);
 
