@@ -60,11 +60,9 @@ int check(const CheckOptions& options) {
 void add_policy(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("policy", "checks a policy before it flies");
   command->require_subcommand(1);
-  CLI::App* check_command =
-      command->add_subcommand("check",
-                              "checks a policy against the contract of all policies, both of a "
-                              "combination, and lists what it "
-                              "breaks");
+  CLI::App* check_command = command->add_subcommand(
+      "check",
+      "lists what a policy, or either one of a combination, breaks of the common contract");
   const auto options = std::make_shared<CheckOptions>();  // Owners: the parser's callbacks.
   check_command
       ->add_option("FILE", options->file,

@@ -112,8 +112,9 @@ Status RealComputer::open_board(const PlatformModel& expected) {
   board_ = std::move(*opened);
   const std::vector<Hertz> missing = clocks_missing_on(board_->model(), expected.frequencies);
   if (!missing.empty()) {
-    note("platform \"" + expected.name + "\" has " + std::to_string(missing.size()) +
-         " clocks that this computer lacks, such as " + rounded(missing.back().value() * 1e-9, 2) +
+    note("this computer lacks " + std::to_string(missing.size()) + " of the " +
+         std::to_string(expected.frequencies.size()) + " clocks of platform \"" + expected.name +
+         "\", such as " + rounded(missing.back().value() * 1e-9, 2) +
          " GHz; try: flyball calibrate");
   }
   shared_board_ = std::make_unique<RealtimeBoard>(*board_);
