@@ -12,16 +12,19 @@
 
 #if defined(__x86_64__)
 #define FIRST_VERSION "GLIBC_2.2.5"
+#define PROTOCOL_VERSION "GLIBC_2.4"
 #define JUMP_TO(name) "jmp " name "@PLT"
 #define STAT_VERSION 1
 #else
 #define FIRST_VERSION "GLIBC_2.17"
+#define PROTOCOL_VERSION FIRST_VERSION
 #define JUMP_TO(name) "b " name
 #define STAT_VERSION 0
 #endif
 
-#define FIRST(name)                                        \
-  __asm__(".symver first_" #name ", " #name "@" FIRST_VERSION "\n" \
+#define FIRST(name) SINCE(FIRST_VERSION, name)
+#define SINCE(version, name)                               \
+  __asm__(".symver first_" #name ", " #name "@" version "\n" \
           ".text\n.p2align 4\n"                            \
           ".globl " #name "\n"                             \
           ".hidden " #name "\n"                            \
@@ -46,6 +49,9 @@ FIRST(pthread_once);
 FIRST(pthread_create);
 FIRST(pthread_join);
 FIRST(pthread_detach);
+FIRST(pthread_mutexattr_init);
+SINCE(PROTOCOL_VERSION, pthread_mutexattr_setprotocol);
+FIRST(pthread_mutexattr_destroy);
 
 /* Whether the program has one thread, so that counters need no atomic operation: perhaps not. */
 __attribute__((visibility("hidden"))) char __libc_single_threaded = 0;

@@ -5,7 +5,7 @@
 // with it, and it reads all messages of that moment.
 
 #include "flyball/runtime/assert.h"
-#include "flyball/runtime/realtime/cpus.h"
+#include "flyball/runtime/realtime/cpu_time.h"
 
 #include "core_shares.h"
 #include "virtual_computer.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planning/side_by_side.h"
 
+#include "flyball/runtime/realtime/cpu_time.h"
 #include "flyball/runtime/realtime/cpus.h"
 
 #include <algorithm>

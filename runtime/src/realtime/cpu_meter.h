@@ -4,7 +4,7 @@
 /// @file
 /// CPU time of the jobs of one thread.
 
-#include "flyball/runtime/realtime/cpus.h"
+#include "flyball/runtime/realtime/cpu_time.h"
 #include "flyball/runtime/time.h"
 
 #include <algorithm>

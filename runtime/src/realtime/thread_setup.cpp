@@ -8,10 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <thread>
-#include <utility>
 
 #include <pthread.h>
 #include <sched.h>
@@ -25,12 +23,6 @@ namespace flyball {
 namespace {
 
 constexpr std::size_t prefaulted_bytes = 262'144;  // Chosen: more than OMPL's deepest recursion.
-
-/// Of the calling thread.
-Duration& helpers_time() {
-  thread_local Duration used{};
-  return used;
-}
 
 std::string reason(int number) {
   return std::strerror(number);  // NOLINT(concurrency-mt-unsafe): glibc's is safe per thread.
@@ -162,20 +154,6 @@ void step_back() {
   const sched_param ordinary{};
   (void)sched_setscheduler(0, SCHED_OTHER, &ordinary);
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id()), nicest);
-}
-
-Duration thread_cpu_time() {
-  timespec used{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-  return std::chrono::seconds{used.tv_sec} + Duration{used.tv_nsec};
-}
-
-void add_helpers_time(Duration used) {
-  helpers_time() += used;
-}
-
-Duration take_helpers_time() {
-  return std::exchange(helpers_time(), Duration{});
 }
 
 std::optional<std::string> lock_process_memory() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flyball/runtime/realtime/cpus.h"
+#include "flyball/runtime/realtime/cpu_time.h"
 
 #include "realtime_rig.h"
 #include <array>
