@@ -31,7 +31,6 @@ void RealtimeBoard::refresh(Duration now) {
   bool has_changed{};
   {
     const std::lock_guard board{board_mutex_};
-    refreshed_at_ = now;
     board_.refresh(now);
     const BoardReading seen = board_.read();
     const std::lock_guard lock{mutex_};

@@ -26,7 +26,7 @@ class Timeline {
   void begin(const Graph& graph);
   /// Jobs in the order of their ends: for `Executor::on_job`. @pre `begin` was called.
   void note(const JobRecord& job);
-  /// What `write` writes.
+  /// What a file of it holds.
   [[nodiscard]] std::string bytes() const;
 
  private:

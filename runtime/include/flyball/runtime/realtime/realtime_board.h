@@ -59,9 +59,8 @@ class RealtimeBoard final : public Board {
   std::atomic<Executor*> executor_{};
   std::atomic<std::uint64_t> deadline_misses_{};
   NodeMeter nodes_{};
-  std::mutex board_mutex_{};  ///< Of `board_` and the next three.
+  std::mutex board_mutex_{};  ///< Of `board_` and the next two.
   OperatingPoint requested_{0, {}};
-  Duration refreshed_at_{};
   std::size_t told_{};          ///< So many of the board's notes have been taken.
   mutable std::mutex mutex_{};  ///< Of what follows; never held while the board is asked.
   BoardReading last_{};         ///< Of the board.
