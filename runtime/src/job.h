@@ -31,7 +31,7 @@ struct Job {
   double shared{1.0};   ///< Share of that time in which several cores can work side by side.
   double share{};       ///< Cores granted now.
   double speed{};       ///< How many times faster than one core that is.
-  double busy_s{};      ///< Core time so far.
+  double busy_s{};      ///< Time so far on the board's own cores.
 
   /// Only the newest end that was scheduled counts.
   std::uint64_t end_schedule{};
@@ -41,7 +41,7 @@ struct Job {
   std::vector<std::function<void(MissionTime)>> at_end{};
 
   void advance(double elapsed_s) {
-    busy_s += share * elapsed_s;
+    busy_s += place == ComputePlace::board ? share * elapsed_s : 0.0;
     left = one_core_s > 0.0 ? std::max(0.0, left - elapsed_s * speed / one_core_s) : 0.0;
   }
   /// @pre `speed > 0`.

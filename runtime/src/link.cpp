@@ -36,7 +36,7 @@ std::uint64_t Link::lost_of(std::uint64_t count) {
 MissionTime Link::send(MissionTime now, double bytes) {
   const double packets = std::max(1.0, std::ceil(bytes / packet_bytes));
   const double first_s = 8.0 * (bytes + packets * header_bytes) / model_.bandwidth_bit_s;
-  const double packet_s = 8.0 * (packet_bytes + header_bytes) / model_.bandwidth_bit_s;
+  const double packet_s = first_s / packets;  // In the mean: which one was lost is not drawn.
   double on_air_s = first_s;
   double waiting_s = 0.0;
   std::uint64_t lost = lost_of(static_cast<std::uint64_t>(packets));

@@ -67,6 +67,25 @@ TEST(VisualSlam, follows_a_slow_flight) {
   EXPECT_GT(work.count("ransac_iterations"), 11);
 }
 
+TEST(VisualSlam, refuses_images_of_another_camera) {
+  DepthCameraSpec spec;
+  spec.width_px = 112;
+  spec.height_px = 84;
+  const kit::TexturedCamera smaller{kit::circle_world(1), spec, 1};
+  const auto localizer = make();
+  Clock clock;
+  Work work;
+  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work));
+  const auto fix = localizer->see(
+      smaller.capture(kit::circle_pose(0.1), MissionTime{from_seconds(0.1)}, 1), work);
+  ASSERT_FALSE(fix);
+  EXPECT_EQ(fix.error().message,
+            "a frame of 9408 pixels follows frames of 37632; one localizer takes the images of one "
+            "camera");
+  const auto next = localizer->see(clock.look(kit::circle_pose(0.1)), work);
+  EXPECT_TRUE(next && next->tracked) << "it goes on with its own";
+}
+
 /// How large errors are beside what was expected of them, over flights of 20 m in four worlds.
 struct Consistency {
   double nees{};  ///< Mean of the normalized estimation error squared; 3 where all is as expected.

@@ -39,6 +39,8 @@ TEST(Gpu, its_jobs_leave_the_cores_to_others) {
   EXPECT_NEAR(rig.end_ms(serial), 30.0, end_tolerance_ms);
   EXPECT_NEAR(rig.computer->busy_core_s(), 30e-3, 1e-8);
   EXPECT_NEAR(rig.computer->device_use().gpu_s, 40e-3, 1e-8);
+  EXPECT_EQ(rig.of(shader).busy, Duration::zero());
+  EXPECT_NEAR(to_seconds(rig.of(serial).busy), 30e-3, 1e-8);
 }
 
 TEST(Gpu, a_job_that_runs_is_not_interrupted_and_the_most_urgent_one_is_next) {

@@ -87,6 +87,24 @@ TEST(Link, what_is_lost_is_sent_again_after_the_time_out) {
   EXPECT_NEAR(resent / messages, 1.0, 0.28);
 }
 
+TEST(Link, what_is_sent_again_is_as_long_as_what_was_lost) {
+  LinkModel model = one_megabit();
+  model.loss = 0.5;
+  model.timeout = at_ms(200.0).time_since_epoch();
+  Link link{model, 3, "uplink"};
+  constexpr double pose_ms = 8.0 * (100.0 + 78.0) / 1e3;  // Of 100 bytes.
+  double most_rounds = 0.0;
+  MissionTime now = at_ms(0.0);
+  for (int i = 0; i < 20; ++i) {
+    const double took_ms = ms(link.send(now, 100.0) - now);
+    const double again = (took_ms - pose_ms) / (200.0 + pose_ms);
+    EXPECT_NEAR(again, std::round(again), 1e-6);
+    most_rounds = std::max(most_rounds, again);
+    now += at_ms(1e5).time_since_epoch();
+  }
+  EXPECT_GT(most_rounds, 0.5);
+}
+
 TEST(Link, time_on_air_grows_while_packets_are_sent_and_no_longer) {
   Link link{one_megabit(), 1, "uplink"};
   (void)link.send(at_ms(100.0), 1460.0);

@@ -38,6 +38,7 @@ TEST(Offloading, a_job_takes_the_way_there_its_time_there_and_the_way_back) {
   rig.run();
   EXPECT_EQ(rig.of(a).started, at_ms(5.0));
   EXPECT_NEAR(rig.end_ms(a), 5.0 + 3.0 + 30.0 / 3.0 + 3.0, end_tolerance_ms);
+  EXPECT_EQ(rig.of(a).busy, Duration::zero());
 }
 
 TEST(Offloading, nobody_hears_of_it_before_its_outputs_have_arrived) {

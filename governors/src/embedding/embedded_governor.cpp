@@ -5,12 +5,24 @@
 #include "decision_line.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 using flyball::Duration;
 using flyball::MissionTime;
 using flyball::Observation;
+
+namespace {
+
+/// As an observation that no governor believes, whatever else it says.
+Observation unbelievable(Observation seen) {
+  seen.speed_m_s = std::numeric_limits<double>::quiet_NaN();
+  return seen;
+}
+
+}  // namespace
 
 std::int32_t FlyballGovernor::check_open(const char* what) {
   if (!governor_) {
@@ -201,7 +213,8 @@ std::int32_t FlyballGovernor::decide(double now_s) {
   observe_loop();
   observe_knobs();
   const Observation seen = signals_.seen(*now_);
-  const flyball::Decision decision = governor_->decide(seen);
+  const flyball::Decision decision =
+      governor_->decide(signals_.refused() == nullptr ? seen : unbelievable(seen));
   is_calling_back_ = true;
   const flyball::CallersKnobs::Knob* failed = knobs_.put_in_force(decision);
   answer(decision, seen);
@@ -218,6 +231,10 @@ std::int32_t FlyballGovernor::decide(double now_s) {
 
 void FlyballGovernor::answer(const flyball::Decision& decision, const Observation& seen) {
   governor_->write_why(why_.data(), why_.size());
+  if (const char* refused = signals_.refused()) {
+    std::snprintf(why_.data(), why_.size(),
+                  "signal %s was observed with a value that it cannot have", refused);
+  }
   answer_ = {};
   answer_.mode = static_cast<std::uint32_t>(knobs_.mode());
   answer_.knob_count = static_cast<std::uint32_t>(knobs_.all().size());

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flyball {
 namespace {
@@ -68,11 +67,16 @@ double ObservedSignals::value(std::size_t signal) const {
 Observation ObservedSignals::seen(MissionTime now) const {
   Observation all = seen_;
   all.now = now;
-  if (std::any_of(states_.begin(), states_.end(),
-                  [](const State& one) { return one.is_refused; })) {
-    all.speed_m_s = std::numeric_limits<double>::quiet_NaN();
-  }
   return all;
+}
+
+const char* ObservedSignals::refused() const {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].is_refused) {
+      return fields_[i].name;
+    }
+  }
+  return nullptr;
 }
 
 void ObservedSignals::begin_counts_anew() {

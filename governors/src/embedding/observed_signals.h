@@ -27,8 +27,9 @@ class ObservedSignals {
   [[nodiscard]] bool is_callers(std::string_view name) const;
   [[nodiscard]] bool is_known(std::size_t signal) const { return states_[signal].is_known; }
   [[nodiscard]] double value(std::size_t signal) const;
-  /// A member that was refused makes it one that no governor believes.
   [[nodiscard]] Observation seen(MissionTime now) const;
+  /// The name of a signal whose newest value was refused; null: there is none.
+  [[nodiscard]] const char* refused() const;
   /// Counts that are meant since the last decision begin anew.
   void begin_counts_anew();
 

@@ -60,6 +60,12 @@ Result<SlamOutcome> Slam::track(const VisualFrame& frame, Work& work) {
   if (map_.keyframes().empty()) {
     return begin(frame, std::move(*features));
   }
+  if (const std::size_t before = map_.keyframes().front().grey.size();
+      frame.grey.size() != before) {
+    return Error{ErrorCode::invalid_input,
+                 "a frame of " + std::to_string(frame.grey.size()) + " pixels follows frames of " +
+                     std::to_string(before) + "; one localizer takes the images of one camera"};
+  }
   SlamOutcome outcome;
   const FeatureGrid grid{*features, frame.camera};
   std::optional<Found> found = lost_ ? relocalize(frame, grid, work) : follow(frame, grid, work);

@@ -99,6 +99,30 @@ TEST_F(Cli, checks_both_policies_of_a_combination) {
   EXPECT_NE(half.errors.find("\"nosuch\""), std::string::npos) << half.errors;
 }
 
+TEST_F(Cli, checks_a_policy_with_the_knobs_of_its_mission) {
+  expect_refused("policy check fixed_fine --scenario nosuch", "no scenario \"nosuch\"");
+  expect_refused("policy check fixed_fine --set knobs.camera_rate=true", "--scenario");
+  (void)flyball.place.file("slow.lua",
+                           "function decide(seen)\n  return {[\"camera.rate_hz\"] = 5}\nend\n");
+  const FlyballProgram::Outcome bare = flyball.run("policy check ./slow.lua");
+  EXPECT_EQ(bare.exit_code, 1);
+  EXPECT_NE(bare.output.find("a knob that does not exist: \"camera.rate_hz\""), std::string::npos)
+      << bare.output << bare.errors;
+  const FlyballProgram::Outcome there = flyball.run(
+      "policy check ./slow.lua --scenario delivery_forest --set knobs.camera_rate=true");
+  EXPECT_EQ(there.exit_code, 0) << there.output << there.errors;
+}
+
+TEST_F(Cli, names_every_parameter_that_a_policy_does_not_take) {
+  (void)flyball.place.file("wrong.toml",
+                           "policy = \"density\"\n[parameters]\nfine = 0.2\ncoarse_m = 99.0\n");
+  const FlyballProgram::Outcome outcome = flyball.run("policy check ./wrong.toml");
+  EXPECT_NE(outcome.exit_code, 0);
+  const std::string told = outcome.output + outcome.errors;
+  EXPECT_NE(told.find("\"fine\""), std::string::npos) << told;
+  EXPECT_NE(told.find("99"), std::string::npos) << told;
+}
+
 TEST_F(Cli, refuses_a_policy_twice) {
   expect_refused("compare delivery_forest --policies a/one.lua,b/one.toml",
                  "--policies has \"a/one.lua\" and \"b/one.toml\", whose flights would have the "

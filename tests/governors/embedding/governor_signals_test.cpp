@@ -63,6 +63,19 @@ TEST(EmbeddedSignals, that_cannot_be_believed_are_met_by_the_governor) {
   EXPECT_STREQ("table", loop.decide(0.0).fallback);
 }
 
+TEST(EmbeddedSignals, that_were_refused_are_named_until_they_are_observed_anew) {
+  GovernedLoop loop;
+  loop.open_density();
+  loop.observe("speed_m_s", 2.5);
+  EXPECT_EQ(flyball_governor_invalid_input, loop.observe("cores", 2.5));
+  const FlyballGovernorDecision refused = loop.decide(0.0);
+  EXPECT_STREQ("table", refused.fallback);
+  EXPECT_STREQ("signal cores was observed with a value that it cannot have", refused.why);
+  EXPECT_NE(std::string::npos, loop.lines.at(0).find(" speed_m_s=2.5 ")) << loop.lines.at(0);
+  loop.observe("cores", 2.0);
+  EXPECT_STREQ("", loop.decide(1.0).why);
+}
+
 TEST(EmbeddedSignals, follow_the_knobs_in_force) {
   GovernedLoop loop;
   loop.add(loop.clock_knob());

@@ -19,13 +19,6 @@
 
 namespace flyball {
 
-struct PolicyCandidate {
-  std::function<std::unique_ptr<Policy>()> make;
-  std::map<std::string, ParameterValue> parameters{};  ///< As a preset would give them.
-  /// Allocations of this thread until now, see counting_new.h. Empty: that check is left out.
-  std::function<std::size_t()> allocations{};
-};
-
 /// The knobs that a mission of this project has, with a TX2's operating points.
 [[nodiscard]] inline KnobSettings conformance_knobs() {
   return KnobSettings{{
@@ -59,6 +52,15 @@ struct PolicyCandidate {
           power,
           ThermalModel{40.0, 8.0, 500.0, {{80.0, 2.0, Hertz{806.4e6}}}}};
 }
+
+struct PolicyCandidate {
+  std::function<std::unique_ptr<Policy>()> make;
+  std::map<std::string, ParameterValue> parameters{};  ///< As a preset would give them.
+  /// Allocations of this thread until now, see counting_new.h. Empty: that check is left out.
+  std::function<std::size_t()> allocations{};
+  KnobSettings knobs = conformance_knobs();  ///< An application with knobs of its own names them.
+  BoardModel board = conformance_board();
+};
 
 /// What is given, and its example for each required parameter that is not.
 [[nodiscard]] inline std::map<std::string, ParameterValue> with_examples(
@@ -194,11 +196,13 @@ class PolicyConformance {
     const auto given = Parameters::resolve(
         "policy", policy->parameters(), with_examples(policy->parameters(), candidate_.parameters));
     if (const auto* errors = std::get_if<std::vector<Error>>(&given)) {
-      require(false, "does not take the given parameters: " + errors->front().message);
+      for (const Error& error : *errors) {
+        require(false, "does not take the given parameters: " + error.message);
+      }
       return nullptr;
     }
     const Status status =
-        policy->start(std::get<Parameters>(given), conformance_knobs(), conformance_board());
+        policy->start(std::get<Parameters>(given), candidate_.knobs, candidate_.board);
     if (!status.ok()) {
       require(false, "does not start: " + status.error().message);
       return nullptr;
@@ -221,7 +225,7 @@ class PolicyConformance {
 
   void check_wishes() {
     const auto policy = started();
-    const KnobSettings knobs = conformance_knobs();
+    const KnobSettings& knobs = candidate_.knobs;
     for (const Observation& seen : plausible_observations(400)) {
       const Decision wished = policy->decide(seen);
       const auto* host = dynamic_cast<const HostsCode*>(policy.get());
@@ -271,7 +275,7 @@ class PolicyConformance {
   }
 
   void check_legal_under_governor(const std::vector<Observation>& observations, bool plausible) {
-    const KnobSettings knobs = conformance_knobs();
+    const KnobSettings& knobs = candidate_.knobs;
     PolicyGovernorSettings settings;
     settings.fallback.enabled = false;  // The policy shall answer, not what stands in for it.
     PolicyGovernor governor{started(), knobs, settings, {}};

@@ -59,7 +59,8 @@ struct RailPower {
   Watts soc{};  ///< The rest of the chip.
 };
 
-/// What a node has taken of the computer. A job counts when it has ended.
+/// What a node has taken of the computer's own cores; a GPU and an edge computer do not count. A
+/// job counts when it has ended.
 struct NodeUse {
   double busy_core_s{};  ///< Core-seconds since the start.
   Duration latency{};    ///< Of the newest job, from release to end.

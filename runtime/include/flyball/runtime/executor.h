@@ -31,7 +31,7 @@ struct JobRecord {
   MissionTime released{};
   MissionTime started{};  ///< The same as `ended` when it was killed before it got a core.
   MissionTime ended{};
-  Duration busy{};  ///< Core time that it got.
+  Duration busy{};  ///< Core time that it got on board: none on a GPU or an edge computer.
   Work work{};
   bool killed{};  ///< By `OnMiss::skip`.
   bool missed{};  ///< Its deadline.
