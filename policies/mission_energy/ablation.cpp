@@ -116,10 +116,14 @@ void Ablation::leave_one(Surroundings& around, const EnergySearch& search) {
   const auto larger = std::upper_bound(cells_m.begin(), cells_m.end(), around.coarsest_m);
   const auto level =
       static_cast<std::size_t>(std::max(larger - cells_m.begin(), std::ptrdiff_t{1})) - 1;
+  // Cells for doors are smaller than gap_switch's, and have the range of its finest.
+  const auto smaller = std::lower_bound(cells_m.begin(), cells_m.end(), around.finest_m);
+  const std::size_t usual =
+      level - std::min(level, static_cast<std::size_t>(smaller - cells_m.begin()));
   const double most_m = std::max(search.most_range_m(cells_m[level]), around.clear_range_m);
   const auto longer =
       std::upper_bound(ranges_m.begin(), ranges_m.end(),
-                       std::min(usual_m.at(std::min(level, usual_m.size() - 1)), most_m));
+                       std::min(usual_m.at(std::min(usual, usual_m.size() - 1)), most_m));
   around.finest_m = cells_m[level];
   around.least_range_m = around.most_range_m =
       longer != ranges_m.begin() ? *std::prev(longer) : ranges_m.front();
@@ -132,7 +136,7 @@ void Ablation::limit(Surroundings& around, const EnergySearch& search) const {
     leave_one(around, search);
   } else if (part_ == Part::resolution) {
     // The finest cells pass every gap, so they are the ones to keep.
-    around.coarsest_m = 0.0;
+    around.coarsest_m = around.finest_m;
   } else if (part_ == Part::range) {
     // Between those that are for slow places and those that noise does not always allow.
     around.least_range_m = around.most_range_m = ranges_m[(ranges_m.size() - 1) / 2];

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 namespace flyball {
@@ -67,6 +68,9 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       {"fine_m", 0.0, 0.0, 2.0, "Cells that pass every gap; 0: the mapper's finest, or .15 m."},
       {"coarse_m", 0.0, 0.0, 2.0,
        "For open space; 0: .6 m, or less where the ground would reach up to the vehicle."},
+      // A door of .82 m (MAVBench's) stays open to a body of .71 m wherever it stands.
+      {"door_m", 0.05, 0.0, 2.0,
+       "Where plans keep failing near narrow gaps, if the mapper takes any cells; 0: none."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map, but for slow_range_m."},
       {"slow_range_m", 2.0, 0.5, 100.0, "Shortest where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
@@ -106,6 +110,11 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
     limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
   }
   limits.add_ranges_from(knobs.spec("map.range_m")->nearest(given.number("slow_range_m")));
+  const KnobSpec& resolution = *knobs.spec("map.resolution_m");
+  if (const double door_m = given.number("door_m"); door_m > 0.0 && resolution.legal.empty()) {
+    const double nearest_m = resolution.nearest(door_m);
+    limits.door_m_ = nearest_m < limits.levels_m_.front() ? nearest_m : 0.0;
+  }
   return limits;
 }
 
@@ -209,14 +218,35 @@ std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) c
     level.most_range_m =
         camera_ ? std::max(least_range_m_, noise_free_m(level.resolution_m)) : ranges_m_.back();
   }
+  if (door_m_ > 0.0) {
+    levels.insert(levels.begin(), door_level(levels));
+  }
   return levels;
+}
+
+// Its latency is on the line through those of the others, in log latency over log cells.
+SearchLevel MissionLimits::door_level(const std::vector<SearchLevel>& others) const {
+  const SearchLevel& fine = others.front();
+  const SearchLevel& coarse = others.back();
+  const double slope = std::log(fine.latency_s / coarse.latency_s) /
+                       std::log(coarse.resolution_m / fine.resolution_m);
+  SearchLevel door = fine;
+  door.resolution_m = door_m_;
+  door.latency_s *= std::pow(fine.resolution_m / door_m_, slope);
+  door.most_range_m = camera_ ? noise_free_m(door_m_) : least_range_m_;
+  return door;
 }
 
 Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_force) {
   const Passability::Verdict gaps = passability_.judge(seen);
   const bool near = seen.speed_limit_m_s <= narrow_m_s_;
   Surroundings around = limits_of(seen);
+  around.finest_m = levels_m_.front();
   around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], coarsest_m(seen, near, in_force));
+  around.coarsest_m = std::max(around.coarsest_m, around.finest_m);
+  if (needs_door_cells(seen, near)) {
+    around.finest_m = around.coarsest_m = door_m_;
+  }
   around.least_range_m = gaps.look_m;
   if (!near || explores(seen)) {  // A vehicle that may be fast needs to see farther, too.
     around.least_range_m = std::max(around.least_range_m, least_range_m_);
@@ -269,6 +299,14 @@ bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSe
   const bool is_within =
       near && seen.speed_m_s <= narrow_m_s_ && !(in_force.resolution_m > levels_m_.front());
   return seeks_door_ || is_within;
+}
+
+// A plan that fails in the finest level may fail because a door has lost too much of its width.
+// Inside, such cells are kept: larger ones would close the door that the path leads through.
+bool MissionLimits::needs_door_cells(const Observation& seen, bool near) {
+  constexpr std::uint32_t enough = 2;  // One fails now and then where larger cells would do.
+  has_door_cells_ = near && door_m_ > 0.0 && (has_door_cells_ || seen.planner_failures >= enough);
+  return has_door_cells_;
 }
 
 }  // namespace flyball

@@ -23,6 +23,9 @@ namespace flyball {
 [[nodiscard]] bool explores(const Observation& seen);
 
 /// - The coarsest cells that leave the narrowest gap ahead open (`Passability`).
+/// - Where narrow gaps are declared and plans keep failing, still smaller cells, if the mapper
+/// takes
+///   any: a door loses up to two cells of its width. Nowhere else, because they take long.
 /// - The ceiling above the vehicle, which larger cells would fill down to it.
 /// - The camera's noise: a level ends where noise is half a cell. A mapper with a lattice keeps all
 ///   hits, also those far off, so there noise stays below a quarter of the body's width, too. Where
@@ -68,6 +71,8 @@ class MissionLimits {
   MissionLimits(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle);
   [[nodiscard]] double coarsest_m(const Observation& seen, bool near, const MapSetting& in_force);
   [[nodiscard]] bool needs_finest(const Observation& seen, bool near, const MapSetting& in_force);
+  [[nodiscard]] bool needs_door_cells(const Observation& seen, bool near);
+  [[nodiscard]] SearchLevel door_level(const std::vector<SearchLevel>& others) const;
   [[nodiscard]] Passability passability(const Parameters& given) const;
   [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
   [[nodiscard]] double noise_free_m(double resolution_m) const;
@@ -90,12 +95,14 @@ class MissionLimits {
   std::optional<DepthCameraSpec> camera_;
   MapSetting home_;
   std::vector<double> levels_m_;  ///< Finest first.
+  double door_m_{};               ///< Smaller than all levels; 0: there are no such cells.
   std::vector<double> ranges_m_{};
   Idle idle_;
   Passability passability_;
   Visibility visibility_;
   std::optional<double> last_gap_m_{};  ///< Since narrow places were declared, or the leg began.
   bool seeks_door_{};                   ///< A plan has failed near a narrow place.
+  bool has_door_cells_{};               ///< Another one has failed there, in the finest level.
 };
 
 }  // namespace flyball

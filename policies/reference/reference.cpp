@@ -38,6 +38,11 @@ class Reference final : public flyball::Policy,
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     auto all = flyball::MissionLimits::parameters();
+    for (flyball::ParameterSpec& spec : all) {
+      if (spec.name == "door_m") {
+        spec.fallback = 0.0;  // The horizon is searched in one finest level.
+      }
+    }
     all.push_back({"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; untold."});
     all.push_back({"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."});
     return all;

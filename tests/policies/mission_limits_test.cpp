@@ -26,10 +26,11 @@ std::string refusal(const Given& given, const KnobSettings& knobs = conformance_
   return limits ? "" : limits.error().message;
 }
 
-/// Of a mapper that takes any cells.
-KnobSettings any_resolution() {
+/// Of a mapper that takes any cells from these on.
+KnobSettings any_resolution(double least_m = 0.15) {
   std::vector<KnobSpec> specs = conformance_knobs().specs();
   specs.front().legal.clear();
+  specs.front().min = least_m;
   return KnobSettings{specs};
 }
 
@@ -65,6 +66,44 @@ TEST(MissionLimits, begins_with_the_finest_cells_that_the_mapper_has) {
   specs.front().legal.insert(specs.front().legal.begin(), 0.075);
   EXPECT_EQ(made({}, KnobSettings{specs})->levels(0.5, 0.1).front().resolution_m, 0.075);
   EXPECT_EQ(made({}, any_resolution())->levels(0.5, 0.1).front().resolution_m, 0.15);
+}
+
+TEST(MissionLimits, has_smaller_cells_for_doors_where_the_mapper_takes_any) {
+  EXPECT_EQ(cells_of(*made({}, any_resolution(0.02))),
+            (std::vector<double>{0.05, 0.15, 0.30, 0.60}));
+  EXPECT_EQ(cells_of(*made({{"door_m", 0.0}}, any_resolution(0.02))).front(), 0.15);
+  EXPECT_EQ(cells_of(*made({{"fine_m", 0.04}}, any_resolution(0.02))).front(), 0.04);
+  EXPECT_EQ(cells_of(*made({}, any_resolution(0.10))).front(), 0.10) << "as near as it has them";
+  // By hand: four times the cells take a fifth, so a third takes 5 ^ (ln 3 / ln 4) = 3.58 times.
+  EXPECT_NEAR(made({}, any_resolution(0.02))->levels(0.5, 0.1).front().latency_s, 1.79, 0.005);
+}
+
+Observation in_a_room(std::uint32_t planner_failures) {
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  seen.speed_limit_m_s = 1.0;
+  seen.speed_m_s = 0.5;
+  seen.planner_failures = planner_failures;
+  return seen;
+}
+
+TEST(MissionLimits, takes_cells_for_doors_after_two_plans_have_failed_in_a_room) {
+  auto limits = made({}, any_resolution(0.02));
+  const MapSetting fine{0.15, 7.0, 2e9};
+  const auto cells_m = [&](const Observation& seen) {
+    const Surroundings around = limits->look(seen, fine);
+    EXPECT_LE(around.finest_m, around.coarsest_m);
+    return around.coarsest_m;
+  };
+  EXPECT_EQ(cells_m(in_a_room(1)), 0.15);
+  EXPECT_EQ(cells_m(in_a_room(2)), 0.05);
+  EXPECT_EQ(cells_m(in_a_room(0)), 0.05) << "larger ones would close the door behind it";
+  Observation outside = in_a_room(0);
+  outside.speed_limit_m_s = 10.0;
+  EXPECT_GE(cells_m(outside), 0.15);
+  outside.planner_failures = 5;
+  EXPECT_EQ(cells_m(outside), 0.15) << "there they take long";
+  EXPECT_EQ(cells_m(in_a_room(1)), 0.15) << "of another room nobody knows yet";
 }
 
 /// The longest range of each level that the search may choose.
