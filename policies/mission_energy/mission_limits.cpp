@@ -302,10 +302,12 @@ bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSe
 }
 
 // A plan that fails in the finest level may fail because a door has lost too much of its width.
-// Inside, such cells are kept: larger ones would close the door that the path leads through.
+// Inside, such cells are kept: larger ones would close the door that the path leads through. Who
+// explores would have to see all rooms anew in them, and has other doors to try.
 bool MissionLimits::needs_door_cells(const Observation& seen, bool near) {
   constexpr std::uint32_t enough = 2;  // One fails now and then where larger cells would do.
-  has_door_cells_ = near && door_m_ > 0.0 && (has_door_cells_ || seen.planner_failures >= enough);
+  const bool is_place = near && door_m_ > 0.0 && !explores(seen);
+  has_door_cells_ = is_place && (has_door_cells_ || seen.planner_failures >= enough);
   return has_door_cells_;
 }
 

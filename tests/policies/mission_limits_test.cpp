@@ -104,6 +104,9 @@ TEST(MissionLimits, takes_cells_for_doors_after_two_plans_have_failed_in_a_room)
   outside.planner_failures = 5;
   EXPECT_EQ(cells_m(outside), 0.15) << "there they take long";
   EXPECT_EQ(cells_m(in_a_room(1)), 0.15) << "of another room nobody knows yet";
+  Observation exploring = in_a_room(5);
+  exploring.progress_unit = ProgressUnit::cubic_metre;
+  EXPECT_EQ(cells_m(exploring), 0.15) << "all rooms would have to be seen anew";
 }
 
 /// The longest range of each level that the search may choose.
