@@ -4,6 +4,8 @@
 
 #include "flyball/sim/flight_controller.h"
 
+#include "flyball/runtime/motion/setpoint_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,26 +14,16 @@ namespace flyball {
 namespace {
 
 // Manoeuvres that the controller makes by itself: own choices, gentle against its 6 m/s^2 limit.
-constexpr double climb_m_s = 1.5;
-constexpr double climb_m_s2 = 2.0;
 constexpr double sink_m_s = 1.0;
 constexpr double slow_sink_m_s = 0.4;
 constexpr double slow_below_m = 1.0;
 constexpr double stop_m_s2 = 5.0;
 constexpr double set_point_loss_s = 1.0;  // PX4's off-board loss
-// A set-point that speeds up is not believed for longer than five periods of a 50 Hz stream.
-constexpr double longest_speed_up_s = 0.1;
 constexpr double slow_m_s = 0.2;
 constexpr double near_m = 0.1;
 constexpr double touch_height_m = 0.02;
 constexpr double touch_m_s = 0.1;
 constexpr double touch_s = 0.2;
-
-Vec3 step_towards(const Vec3& from, const Vec3& to, double largest) {
-  const Vec3 gap = to - from;
-  const double length = gap.norm();
-  return length <= largest ? to : Vec3{from + gap * (largest / length)};
-}
 
 }  // namespace
 
@@ -103,21 +95,10 @@ double FlightController::feet_height_m(const VehicleState& state) const {
   return lowest_m - ground_z_m_;
 }
 
-void FlightController::climb(double dt_s) {
-  const double left_m = goal_height_m_ - reference_.p_WB.z();
-  const double speed = std::min(climb_m_s, std::sqrt(2.0 * climb_m_s2 * std::abs(left_m)));
-  const Vec3 wanted{0.0, 0.0, std::copysign(speed, left_m)};
-  reference_.v_WB = step_towards(reference_.v_WB, wanted, climb_m_s2 * dt_s);
-  if (std::abs(left_m) <= std::abs(reference_.v_WB.z()) * dt_s) {
-    reference_.v_WB = Vec3::Zero();
-    reference_.p_WB.z() = goal_height_m_;
-  }
-}
-
 void FlightController::sink(const VehicleState& state, double dt_s) {
   const double feet_m = feet_height_m(state);
   const double speed = feet_m > slow_below_m ? sink_m_s : slow_sink_m_s;
-  reference_.v_WB = step_towards(reference_.v_WB, {0.0, 0.0, -speed}, stop_m_s2 * dt_s);
+  reference_.v_WB = stepped_velocity(reference_.v_WB, {0.0, 0.0, -speed}, stop_m_s2 * dt_s);
   const bool touching = feet_m < touch_height_m && std::abs(state.v_WB.z()) < touch_m_s;
   touching_s_ = touching ? touching_s_ + dt_s : 0.0;
   if (touching_s_ > touch_s) {
@@ -125,37 +106,16 @@ void FlightController::sink(const VehicleState& state, double dt_s) {
   }
 }
 
-void FlightController::stop(double dt_s) {
-  reference_.v_WB = step_towards(reference_.v_WB, Vec3::Zero(), stop_m_s2 * dt_s);
-}
-
 void FlightController::slew_velocity(double dt_s) {
-  reference_.v_WB = step_towards(reference_.v_WB, goal_velocity_, stop_m_s2 * dt_s);
+  reference_.v_WB = stepped_velocity(reference_.v_WB, goal_velocity_, stop_m_s2 * dt_s);
   reference_.yaw_rad = setpoint_.yaw_rad;
-}
-
-/// p and v run on with a; a braking one stops where it would turn round.
-Setpoint FlightController::extrapolated(double age_s) const {
-  Setpoint s = setpoint_;
-  const double along = s.a_WB.dot(s.v_WB);
-  const double until_stop_s = along < 0.0 ? -s.v_WB.squaredNorm() / along : longest_speed_up_s;
-  const double pushed_s = std::clamp(age_s, 0.0, until_stop_s);
-  s.p_WB += pushed_s * s.v_WB + 0.5 * pushed_s * pushed_s * s.a_WB;
-  s.v_WB += pushed_s * s.a_WB;
-  if (age_s > pushed_s) {
-    s.v_WB = along < 0.0 ? Vec3::Zero().eval() : s.v_WB;
-    s.p_WB += (age_s - pushed_s) * s.v_WB;
-    s.a_WB = Vec3::Zero();
-  }
-  s.yaw_rad += age_s * s.yaw_rate_rad_s;
-  return s;
 }
 
 Setpoint FlightController::target(const VehicleState& state, MissionTime now, double dt_s) {
   if (mode_ == FlightMode::trajectory) {
     const double age_s = to_seconds(now - setpoint_.stamp);
     if (age_s <= set_point_loss_s) {
-      return extrapolated(age_s);
+      return extrapolated(setpoint_, age_s);
     }
     hold(state);
   }
@@ -165,7 +125,7 @@ Setpoint FlightController::target(const VehicleState& state, MissionTime now, do
   const Vec3 before = reference_.v_WB;
   switch (mode_) {
     case FlightMode::take_off:
-      climb(dt_s);
+      climb_reference(reference_, goal_height_m_, dt_s);
       break;
     case FlightMode::land:
       sink(state, dt_s);
@@ -174,10 +134,9 @@ Setpoint FlightController::target(const VehicleState& state, MissionTime now, do
       slew_velocity(dt_s);
       break;
     default:
-      stop(dt_s);
+      brake_reference(reference_, dt_s);
   }
-  reference_.p_WB += dt_s * reference_.v_WB;
-  reference_.a_WB = (reference_.v_WB - before) / dt_s;
+  move_reference(reference_, before, dt_s);
   return reference_;
 }
 

@@ -59,11 +59,8 @@ class FlightController {
     double max_yaw_acceleration_rad_s2{4.0};
   };
   [[nodiscard]] Setpoint target(const VehicleState& state, MissionTime now, double dt_s);
-  [[nodiscard]] Setpoint extrapolated(double age_s) const;
   void start_reference(const VehicleState& state);
-  void climb(double dt_s);
   void sink(const VehicleState& state, double dt_s);
-  void stop(double dt_s);
   void slew_velocity(double dt_s);
   void slew_yaw(const Setpoint& wanted, double dt_s);
   void observe(const VehicleState& state, double total_mass_kg, double dt_s);
