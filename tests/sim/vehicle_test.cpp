@@ -250,6 +250,44 @@ TEST(Vehicle, holds_its_cameras_axis_while_it_banks_and_balances_its_energy) {
   EXPECT_LT(std::abs(residual_j() - start_j), 0.01 * std::abs(flight.vehicle.rotor_work_j()));
 }
 
+TEST(Vehicle, is_where_somebody_else_found_it_and_goes_on_from_there) {
+  for (const bool has_gimbal : {false, true}) {
+    Vehicle vehicle{in_vacuum(),
+                    0.0,
+                    {{0.0, 0.0, 500.0}, 0.0, 0.0},
+                    has_gimbal ? std::optional{GimbalSpec{}} : std::nullopt};
+    VehicleState found;
+    found.X_WB = Eigen::Translation3d{1.0, 2.0, 300.0} *
+                 Eigen::AngleAxisd{0.4, Vec3{1.0, 2.0, 3.0}.normalized()};
+    found.v_WB = {3.0, 0.0, 1.0};
+    found.rotor_rev_s = all(50.0);
+    vehicle.place(0.01, found);
+    EXPECT_EQ(vehicle.state().X_WB.matrix(), found.X_WB.matrix());
+    EXPECT_EQ(vehicle.state().rotor_rev_s, found.rotor_rev_s);
+    vehicle.step(dt_s, all(0.0), calm);
+    const Vec3 went = vehicle.state().X_WB.translation() - found.X_WB.translation();
+    EXPECT_NEAR(went.x(), 3.0 * dt_s, 1e-4);
+    EXPECT_LT((vehicle.state().X_WB.linear() - found.X_WB.linear()).norm(), 0.01);
+  }
+}
+
+TEST(Vehicle, holds_its_cameras_axis_while_somebody_else_moves_it) {
+  Vehicle vehicle{in_vacuum(), 0.0, {{0.0, 0.0, 500.0}, 0.0, 0.0}, GimbalSpec{}};
+  vehicle.aim({0.3, 0.6});
+  VehicleState found;
+  double most_rad = 0.0;
+  for (double t_s = 0.0; t_s < 4.0; t_s += dt_s) {
+    found.X_WB.linear() =
+        Eigen::AngleAxisd{0.3 * std::sin(2.0 * t_s), Vec3::UnitX()}.toRotationMatrix();
+    vehicle.place(dt_s, found);
+    const Vec3 axis_W = vehicle.camera_pose().linear().col(2);
+    const double error_rad = std::abs(std::asin(-axis_W.z()) - 0.6);
+    most_rad = t_s > 1.0 ? std::max(most_rad, error_rad) : 0.0;
+  }
+  EXPECT_LT(most_rad, 0.05);  // 25 ms behind a body that leans at .6 rad/s, and some of a turn.
+  EXPECT_EQ(vehicle.gimbal_work_j(), 0.0);
+}
+
 /// A body alone is computed in closed form, one with a gimbal by Simbody: with a gimbal that weighs
 /// nothing, both are the same body.
 TEST(Vehicle, moves_alone_as_the_multibody_system_does) {

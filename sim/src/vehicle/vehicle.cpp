@@ -54,6 +54,7 @@ struct Vehicle::Body {
   void build();
   void turn_rotors(double dt_s, const RotorSpeeds& command);
   void turn_camera(double dt_s);
+  void turn_placed_camera(double dt_s);
   void integrate(double dt_s);
   void read_state(const SimTK::SpatialVec& A_WB);
 };
@@ -102,6 +103,22 @@ void Vehicle::Body::turn_camera(double dt_s) {
     gimballed->turn_joints(
         servo.acceleration(seen.X_WB.linear(), gimballed->joints(), gimballed->joint_rates()));
   }
+}
+
+/// Without dynamics the motors turn the joints exactly as they are told.
+void Vehicle::Body::turn_placed_camera(double dt_s) {
+  if (gimballed == nullptr) {
+    return;
+  }
+  servo.slew(dt_s);
+  GimbalJoints joints = gimballed->joints();
+  GimbalJoints rates = gimballed->joint_rates();
+  const GimbalJoints turned = servo.acceleration(seen.X_WB.linear(), joints, rates);
+  rates = {rates.pan + dt_s * turned.pan, rates.roll + dt_s * turned.roll,
+           rates.tilt + dt_s * turned.tilt};
+  joints = {joints.pan + dt_s * rates.pan, joints.roll + dt_s * rates.roll,
+            joints.tilt + dt_s * rates.tilt};
+  gimballed->place_joints(joints, rates);
 }
 
 void Vehicle::Body::integrate(double dt_s) {
@@ -157,6 +174,21 @@ void Vehicle::step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W) 
     body_->turn_camera(dt_s / parts);
     body_->integrate(dt_s / parts);
   }
+}
+
+void Vehicle::place(double dt_s, const VehicleState& found) {
+  FLYBALL_ASSERT(dt_s >= 0.0, "dt_s=%g", dt_s);
+  FLYBALL_ASSERT(found.X_WB.matrix().allFinite(), "the pose is not finite: z=%g",
+                 found.X_WB.translation().z());
+  const auto spatial = [](const Vec3& v) { return SimTK::Vec3{v.x(), v.y(), v.z()}; };
+  const Eigen::Quaterniond q{found.X_WB.linear()};
+  BodyMotion motion;
+  motion.attitude = {q.w(), q.x(), q.y(), q.z()};
+  motion.p_WB = spatial(found.X_WB.translation());
+  motion.V_WB = {spatial(found.X_WB.linear() * found.w_WB_B), spatial(found.v_WB)};
+  body_->dynamics->place(motion);
+  body_->seen = found;
+  body_->turn_placed_camera(dt_s);
 }
 
 const VehicleState& Vehicle::state() const {

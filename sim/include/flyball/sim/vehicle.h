@@ -46,6 +46,10 @@ class Vehicle {
 
   /// One semi-explicit Euler step. @pre `dt_s > 0`; command and wind are finite.
   void step(double dt_s, const RotorSpeeds& command, const Vec3& wind_W);
+  /// Instead of a step, for a vehicle that something else moves: it is where `found` says after
+  /// `dt_s`, and its gimbal has gone on looking where it was told. No work is counted.
+  /// @pre `dt_s >= 0`; `found` is finite, and its rotation is one.
+  void place(double dt_s, const VehicleState& found);
   [[nodiscard]] const VehicleState& state() const;
   /// Mass changes at once, motion goes on (the payload leaves at rest relative to the body).
   void set_payload(double payload_kg);
