@@ -10,11 +10,13 @@ set(may_sim         runtime sim)
 # What flies knows neither the simulator nor scenario files.
 set(may_flight      runtime kernels governors flight)
 set(may_workloads   ${may_flight} workloads)
+# Links to autopilots.
+set(may_vehicles   ${may_flight} vehicles)
 # The record of a flight, written on board.
 set(may_mcap       ${may_flight} mcap)
 set(may_scenario    ${may_workloads} policies sim scenario)
 set(may_records     runtime kernels governors sim flight mcap scenario records)
-set(may_simulation  ${may_scenario} mcap records simulation)
+set(may_simulation  ${may_scenario} vehicles mcap records simulation)
 set(may_recordings  runtime kernels scenario records flight recordings)
 set(may_studies     ${may_simulation} studies)
 set(may_experiments ${may_studies} experiments)

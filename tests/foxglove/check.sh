@@ -9,29 +9,7 @@ flyball=$(readlink -f -- "$1")
 mkdir -p "$2"
 cd "$2"
 
-skip() {
-  printf 'flyball: %s, so the records were not read by Foxglove'\''s libraries\n' "$1" >&2
-  exit 77
-}
-
-# Readers that an earlier check installed need neither npm nor its registry.
-install_readers() {
-  if [[ -d node_modules ]] && cmp -s "$here/package-lock.json" package-lock.json; then
-    return
-  fi
-  command -v npm > /dev/null || skip 'npm is not installed'
-  rm -rf node_modules
-  cp "$here/package.json" "$here/package-lock.json" .
-  npm ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-retry-mintimeout=1000 \
-    > npm.log 2>&1 && return
-  rm -rf node_modules
-  tail -n 5 npm.log >&2
-  # These say that our two files, or what they name, are wrong. All others are the network's.
-  if grep -qE 'code (EUSAGE|EINTEGRITY|EJSONPARSE|ERESOLVE)' npm.log; then
-    exit 1
-  fi
-  skip 'npm cannot install them here'
-}
+. "$here/../kit/npm_packages.sh"
 
 # fly EXECUTOR SECONDS: to EXECUTOR.mcap. The mission has no time to arrive: exit code 1.
 fly() {
@@ -44,8 +22,7 @@ fly() {
   }
 }
 
-command -v node > /dev/null || skip 'node is not installed'
-install_readers
+install_packages
 fly virtual 40
 fly realtime 8
 cp virtual.mcap cut.mcap

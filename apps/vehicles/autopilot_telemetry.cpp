@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicles/autopilot_telemetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto silence = 3s;           // Three heartbeats.
+constexpr auto oldest_motion = 250ms;  // Older poses stop the vehicle (apps/flight/README.md).
+
+template <std::size_t n>
+bool are_finite(const std::array<float, n>& fields) {
+  return std::all_of(fields.begin(), fields.end(),
+                     [](float field) { return std::isfinite(field); });
+}
+
+Vec3 vector_of(const std::array<float, 3>& fields) {
+  return {fields[0], fields[1], fields[2]};
+}
+
+std::string seconds_text(Duration time) {
+  return std::to_string(std::llround(to_seconds(time))) + " s";
+}
+
+}  // namespace
+
+bool AutopilotTelemetry::is_from_autopilot(const MavlinkFrame& frame) const {
+  return kind_ && frame.system == system_ && frame.component == mav::component_autopilot;
+}
+
+void AutopilotTelemetry::hear(const MavlinkFrame& frame, Duration now) {
+  if (frame.id == MavHeartbeat::kind.id) {
+    hear_heartbeat(frame, now);
+  }
+  if (!is_from_autopilot(frame)) {
+    return;
+  }
+  if (frame.is_signed && !has_told_of_signature_) {
+    has_told_of_signature_ = true;
+    tell("the autopilot signs its messages; the signatures are not checked");
+  }
+  switch (frame.id) {
+    case MavAttitudeQuaternion::kind.id:
+      hear_attitude(mavlink_message<MavAttitudeQuaternion>(frame), now);
+      break;
+    case MavLocalPosition::kind.id:
+      hear_position(mavlink_message<MavLocalPosition>(frame), now);
+      break;
+    case MavExtendedState::kind.id:
+      is_on_ground_ =
+          mavlink_message<MavExtendedState>(frame).landed_state == mav::landed_on_ground;
+      break;
+    case MavStatusText::kind.id:
+      hear_text(mavlink_message<MavStatusText>(frame));
+      break;
+    default:
+      break;
+  }
+}
+
+/// Ground stations, cameras and gimbals have heartbeats, too: they say that they are no autopilot.
+void AutopilotTelemetry::hear_heartbeat(const MavlinkFrame& frame, Duration now) {
+  const auto heartbeat = mavlink_message<MavHeartbeat>(frame);
+  if (!kind_ && heartbeat.autopilot != mav::autopilot_none &&
+      frame.component == mav::component_autopilot) {
+    system_ = frame.system;
+    kind_ = autopilot_kind(heartbeat);
+  }
+  if (!is_from_autopilot(frame) || heartbeat.autopilot == mav::autopilot_none) {
+    return;
+  }
+  if (is_silent_) {
+    tell("the autopilot is heard again, after " + seconds_text(now - *heartbeat_heard_));
+    is_silent_ = false;
+  }
+  heartbeat_ = heartbeat;
+  heartbeat_heard_ = now;
+}
+
+/// The autopilot's own times, because messages arrive in bunches.
+void AutopilotTelemetry::hear_position(const MavLocalPosition& position, Duration now) {
+  if (!are_finite(position.p_m) || !are_finite(position.v_m_s)) {
+    return;
+  }
+  const Vec3 v_N = vector_of(position.v_m_s);
+  const double step_s = 1e-3 * (position.time_boot_ms - static_cast<double>(position_boot_ms_));
+  constexpr double longest_step_s = 0.25;
+  if (position_heard_ && step_s > 0.0) {
+    a_N_ = step_s < longest_step_s ? Vec3{(v_N - v_N_) / step_s} : Vec3::Zero();
+  }
+  p_N_ = vector_of(position.p_m);
+  v_N_ = v_N;
+  position_boot_ms_ = position.time_boot_ms;
+  position_heard_ = now;
+}
+
+void AutopilotTelemetry::hear_attitude(const MavAttitudeQuaternion& attitude, Duration now) {
+  const auto& q = attitude.q;
+  const Eigen::Quaterniond heard{q[0], q[1], q[2], q[3]};
+  constexpr double shortest = 0.5;  // A quaternion of zeros says that it is not known.
+  if (!are_finite(q) || !are_finite(attitude.rates_rad_s) || heard.norm() < shortest) {
+    return;
+  }
+  q_ND_ = heard.normalized();
+  w_D_ = vector_of(attitude.rates_rad_s);
+  attitude_heard_ = now;
+}
+
+void AutopilotTelemetry::hear_text(const MavStatusText& text) {
+  const std::string piece = mavlink_text(text.text);
+  const bool goes_on = text.id != 0 && piece.size() == text.text.size();
+  text_ = text.id != 0 && text.id == text_id_ ? text_ + piece : piece;
+  text_id_ = goes_on ? text.id : std::uint16_t{0};
+  if (!goes_on && text.severity <= mav::severity_warning) {
+    tell("autopilot: " + text_);
+  }
+}
+
+void AutopilotTelemetry::look(Duration now) {
+  if (heartbeat_heard_ && !is_silent_ && now - *heartbeat_heard_ >= silence) {
+    is_silent_ = true;
+    tell("the autopilot has not been heard for " + seconds_text(silence));
+  }
+  if (!has_position() || !has_attitude()) {
+    return;
+  }
+  if (is_blind_ == is_fresh(now)) {
+    is_blind_ = !is_blind_;
+    tell(is_blind_ ? "the autopilot has not said for .25 s where it is"
+                   : "the autopilot says again where it is");
+  }
+}
+
+std::vector<std::string> AutopilotTelemetry::take_news() {
+  return std::exchange(news_, {});
+}
+
+bool AutopilotTelemetry::is_fresh(Duration now) const {
+  return has_position() && has_attitude() && now - *position_heard_ <= oldest_motion &&
+         now - *attitude_heard_ <= oldest_motion;
+}
+
+VehicleMotion AutopilotTelemetry::motion(Duration now) const {
+  const auto age_s = [now](const std::optional<Duration>& heard) {
+    const Duration age = heard ? now - *heard : Duration::zero();
+    return to_seconds(std::clamp<Duration>(age, Duration::zero(), oldest_motion));
+  };
+  VehicleMotion motion;
+  motion.v_WB = north_east_down_turned(v_N_);
+  motion.a_WB = north_east_down_turned(a_N_);
+  motion.w_WB_B = forward_right_down_turned(w_D_);
+  const Vec3 turned = age_s(attitude_heard_) * motion.w_WB_B;
+  const double angle_rad = turned.norm();
+  Eigen::Quaterniond q_WB = q_WB_of(q_ND_);
+  if (angle_rad > 0.0) {
+    q_WB = q_WB * Eigen::Quaterniond{Eigen::AngleAxisd{angle_rad, turned / angle_rad}};
+  }
+  motion.X_WB.linear() = q_WB.toRotationMatrix();
+  motion.X_WB.translation() = origin_.to_W(p_N_) + age_s(position_heard_) * motion.v_WB;
+  return motion;
+}
+
+}  // namespace flyball

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tested-in: byte_stream
+#include "vehicles/file_handle.h"
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace flyball {
+
+FileHandle::~FileHandle() {
+  if (is_open()) {
+    close(number_);
+  }
+}
+
+Duration FileHandle::wait(Duration at_most) const {
+  const auto begun = std::chrono::steady_clock::now();
+  pollfd wanted{number_, POLLIN, 0};
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(at_most).count();
+  (void)poll(&wanted, 1, static_cast<int>(ms));  // A signal ends it early, as it should.
+  return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - begun);
+}
+
+Error system_error(const std::string& what) {
+  return {ErrorCode::unavailable, what + ": " + std::generic_category().message(errno)};
+}
+
+}  // namespace flyball

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicles/autopilot_telemetry.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+template <class Message>
+MavlinkFrame framed(const Message& message, std::uint8_t system = 1, std::uint8_t component = 1) {
+  MavlinkFrame frame;
+  frame.id = Message::kind.id;
+  frame.system = system;
+  frame.component = component;
+  const auto payload = mavlink_payload(message);
+  std::copy(payload.begin(), payload.end(), frame.payload.begin());
+  return frame;
+}
+
+MavHeartbeat px4_heartbeat() {
+  MavHeartbeat heartbeat;
+  heartbeat.autopilot = mav::autopilot_px4;
+  heartbeat.type = 2;
+  return heartbeat;
+}
+
+MavLocalPosition local_position(std::uint32_t boot_ms, float north_m, float north_m_s) {
+  MavLocalPosition position;
+  position.time_boot_ms = boot_ms;
+  position.p_m[0] = north_m;
+  position.v_m_s[0] = north_m_s;
+  return position;
+}
+
+MavAttitudeQuaternion level(float yaw_rate_rad_s = 0.0F) {
+  MavAttitudeQuaternion attitude;
+  attitude.q[0] = 1.0F;
+  attitude.rates_rad_s[2] = yaw_rate_rad_s;
+  return attitude;
+}
+
+AutopilotTelemetry heard_px4() {
+  AutopilotTelemetry telemetry;
+  telemetry.hear(framed(px4_heartbeat()), 0s);
+  return telemetry;
+}
+
+TEST(AutopilotTelemetry, does_not_take_a_ground_station_or_a_gimbal_for_an_autopilot) {
+  AutopilotTelemetry telemetry;
+  MavHeartbeat station;
+  station.autopilot = mav::autopilot_none;
+  telemetry.hear(framed(station, 255, 190), 0s);
+  telemetry.hear(framed(station, 1, 1), 0s);
+  telemetry.hear(framed(px4_heartbeat(), 1, 154), 0s);
+  EXPECT_FALSE(telemetry.kind());
+  telemetry.hear(framed(px4_heartbeat(), 3, 1), 0s);
+  EXPECT_TRUE(telemetry.kind());
+  EXPECT_EQ(telemetry.system(), 3);
+}
+
+TEST(AutopilotTelemetry, listens_to_the_first_autopilot_alone) {
+  AutopilotTelemetry telemetry = heard_px4();
+  MavHeartbeat other = px4_heartbeat();
+  other.base_mode = mav::flag_armed;
+  telemetry.hear(framed(other, 2, 1), 1s);
+  telemetry.hear(framed(local_position(0, 5.0F, 0.0F), 2, 1), 1s);
+  EXPECT_FALSE(telemetry.is_armed());
+  EXPECT_FALSE(telemetry.has_position());
+}
+
+TEST(AutopilotTelemetry, moves_on_for_a_quarter_of_a_second_and_no_longer) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(local_position(1000, 2.0F, 4.0F)), 1s);
+  telemetry.hear(framed(level(0.5F)), 1s);
+  EXPECT_TRUE(telemetry.is_fresh(1250ms));
+  EXPECT_FALSE(telemetry.is_fresh(1251ms));
+  EXPECT_NEAR(telemetry.motion(1100ms).X_WB.translation().y(), 2.4, 1e-6);
+  EXPECT_NEAR(telemetry.motion(9s).X_WB.translation().y(), 3.0, 1e-6);
+  // Facing north and turning to the right: less than a right angle from east.
+  const Vec3 forward = telemetry.motion(1100ms).X_WB.linear().col(0);
+  EXPECT_NEAR(yaw_of(forward), 0.5 * M_PI - 0.05, 1e-6);
+}
+
+TEST(AutopilotTelemetry, takes_the_acceleration_from_two_velocities_and_the_autopilots_clock) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(level()), 1s);
+  telemetry.hear(framed(local_position(1000, 0.0F, 1.0F)), 1s);
+  telemetry.hear(framed(local_position(1020, 0.0F, 1.1F)), 1s);  // In a bunch with the first.
+  EXPECT_NEAR(telemetry.motion(1s).a_WB.y(), 5.0, 1e-4);
+  telemetry.hear(framed(local_position(2020, 0.0F, 3.0F)), 2s);  // After a pause.
+  EXPECT_EQ(telemetry.motion(2s).a_WB, Vec3::Zero());
+}
+
+TEST(AutopilotTelemetry, does_not_believe_what_is_not_finite_or_no_rotation) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(local_position(0, std::numeric_limits<float>::quiet_NaN(), 0.0F)), 1s);
+  telemetry.hear(framed(MavAttitudeQuaternion{}), 1s);
+  EXPECT_FALSE(telemetry.has_position());
+  EXPECT_FALSE(telemetry.has_attitude());
+}
+
+TEST(AutopilotTelemetry, tells_of_silence_once_and_of_its_end) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.look(2900ms);
+  EXPECT_TRUE(telemetry.take_news().empty());
+  telemetry.look(3s);
+  telemetry.look(4s);
+  EXPECT_EQ(telemetry.take_news(),
+            std::vector<std::string>{"the autopilot has not been heard for 3 s"});
+  telemetry.hear(framed(px4_heartbeat()), 5s);
+  EXPECT_EQ(telemetry.take_news(),
+            std::vector<std::string>{"the autopilot is heard again, after 5 s"});
+}
+
+TEST(AutopilotTelemetry, says_once_that_signatures_are_not_checked) {
+  AutopilotTelemetry telemetry;
+  MavlinkFrame frame = framed(px4_heartbeat());
+  frame.is_signed = true;
+  telemetry.hear(frame, 0s);
+  telemetry.hear(frame, 1s);
+  EXPECT_EQ(telemetry.take_news().size(), 1U);
+}
+
+TEST(AutopilotTelemetry, puts_pieces_of_a_text_together_and_starts_anew_where_one_is_lost) {
+  AutopilotTelemetry telemetry = heard_px4();
+  MavStatusText piece;
+  piece.severity = 3;
+  piece.id = 5;
+  piece.text.fill('a');
+  telemetry.hear(framed(piece), 0s);
+  EXPECT_TRUE(telemetry.take_news().empty());
+  piece.id = 6;
+  piece.text = {'b'};
+  telemetry.hear(framed(piece), 0s);
+  EXPECT_EQ(telemetry.take_news(), std::vector<std::string>{"autopilot: b"});
+}
+
+}  // namespace
+}  // namespace flyball
