@@ -8,6 +8,7 @@
 #include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
 
+#include "cli/computer/autopilot_option.h"
 #include "cli/computer/real_computer.h"
 #include "cli/computer/service_notice.h"
 #include "commands.h"
@@ -35,6 +36,7 @@ struct RunOptions {
   std::string timeline{};
   std::string mcap{};
   ExecutorOptions executor{};
+  AutopilotOption autopilot{};
 };
 
 std::string with_unit(double value, int digits, const std::string& unit) {
@@ -212,12 +214,19 @@ Status write_all(const RunOptions& options,
   return options.timeline.empty() ? Done{} : write_file(options.timeline, timeline.bytes());
 }
 
+/// What of the flight is real.
+struct Hardware {
+  RealComputer& computer;
+  AutopilotLink* autopilot{};  ///< Null: the vehicle is simulated.
+};
+
 /// @param made  Folders that are of no use when nothing flies.
 int fly_into(const std::string& folder,
              const std::vector<std::string>& made,
              const RunOptions& options,
              const Scenario& scenario,
-             RealComputer& computer) {
+             const Hardware& hardware) {
+  RealComputer& computer = hardware.computer;
   RecordPlace place{options.mcap};
   auto onboard_record = open_record(options, scenario);
   if (!onboard_record) {
@@ -232,13 +241,15 @@ int fly_into(const std::string& folder,
   Timeline timeline;
   hooks.timeline = options.timeline.empty() ? nullptr : &timeline;
   hooks.onboard_record = onboard_record->get();
+  hooks.autopilot = hardware.autopilot;
   computer.equip(hooks);
   Result<MissionRecord> record = fly(scenario, hooks);
   computer.close();
   if (!record) {
     onboard_record->reset();
     remove_empty(made);
-    return refuse({record.error()});
+    const int refused = refuse({record.error()});
+    return was_interrupted() ? interrupted_exit_code() : refused;
   }
   place.keep();
   const Status recorded = close_record(onboard_record->get(), record->summary);
@@ -280,6 +291,10 @@ int run(const RunOptions& options) {
   if (!platform) {
     return refuse({platform.error()});
   }
+  auto autopilot = open_autopilot(options.autopilot, options.executor);
+  if (!autopilot) {
+    return refuse({autopilot.error()});
+  }
   auto computer = RealComputer::open(options.executor, *platform);
   if (!computer) {
     return refuse({computer.error()});
@@ -290,7 +305,7 @@ int run(const RunOptions& options) {
   if (!prepared) {
     return refuse({prepared.error()});
   }
-  return fly_into(folder, *prepared, options, scenario, **computer);
+  return fly_into(folder, *prepared, options, scenario, {**computer, autopilot->get()});
 }
 
 }  // namespace
@@ -328,6 +343,7 @@ void add_run(CLI::App& program, int& exit_code) {
                                  "it flies, for Foxglove")
                     ->type_name("FILE"));
   add_executor(*command, options->executor);
+  add_autopilot(*command, options->autopilot);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

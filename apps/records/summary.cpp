@@ -26,7 +26,8 @@ constexpr std::array failures{MissionFailure::none,
                               MissionFailure::localization_lost,
                               MissionFailure::not_found,
                               MissionFailure::incomplete,
-                              MissionFailure::false_alarm};
+                              MissionFailure::false_alarm,
+                              MissionFailure::autopilot};
 
 /// Throws like the library's own getters when no value has this name.
 template <class Value, std::size_t n>

@@ -30,6 +30,16 @@ std::optional<GimbalSpec> gimbal_of(const ColourCameras& cameras) {
   return cameras.gimbal ? std::optional{GimbalSpec{}} : std::nullopt;
 }
 
+std::unique_ptr<Pilot> make_pilot(Vehicle& vehicle,
+                                  const SimulatedThings& things,
+                                  const EventQueue& queue,
+                                  AutopilotLink* autopilot) {
+  const double ground_z_m = things.world.ground_z_m;
+  return autopilot != nullptr
+             ? make_offboard_pilot(vehicle, things.airframe, ground_z_m, queue, *autopilot)
+             : make_simulated_pilot(vehicle, things.airframe, ground_z_m, queue);
+}
+
 double start_yaw(const World& world) {
   return yaw_of(world.goal_W - world.start_W);
 }
@@ -42,7 +52,8 @@ ClosedLoop::ClosedLoop(MissionLink& link,
                        Executor& executor,
                        EventQueue& queue,
                        const VehicleTopics& topics,
-                       std::shared_ptr<Localizer> localizer)
+                       std::shared_ptr<Localizer> localizer,
+                       AutopilotLink* autopilot)
     : link_{link},
       scenario_{scenario},
       airframe_{things.airframe},
@@ -55,7 +66,7 @@ ClosedLoop::ClosedLoop(MissionLink& link,
                {start_position(things.world, things.airframe), start_yaw(things.world),
                 things.world.ground_z_m},
                gimbal_of(things.cameras)},
-      controller_{things.airframe, things.world.ground_z_m},
+      pilot_{make_pilot(vehicle_, things, queue, autopilot)},
       regression_{things.airframe},
       battery_{things.airframe.battery_cells, things.airframe.battery_ah,
                scenario.vehicle.battery_charge},
@@ -70,7 +81,7 @@ void ClosedLoop::start() {
                                      [this](const FlightCommand& command) { obey(command); });
   executor_.subscribe<Setpoint>(topics_.setpoint, [this](const Setpoint& setpoint) {
     if (link_.phase() == MissionPhase::cruise) {
-      controller_.follow(setpoint);
+      pilot_->follow(setpoint);
     }
   });
   const Duration step = from_seconds(scenario_.vehicle.physics_step_s);
@@ -121,10 +132,17 @@ Watts ClosedLoop::device_power(double dt_s) {
 }
 
 void ClosedLoop::physics_step() {
-  const double dt_s = scenario_.vehicle.physics_step_s;
-  const RotorSpeeds command =
-      controller_.update(vehicle_.state(), vehicle_.mass_kg(), queue_.now(), dt_s);
-  vehicle_.step(dt_s, command, wind_.velocity_W());
+  pilot_->step(scenario_.vehicle.physics_step_s, wind_.velocity_W());
+  watch_pilot();
+}
+
+void ClosedLoop::watch_pilot() {
+  const std::string failure = pilot_->failure();
+  if (!failure.empty() && !pilot_has_failed_) {
+    pilot_has_failed_ = true;
+    link_.event(failure);
+    link_.finish(MissionStatus::failed, MissionFailure::autopilot);
+  }
 }
 
 void ClosedLoop::energy_step() {
@@ -155,6 +173,14 @@ void ClosedLoop::energy_step() {
 }
 
 void ClosedLoop::publish_navigation() {
+  // Poses of a vehicle whose place nobody knows must stop coming: what flies brakes then.
+  if (pilot_->knows_pose()) {
+    publish_pose();
+  }
+  executor_.publish(topics_.status, pilot_->status());
+}
+
+void ClosedLoop::publish_pose() {
   const auto per_fix = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(
              std::lround(1.0 / (scenario_.gps.rate_hz * to_seconds(Duration{navigation_period})))));
@@ -169,34 +195,13 @@ void ClosedLoop::publish_navigation() {
     executor_.publish(*topics_.true_pose, truth);
   }
   executor_.publish(topics_.navigation, sample);
-  executor_.publish(topics_.status,
-                    FlightStatus{is_airborne(), controller_.is_done(vehicle_.state())});
 }
 
 void ClosedLoop::obey(const FlightCommand& command) {
-  switch (command.kind) {
-    case FlightCommand::Kind::take_off:
-      controller_.take_off(vehicle_.state(), command.height_m);
-      break;
-    case FlightCommand::Kind::land:
-      controller_.land(vehicle_.state());
-      break;
-    case FlightCommand::Kind::hold:
-      controller_.hold(vehicle_.state());
-      break;
-    case FlightCommand::Kind::release_payload:
-      vehicle_.set_payload(0.0);
-      break;
+  if (command.kind == FlightCommand::Kind::release_payload) {
+    vehicle_.set_payload(0.0);
   }
-}
-
-bool ClosedLoop::may_touch_ground() const {
-  return controller_.mode() == FlightMode::take_off || controller_.mode() == FlightMode::land ||
-         controller_.mode() == FlightMode::idle;
-}
-
-bool ClosedLoop::is_airborne() const {
-  return controller_.mode() != FlightMode::idle;
+  pilot_->obey(command);
 }
 
 }  // namespace flyball

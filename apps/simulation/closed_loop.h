@@ -11,7 +11,6 @@
 #include "flyball/scenario/scenario.h"
 #include "flyball/sim/barometer.h"
 #include "flyball/sim/battery.h"
-#include "flyball/sim/flight_controller.h"
 #include "flyball/sim/gps.h"
 #include "flyball/sim/imu.h"
 #include "flyball/sim/rotor_power.h"
@@ -20,6 +19,7 @@
 
 #include "simulation/camera_drivers.h"
 #include "simulation/mission_link.h"
+#include "simulation/pilot.h"
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
@@ -42,13 +42,15 @@ struct FlightLog {
 class ClosedLoop {
  public:
   /// All arguments outlive the loop.
+  /// @param autopilot  That flies the vehicle; null: the simulator does.
   ClosedLoop(MissionLink& link,
              const Scenario& scenario,
              const SimulatedThings& things,
              Executor& executor,
              EventQueue& queue,
              const VehicleTopics& topics,
-             std::shared_ptr<Localizer> localizer);
+             std::shared_ptr<Localizer> localizer,
+             AutopilotLink* autopilot = nullptr);
 
   /// Calls `listener` with the truth at each navigation sample, before it is published.
   void on_navigation(std::function<void(const TruePose&)> listener) {
@@ -63,24 +65,33 @@ class ClosedLoop {
 
   [[nodiscard]] CameraDrivers& cameras() { return cameras_; }
 
+  /// Before `start`: whoever flies the vehicle is there, and the vehicle is where he says.
+  /// @error As `Pilot::prepare`.
+  [[nodiscard]] Status prepare(const std::function<bool()>& stop) { return pilot_->prepare(stop); }
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
   [[nodiscard]] const FlightLog& log() const { return log_; }
   [[nodiscard]] const Battery& battery() const { return battery_; }
   [[nodiscard]] const Vehicle& vehicle() const { return vehicle_; }
-  [[nodiscard]] bool is_airborne() const;
+  [[nodiscard]] bool is_airborne() const { return pilot_->status().airborne; }
   /// While it takes off, lands or stands.
-  [[nodiscard]] bool may_touch_ground() const;
+  [[nodiscard]] bool may_touch_ground() const { return pilot_->may_touch_ground(); }
   /// Brakes to a hover without the companion computer; its next set-point takes over again.
-  void emergency_hold() { controller_.hold(vehicle_.state()); }
+  void emergency_hold() { pilot_->obey({FlightCommand::Kind::hold, 0.0}); }
+  /// The mission is over, and a real vehicle may not be left in the air: first without waiting, so
+  /// that the nodes can be stopped meanwhile, then until it stands.
+  void begin_landing() { pilot_->begin_landing(); }
+  void await_landing(const std::function<bool()>& turned) { pilot_->await_landing(turned); }
 
  private:
   [[nodiscard]] Watts computer_power(double busy_cores) const;
   /// Of the GPU and of the link to an edge computer, on average since the last call `dt_s` ago.
   [[nodiscard]] Watts device_power(double dt_s);
   void physics_step();
+  void watch_pilot();
   void energy_step();
   void publish_navigation();
+  void publish_pose();
   void start_localizer();
   void obey(const FlightCommand& command);
 
@@ -92,7 +103,7 @@ class ClosedLoop {
   VehicleTopics topics_;
   std::shared_ptr<Localizer> localizer_;  ///< Told where it starts. Owners: see MissionKernels.
   Vehicle vehicle_;
-  FlightController controller_;
+  std::unique_ptr<Pilot> pilot_;
   RegressionPower regression_;
   Battery battery_;
   CameraDrivers cameras_;
@@ -107,6 +118,7 @@ class ClosedLoop {
   double last_busy_core_s_{};
   DeviceUse last_use_{};
   std::uint64_t navigation_count_{};
+  bool pilot_has_failed_{};
 };
 
 }  // namespace flyball

@@ -55,10 +55,11 @@ MakeExecutor modeled(const std::optional<EdgeModel>& edge) {
   };
 }
 
-/// On what a flight is computed.
-struct FlightComputer {
+/// What of a flight is not simulated.
+struct FlightHardware {
   MakeExecutor make_executor{};  ///< Empty: a modeled one.
   RealtimeBoard* board{};        ///< Null for one that is modeled.
+  AutopilotLink* autopilot{};    ///< Null: the vehicle is simulated.
 };
 
 /// Everything that one flight needs, in the order in which it must be made.
@@ -67,7 +68,7 @@ struct Flight {
          MissionSetup& setup,
          MemoryRecorder& trace,
          std::unique_ptr<Workload> made,
-         const FlightComputer& on = {})
+         const FlightHardware& on = {})
       : workload{std::move(made)},
         graph{scenario.mission.workload},
         computer{setup.platform->model()},
@@ -84,7 +85,7 @@ struct Flight {
     executor = make(graph, computer, queue, start_point(scenario));
     link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
     loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
-                                        parts.vehicle, parts.kernels.localizer);
+                                        parts.vehicle, parts.kernels.localizer, on.autopilot);
     referee =
         std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
                                                         queue, *loop, *parts.kernels.mapper});
@@ -200,8 +201,10 @@ void run(Flight& flight, const MissionHooks& hooks) {
   while (queue.next() && *queue.next() <= queue.now()) {
     (void)queue.step();
   }
+  flight.loop->begin_landing();
   flight.executor->stop();
   flight.executor->run_last(flight.record_node);
+  flight.loop->await_landing(hooks.stop);
 }
 
 void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {
@@ -326,10 +329,16 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{
-      scenario, *setup, *record.trace, std::move(*workload), {hooks.executor, hooks.computer}};
+  Flight flight{scenario,
+                *setup,
+                *record.trace,
+                std::move(*workload),
+                {hooks.executor, hooks.computer, hooks.autopilot}};
   if (const Status possible = flight.soft_errors->check(); !possible) {
     return possible.error();
+  }
+  if (const Status ready = flight.loop->prepare(hooks.stop); !ready) {
+    return ready.error();
   }
   connect(flight, hooks);
   run(flight, hooks);

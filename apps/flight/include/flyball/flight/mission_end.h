@@ -19,7 +19,8 @@ enum class MissionFailure : std::uint8_t {
   localization_lost,  ///< The localizer lost track and did not find it again.
   not_found,          ///< Everything was searched; the person was not seen.
   incomplete,         ///< Less was covered or mapped than the mission asks for.
-  false_alarm         ///< A person was reported where nobody stands.
+  false_alarm,        ///< A person was reported where nobody stands.
+  autopilot           ///< It refused a command, or somebody took the vehicle over.
 };
 
 [[nodiscard]] const char* to_string(MissionStatus status);

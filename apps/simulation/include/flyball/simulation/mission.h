@@ -13,6 +13,7 @@
 #include "flyball/runtime/result.h"
 #include "flyball/scenario/scenario.h"
 #include "flyball/simulation/rendering.h"
+#include "flyball/vehicles/autopilot_link.h"
 
 #include <functional>
 #include <memory>
@@ -40,11 +41,15 @@ struct MissionHooks {
   /// The real computer that the executor runs the nodes on: it is refreshed while the mission
   /// flies, and its watts and heat count. Null: the scenario's platform is modeled.
   RealtimeBoard* computer{};
+  /// Flies the vehicle, while the simulator renders its cameras at the pose that it reports; is
+  /// connected before the flight, and has landed after it. Null: the vehicle is simulated.
+  AutopilotLink* autopilot{};
   MakeExecutor executor{};  ///< Empty: a `VirtualExecutor`, which models the scenario's computer.
 };
 
 /// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out;
-///        those of `Mapper::read` and `Mapper::write` for the map files.
+///        those of `Mapper::read` and `Mapper::write` for the map files, and of
+///        `AutopilotLink::connect`.
 [[nodiscard]] Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks);
 
 /// The workload's graph, printed: as text, or for Graphviz.

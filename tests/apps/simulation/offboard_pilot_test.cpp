@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+#include "flyball/runtime/modeled/virtual_executor.h"
+#include "flyball/simulation/realtime_flight.h"
+
+#include "autopilot/autopilot_in_memory.h"
+#include "autopilot/udp_autopilot.h"
+#include "short_delivery.h"
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration part = 2ms;  // Of a flight: the step of the stand-in's physics.
+
+struct FlownByAutopilot {
+  kit::StandInAutopilot autopilot;
+  std::string told{};
+  AutopilotLink link;
+
+  explicit FlownByAutopilot(const kit::StandInRules& rules)
+      : autopilot{rules, kit::shipped_airframe()},
+        link{std::make_unique<kit::MemoryStream>(autopilot),
+             [this](const std::string& sentence) { told += sentence + "\n"; }} {}
+
+  /// In virtual time: the autopilot moves on with the simulator's queue. `at` is called there, too.
+  Result<MissionRecord> fly(const Scenario& scenario,
+                            const std::function<void(MissionTime)>& at = {}) {
+    MissionHooks hooks;
+    hooks.autopilot = &link;
+    hooks.executor = [this, at](const Graph& graph, const Platform& platform, EventQueue& queue,
+                                const OperatingPoint& start) {
+      queue.every(MissionTime{part}, part, EventOrder::physics, [this, at, &queue] {
+        autopilot.step(part);
+        if (at) {
+          at(queue.now());
+        }
+      });
+      return std::make_unique<VirtualExecutor>(graph, platform, queue, start);
+    };
+    return flyball::fly(scenario, hooks);
+  }
+};
+
+kit::StandInRules stand_in(AutopilotKind kind) {
+  kit::StandInRules rules;
+  rules.kind = kind;
+  rules.guided_timeout_s = 0.5F;
+  return rules;
+}
+
+TEST(OffboardPilot, a_delivery_is_flown_by_either_autopilot) {
+  for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
+    FlownByAutopilot flown{stand_in(kind)};
+    const auto record = flown.fly(kit::short_delivery());
+    ASSERT_TRUE(record) << record.error().message;
+    const Summary& summary = record->summary;
+    EXPECT_EQ(summary.status, MissionStatus::succeeded) << to_string(summary.failure) << flown.told;
+    EXPECT_GT(summary.distance_m, 30.0);  // 15 m there and back.
+    EXPECT_GT(summary.energy_rotor_j, 0.0);
+    EXPECT_FALSE(flown.autopilot.is_armed());
+    EXPECT_LT(flown.autopilot.moved_m().head<2>().norm(), 1.0);  // Home again.
+    EXPECT_EQ(flown.autopilot.bad_targets(), 0);
+  }
+}
+
+TEST(OffboardPilot, a_flight_repeats_to_the_bit_in_virtual_time) {
+  const auto hash = [] {
+    FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+    const auto record = flown.fly(kit::short_delivery());
+    return record ? record->summary.trace_hash : record.error().message;
+  };
+  EXPECT_EQ(hash(), hash());
+}
+
+TEST(OffboardPilot, takes_about_the_energy_of_the_simulated_flight) {
+  for (const char* model : {"regression", "thrust"}) {
+    Scenario scenario = kit::short_delivery();
+    scenario.vehicle.rotor_power = model;
+    FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+    const auto real = flown.fly(scenario);
+    ASSERT_TRUE(real);
+    const Summary simulated = kit::flown(scenario).summary;
+    const auto power_w = [](const Summary& s) { return s.energy_rotor_j / s.mission_time_s; };
+    // The autopilot's start and disarming take seconds in which its rotors rest or idle.
+    EXPECT_NEAR(power_w(real->summary) / power_w(simulated), 1.0, 0.25) << model;
+  }
+}
+
+TEST(OffboardPilot, a_flight_without_an_autopilot_that_answers_is_an_error) {
+  kit::StandInRules rules;
+  rules.deaf_to = mav::command_message_interval;
+  FlownByAutopilot flown{rules};
+  const auto record = flown.fly(kit::short_delivery());
+  ASSERT_FALSE(record);
+  EXPECT_NE(record.error().message.find("did not answer"), std::string::npos);
+}
+
+TEST(OffboardPilot, a_flight_ends_when_somebody_takes_over_and_says_so) {
+  FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+  const auto record = flown.fly(kit::short_delivery(60.0), [&flown](MissionTime now) {
+    if (now == MissionTime{10s}) {
+      flown.autopilot.switch_mode(kit::StandInAutopilot::px4_position);
+    }
+  });
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->summary.failure, MissionFailure::autopilot);
+  EXPECT_NEAR(record->summary.mission_time_s, 10.5, 0.6);  // A heartbeat a second.
+  EXPECT_NE(flown.told.find("somebody took over"), std::string::npos) << flown.told;
+  EXPECT_TRUE(flown.autopilot.is_up());  // Nobody made it land.
+}
+
+TEST(OffboardPilot, a_vehicle_whose_positions_stop_coming_brakes) {
+  FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+  double fastest_m_s = 0.0;
+  double later_m_s = 0.0;
+  const auto record = flown.fly(kit::short_delivery(60.0), [&](MissionTime now) {
+    const double speed_m_s = flown.autopilot.truth().v_WB.norm();
+    if (now == MissionTime{10s}) {
+      fastest_m_s = speed_m_s;
+      flown.autopilot.rules().never_sends = MavLocalPosition::kind.id;
+    } else if (now == MissionTime{16s}) {
+      later_m_s = speed_m_s;
+      flown.autopilot.rules().never_sends = kit::StandInRules{}.never_sends;
+    }
+  });
+  ASSERT_TRUE(record);
+  EXPECT_GT(fastest_m_s, 1.0);
+  EXPECT_LT(later_m_s, 0.2);
+  EXPECT_EQ(record->summary.status, MissionStatus::succeeded)
+      << to_string(record->summary.failure) << flown.told;
+}
+
+TEST(OffboardPilot, a_vehicle_in_the_air_is_landed_when_the_mission_is_over) {
+  FlownByAutopilot flown{stand_in(AutopilotKind::ardupilot)};
+  Scenario scenario = kit::short_delivery(60.0);
+  scenario.mission.time_limit_s = 10.0;
+  const auto record = flown.fly(scenario);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->summary.failure, MissionFailure::time_limit);
+  EXPECT_FALSE(flown.autopilot.is_armed());
+  EXPECT_LT(flown.autopilot.moved_m().z(), 0.05);
+}
+
+TEST(OffboardPilot, flies_in_real_time_through_udp) {
+  kit::UdpAutopilot autopilot{stand_in(AutopilotKind::px4)};
+  auto stream = open_byte_stream(autopilot.address());
+  ASSERT_TRUE(stream) << stream.error().message;
+  std::string told;
+  AutopilotLink link{std::move(*stream),
+                     [&told](const std::string& sentence) { told += sentence + "\n"; }};
+  // A small camera, so that maps are made in time on a slow machine under a sanitizer as well.
+  Scenario scenario = kit::short_delivery();
+  scenario.camera.width_px = 32;
+  scenario.camera.height_px = 18;
+  scenario.mission.time_limit_s = 9.0;
+  MissionHooks hooks;
+  hooks.autopilot = &link;
+  hooks.executor = in_real_time({});
+  const auto record = fly(scenario, hooks);
+  ASSERT_TRUE(record) << record.error().message;
+  EXPECT_NE(told.find("PX4 is connected"), std::string::npos) << told;
+  const kit::StandInAutopilot& flown = autopilot.stop();
+  EXPECT_GT(flown.targets().size(), 50U);
+  EXPECT_EQ(flown.bad_targets(), 0);
+  // A machine that is far too slow leaves the vehicle to its fail-safe, and says so.
+  const bool was_left = record->summary.failure == MissionFailure::autopilot;
+  EXPECT_TRUE(was_left || record->summary.failure == MissionFailure::time_limit) << told;
+  EXPECT_TRUE(was_left || !flown.is_armed()) << told;
+}
+
+}  // namespace
+}  // namespace flyball
