@@ -82,7 +82,6 @@ void AutopilotTelemetry::hear_heartbeat(const MavlinkFrame& frame, Duration now)
   heartbeat_heard_ = now;
 }
 
-/// The autopilot's own times, because messages arrive in bunches.
 void AutopilotTelemetry::hear_position(const MavLocalPosition& position, Duration now) {
   if (!are_finite(position.p_m) || !are_finite(position.v_m_s)) {
     return;
@@ -90,13 +89,13 @@ void AutopilotTelemetry::hear_position(const MavLocalPosition& position, Duratio
   const Vec3 v_N = vector_of(position.v_m_s);
   const double step_s = 1e-3 * (position.time_boot_ms - static_cast<double>(position_boot_ms_));
   constexpr double longest_step_s = 0.25;
-  if (position_heard_ && step_s > 0.0) {
+  if (position_made_ && step_s > 0.0) {
     a_N_ = step_s < longest_step_s ? Vec3{(v_N - v_N_) / step_s} : Vec3::Zero();
   }
   p_N_ = vector_of(position.p_m);
   v_N_ = v_N;
   position_boot_ms_ = position.time_boot_ms;
-  position_heard_ = now;
+  position_made_ = clock_.made(position.time_boot_ms, now);
 }
 
 void AutopilotTelemetry::hear_attitude(const MavAttitudeQuaternion& attitude, Duration now) {
@@ -108,7 +107,7 @@ void AutopilotTelemetry::hear_attitude(const MavAttitudeQuaternion& attitude, Du
   }
   q_ND_ = heard.normalized();
   w_D_ = vector_of(attitude.rates_rad_s);
-  attitude_heard_ = now;
+  attitude_made_ = clock_.made(attitude.time_boot_ms, now);
 }
 
 void AutopilotTelemetry::hear_text(const MavStatusText& text) {
@@ -141,27 +140,27 @@ std::vector<std::string> AutopilotTelemetry::take_news() {
 }
 
 bool AutopilotTelemetry::is_fresh(Duration now) const {
-  return has_position() && has_attitude() && now - *position_heard_ <= oldest_motion &&
-         now - *attitude_heard_ <= oldest_motion;
+  return has_position() && has_attitude() && now - *position_made_ <= oldest_motion &&
+         now - *attitude_made_ <= oldest_motion;
 }
 
 VehicleMotion AutopilotTelemetry::motion(Duration now) const {
-  const auto age_s = [now](const std::optional<Duration>& heard) {
-    const Duration age = heard ? now - *heard : Duration::zero();
+  const auto age_s = [now](const std::optional<Duration>& made) {
+    const Duration age = made ? now - *made : Duration::zero();
     return to_seconds(std::clamp<Duration>(age, Duration::zero(), oldest_motion));
   };
   VehicleMotion motion;
   motion.v_WB = north_east_down_turned(v_N_);
   motion.a_WB = north_east_down_turned(a_N_);
   motion.w_WB_B = forward_right_down_turned(w_D_);
-  const Vec3 turned = age_s(attitude_heard_) * motion.w_WB_B;
+  const Vec3 turned = age_s(attitude_made_) * motion.w_WB_B;
   const double angle_rad = turned.norm();
   Eigen::Quaterniond q_WB = q_WB_of(q_ND_);
   if (angle_rad > 0.0) {
     q_WB = q_WB * Eigen::Quaterniond{Eigen::AngleAxisd{angle_rad, turned / angle_rad}};
   }
   motion.X_WB.linear() = q_WB.toRotationMatrix();
-  motion.X_WB.translation() = origin_.to_W(p_N_) + age_s(position_heard_) * motion.v_WB;
+  motion.X_WB.translation() = origin_.to_W(p_N_) + age_s(position_made_) * motion.v_WB;
   return motion;
 }
 

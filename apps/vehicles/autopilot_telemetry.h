@@ -10,6 +10,7 @@
 #include "vehicles/autopilot_kind.h"
 #include "vehicles/mavlink_messages.h"
 #include "vehicles/ned_frames.h"
+#include "vehicles/sender_clock.h"
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ struct VehicleMotion {
   Vec3 a_WB{Vec3::Zero()};    ///< From the last two velocities [m/s^2].
 };
 
-/// Listens to one autopilot: the first whose HEARTBEAT comes. Times are those of arrival.
+/// Listens to one autopilot: the first whose HEARTBEAT comes. A pose is as old as it is by the
+/// autopilot's own clock.
 class AutopilotTelemetry {
  public:
   void hear(const MavlinkFrame& frame, Duration now);
@@ -48,8 +50,8 @@ class AutopilotTelemetry {
   /// Where it calls `at_N` what is `at_W` in the mission.
   void place(const LocalOrigin& origin) { origin_ = origin; }
   [[nodiscard]] const LocalOrigin& origin() const { return origin_; }
-  [[nodiscard]] bool has_position() const { return position_heard_.has_value(); }
-  [[nodiscard]] bool has_attitude() const { return attitude_heard_.has_value(); }
+  [[nodiscard]] bool has_position() const { return position_made_.has_value(); }
+  [[nodiscard]] bool has_attitude() const { return attitude_made_.has_value(); }
   [[nodiscard]] Vec3 position_N() const { return p_N_; }
   /// Whether position and attitude are no older than .25 s.
   [[nodiscard]] bool is_fresh(Duration now) const;
@@ -75,8 +77,9 @@ class AutopilotTelemetry {
   Eigen::Quaterniond q_ND_{Eigen::Quaterniond::Identity()};
   Vec3 w_D_{Vec3::Zero()};
   std::optional<Duration> heartbeat_heard_{};
-  std::optional<Duration> position_heard_{};
-  std::optional<Duration> attitude_heard_{};
+  SenderClock clock_{};
+  std::optional<Duration> position_made_{};
+  std::optional<Duration> attitude_made_{};
   bool is_silent_{};
   bool is_blind_{};  ///< No position comes.
   bool has_told_of_signature_{};

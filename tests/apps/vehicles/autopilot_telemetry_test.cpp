@@ -36,8 +36,9 @@ MavLocalPosition local_position(std::uint32_t boot_ms, float north_m, float nort
   return position;
 }
 
-MavAttitudeQuaternion level(float yaw_rate_rad_s = 0.0F) {
+MavAttitudeQuaternion level(std::uint32_t boot_ms, float yaw_rate_rad_s = 0.0F) {
   MavAttitudeQuaternion attitude;
+  attitude.time_boot_ms = boot_ms;
   attitude.q[0] = 1.0F;
   attitude.rates_rad_s[2] = yaw_rate_rad_s;
   return attitude;
@@ -75,7 +76,7 @@ TEST(AutopilotTelemetry, listens_to_the_first_autopilot_alone) {
 TEST(AutopilotTelemetry, moves_on_for_a_quarter_of_a_second_and_no_longer) {
   AutopilotTelemetry telemetry = heard_px4();
   telemetry.hear(framed(local_position(1000, 2.0F, 4.0F)), 1s);
-  telemetry.hear(framed(level(0.5F)), 1s);
+  telemetry.hear(framed(level(1000, 0.5F)), 1s);
   EXPECT_TRUE(telemetry.is_fresh(1250ms));
   EXPECT_FALSE(telemetry.is_fresh(1251ms));
   EXPECT_NEAR(telemetry.motion(1100ms).X_WB.translation().y(), 2.4, 1e-6);
@@ -85,9 +86,29 @@ TEST(AutopilotTelemetry, moves_on_for_a_quarter_of_a_second_and_no_longer) {
   EXPECT_NEAR(yaw_of(forward), 0.5 * M_PI - 0.05, 1e-6);
 }
 
+TEST(AutopilotTelemetry, is_as_old_as_the_older_of_position_and_attitude) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(local_position(1000, 0.0F, 0.0F)), 1s);
+  EXPECT_FALSE(telemetry.is_fresh(1s));
+  telemetry.hear(framed(level(1000)), 1s);
+  EXPECT_TRUE(telemetry.is_fresh(1s));
+  telemetry.hear(framed(level(1300)), 1300ms);
+  EXPECT_FALSE(telemetry.is_fresh(1300ms));
+  telemetry.hear(framed(local_position(1600, 0.0F, 0.0F)), 1600ms);
+  EXPECT_FALSE(telemetry.is_fresh(1600ms));
+}
+
+TEST(AutopilotTelemetry, knows_how_long_a_position_has_waited) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(level(1000)), 1s);
+  telemetry.hear(framed(local_position(1000, 0.0F, 5.0F)), 1s);
+  telemetry.hear(framed(local_position(1100, 0.5F, 5.0F)), 1140ms);  // 40 ms late.
+  EXPECT_NEAR(telemetry.motion(1140ms).X_WB.translation().y(), 0.7, 1e-3);
+}
+
 TEST(AutopilotTelemetry, takes_the_acceleration_from_two_velocities_and_the_autopilots_clock) {
   AutopilotTelemetry telemetry = heard_px4();
-  telemetry.hear(framed(level()), 1s);
+  telemetry.hear(framed(level(1000)), 1s);
   telemetry.hear(framed(local_position(1000, 0.0F, 1.0F)), 1s);
   telemetry.hear(framed(local_position(1020, 0.0F, 1.1F)), 1s);  // In a bunch with the first.
   EXPECT_NEAR(telemetry.motion(1s).a_WB.y(), 5.0, 1e-4);
