@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+import made_inputs
 from kinds import Seeds
 
 BETWEEN = b"----\n"
@@ -43,6 +44,9 @@ def seeds_of(target, seeds):
         return {"record": BETWEEN.join([trace, files["mission.toml"], files["summary.json"]])}
     if target == "packet":
         return {str(kind): bytes([kind]) + b"\0" * 1800 for kind in range(3)}
+    if target == "mavlink":
+        return {"px4": made_inputs.autopilot_flight(12, 6 << 16, (4 << 16) | (6 << 24)),
+                "ardupilot": made_inputs.autopilot_flight(3, 4, 9)}
     if target == "script":
         return seeds.scripts()
     if target == "format":

@@ -214,3 +214,32 @@ def board_tree():
         "proc/cmdline": "root=/dev/mmcblk0p1 isolcpus= \n", "proc/12/comm": "nvpmodel\n",
         "run/board.journal": f"{len(governor)}\n{governor}\n10\nschedutil\n\n"})
     return {name: text.encode() for name, text in files.items()}
+
+
+def autopilot_flight(maker, commanded, landing):
+    """What targets/mavlink_fuzzer.cpp takes: messages of an autopilot and commands to it, from the
+    first heartbeat to the landing. `commanded` and `landing` are its modes."""
+    heard, parameter, attitude, position, answer, landed = range(6)  # As kinds_from_autopilot has them.
+    hold, follow, take_off, land = 10, 11, 12, 13
+
+    def record(which, content=b"", milliseconds=20):
+        return bytes([which, milliseconds // 4]) + content
+
+    def beat(mode, is_armed):
+        return record(heard, struct.pack("<IBBBBB", mode, 2, maker, 128 if is_armed else 0, 4, 3))
+
+    def yes_to(command):
+        return record(answer, struct.pack("<HBBiBB", command, 0, 0, 0, 1, 191))
+
+    def pose(time_ms, down_m):
+        return (record(position, struct.pack("<I6f", time_ms, 1.0, 2.0, down_m, 0.0, 0.0, 0.0)) +
+                record(attitude, struct.pack("<I11f", time_ms, 1.0, *[0.0] * 10)))
+
+    on_ground, in_air = record(landed, bytes([0, 1])), record(landed, bytes([0, 2]))
+    guided_timeout = record(parameter, struct.pack("<fHH16sB", 0.5, 1, 0, b"GUID_TIMEOUT", 9))
+    connected = beat(0, False) + yes_to(511) * 5 + guided_timeout + on_ground + pose(1000, 0.0) * 2
+    up = (record(take_off) + record(15, bytes(24), 1000) * 2 + yes_to(176) + beat(commanded, False) +
+          yes_to(400) + beat(commanded, True) + yes_to(22) + in_air + pose(4000, -2.0))
+    flown = record(follow) * 3 + record(hold) + record(follow) + pose(4200, -2.0)
+    down = record(land) + yes_to(21) + beat(landing, True) + on_ground + beat(landing, False)
+    return connected + up + flown + down
