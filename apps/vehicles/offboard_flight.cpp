@@ -18,15 +18,14 @@ constexpr double near_m = 0.3;    // What PX4's own off-board test accepts as ar
 
 }  // namespace
 
-/// A command that fails ends what it was for: on the ground the flight has not begun, and in the
-/// air the vehicle is held.
+/// A command that fails ends what it was for: on the ground the flight has not begun, and a vehicle
+/// that is armed is held until it can be landed, which disarms it where it stands.
 void OffboardControl::step_flight(Duration now) {
   watch_hands();
   if (!commands_.failure().empty()) {
-    const bool is_up = leg_ == Leg::landing || leg_ == Leg::flying;
     fail(commands_.failure());
-    enter(is_up ? Leg::flying : Leg::standing, now);
-    if (!is_up) {
+    enter(telemetry_.is_armed() ? Leg::flying : Leg::standing, now);
+    if (leg_ == Leg::standing) {
       stream_.end();
     }
   }

@@ -59,7 +59,9 @@ TEST(AutopilotLink, stops_waiting_when_it_is_told_to) {
 }
 
 TEST(AutopilotLink, follows_set_points_that_are_stamped_in_mission_time) {
-  LinkedAutopilot one;
+  kit::StandInRules rules;
+  rules.unanswered_first = 3;  // The link is two seconds older than the mission.
+  LinkedAutopilot one{rules};
   ASSERT_TRUE(one.connect());
   one.link.obey({FlightCommand::Kind::take_off, 2.0});
   one.fly(12s);
@@ -84,6 +86,7 @@ TEST(AutopilotLink, lands_a_vehicle_that_is_up_when_the_flight_ends) {
   one.fly(12s);
   int turns = 0;
   one.link.begin_landing();
+  EXPECT_EQ(one.autopilot.commands().back().command, mav::command_land);
   one.link.await_landing([&turns] {
     ++turns;
     return true;

@@ -31,7 +31,7 @@ TEST(OffboardControl, flies_a_line_and_lands_with_either_autopilot) {
     EXPECT_FALSE(rig.control.status(rig.now).airborne);
     ASSERT_TRUE(rig.take_off(2.0)) << rig.control.failure();
     EXPECT_FALSE(rig.control.may_touch_ground());
-    // Its centre is to be 2 m above the ground (.2 m), and it stood at .3 m.
+    // Its centre is to be 2 m above the ground (-3 m), and it stood at -2.9 m.
     EXPECT_NEAR(rig.autopilot.moved_m().z(), 1.9, 0.31);
     rig.fly({1.0, 2.0, 0.0}, 5s);
     EXPECT_NEAR(rig.autopilot.moved_m().x(), 5.0, 0.3);
@@ -60,6 +60,19 @@ TEST(OffboardControl, sees_the_vehicle_where_it_is_in_the_missions_world) {
   EXPECT_LT((moving.X_WB.translation() - rig.start_W - rig.autopilot.moved_m()).norm(), 0.02);
   EXPECT_LT((moving.v_WB - truth.v_WB).norm(), 0.1);
   EXPECT_LT((moving.X_WB.linear() - truth.X_WB.linear()).norm(), 0.02);
+}
+
+TEST(OffboardControl, turns_the_vehicle_to_the_heading_that_is_asked_for) {
+  for (const AutopilotKind kind : both) {
+    OffboardRig rig{rules_of(kind)};
+    ASSERT_TRUE(rig.connect());
+    ASSERT_TRUE(rig.take_off(2.0));
+    rig.fly(Vec3::Zero(), 3s, 2.0);
+    const auto& truth = rig.autopilot.truth();
+    EXPECT_NEAR(yaw_of(truth.X_WB.linear().col(0)), 2.0, 0.02);
+    rig.run(2s);  // Without set-points it keeps it.
+    EXPECT_NEAR(yaw_of(truth.X_WB.linear().col(0)), 2.0, 0.02);
+  }
 }
 
 TEST(OffboardControl, streams_to_px4_before_it_asks_for_the_mode_and_before_it_arms) {
@@ -161,6 +174,20 @@ TEST(OffboardControl, ends_before_the_flight_when_arming_is_denied) {
   }
 }
 
+TEST(OffboardControl, a_vehicle_that_is_armed_and_may_not_take_off_can_be_disarmed_by_landing) {
+  StandInRules rules = rules_of(AutopilotKind::ardupilot);
+  rules.denies_take_off = true;
+  OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect());
+  EXPECT_FALSE(rig.take_off(2.0));
+  EXPECT_EQ(rig.control.failure(), "the autopilot was asked to take off and answered DENIED");
+  EXPECT_TRUE(rig.autopilot.is_armed());
+  EXPECT_TRUE(rig.control.is_in_charge());
+  rig.control.obey({FlightCommand::Kind::land, 0.0}, rig.now);
+  EXPECT_TRUE(rig.run(5s, [&] { return !rig.control.is_in_charge(); }));
+  EXPECT_FALSE(rig.autopilot.is_armed());
+}
+
 TEST(OffboardControl, holds_a_vehicle_whose_landing_is_denied) {
   StandInRules rules;
   rules.denies_landing = true;
@@ -173,6 +200,33 @@ TEST(OffboardControl, holds_a_vehicle_whose_landing_is_denied) {
   EXPECT_EQ(rig.autopilot.mode(), commanded_mode(AutopilotKind::px4));  // Still streamed.
   EXPECT_NEAR(rig.autopilot.moved_m().z(), 1.9, 0.31);
   EXPECT_TRUE(rig.control.is_in_charge());
+}
+
+TEST(OffboardControl, has_not_landed_before_the_autopilot_says_that_it_stands) {
+  OffboardRig rig;
+  ASSERT_TRUE(rig.connect());
+  ASSERT_TRUE(rig.take_off(2.0));
+  rig.run(1s);
+  rig.autopilot.rules().never_sends = MavExtendedState::kind.id;
+  EXPECT_FALSE(rig.land());
+  EXPECT_FALSE(rig.autopilot.is_armed());
+  EXPECT_TRUE(rig.control.is_in_charge());
+  rig.autopilot.rules().never_sends = StandInRules{}.never_sends;
+  EXPECT_TRUE(rig.run(2s, [&] { return rig.is_done(); }));
+  EXPECT_EQ(rig.control.failure(), "");
+}
+
+TEST(OffboardControl, asks_to_land_also_where_it_does_not_know_whether_it_was_armed) {
+  StandInRules rules;
+  rules.deaf_to = mav::command_arm;
+  OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect());
+  rig.control.obey({FlightCommand::Kind::take_off, 2.0}, rig.now);
+  const auto last = [&rig] { return rig.autopilot.commands().back().command; };
+  ASSERT_TRUE(rig.run(10s, [&] { return last() == mav::command_arm; }));
+  rig.control.obey({FlightCommand::Kind::land, 0.0}, rig.now);
+  ASSERT_TRUE(rig.run(2s, [&] { return !rig.control.is_in_charge(); }));
+  EXPECT_EQ(last(), mav::command_land);
 }
 
 TEST(OffboardControl, lets_go_at_once_when_somebody_takes_over) {
@@ -249,6 +303,19 @@ TEST(OffboardControl, never_sends_a_set_point_that_is_not_finite) {
   EXPECT_EQ(rig.autopilot.bad_targets(), 0);
   EXPECT_LT(rig.autopilot.truth().v_WB.norm(), 0.3);
   EXPECT_EQ(rig.news, "a set-point that is not finite was refused\n");
+}
+
+TEST(OffboardControl, never_sends_a_set_point_that_leaves_all_numbers_before_the_next_one) {
+  OffboardRig rig;
+  ASSERT_TRUE(rig.connect());
+  ASSERT_TRUE(rig.take_off(2.0));
+  Setpoint setpoint;
+  setpoint.stamp = MissionTime{rig.now};
+  setpoint.p_WB.z() = -3.3e38;  // A float ends at 3.4e38. Downwards, so that nobody flies far.
+  setpoint.v_WB.z() = -3.3e38;
+  rig.control.follow(setpoint);
+  rig.run(400ms);
+  EXPECT_EQ(rig.autopilot.bad_targets(), 0);
 }
 
 TEST(OffboardControl, says_that_the_link_is_silent_and_goes_on_when_it_is_back) {

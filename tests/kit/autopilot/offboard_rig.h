@@ -57,22 +57,23 @@ struct OffboardRig {
     return run(std::chrono::minutes{1}, [this] { return is_done(); }) && control.failure().empty();
   }
   /// Streams set-points at 50 Hz along a line from where the vehicle is, for so long.
-  void fly(const Vec3& v_WB, Duration by) {
+  void fly(const Vec3& v_WB, Duration by, double yaw_rad = 0.0) {
     const Vec3 from_W = control.motion(now).X_WB.translation();
     const Duration begun = now;
-    each_turn = [this, from_W, begun, v_WB] {
+    each_turn = [this, from_W, begun, v_WB, yaw_rad] {
       Setpoint setpoint;
       setpoint.stamp = MissionTime{now};
       setpoint.p_WB = from_W + to_seconds(now - begun) * v_WB;
       setpoint.v_WB = v_WB;
+      setpoint.yaw_rad = yaw_rad;
       control.follow(setpoint);
     };
     run(by);
     each_turn = {};
   }
 
-  const Vec3 start_W{100.0, 50.0, 0.3};
-  const double ground_z_m{0.2};
+  const Vec3 start_W{100.0, 50.0, -2.9};
+  const double ground_z_m{-3.0};
   StandInAutopilot autopilot;
   OffboardControl control;
   Duration now{};

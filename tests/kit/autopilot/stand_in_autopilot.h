@@ -29,6 +29,7 @@ struct StandInRules {
   double yaw_rad{0.3};                  ///< From east, anticlockwise.
   float guided_timeout_s{3.0F};
   bool denies_arming{};
+  bool denies_take_off{};
   bool denies_landing{};
   std::uint16_t deaf_to{};              ///< A command that it never answers.
   int unanswered_first{};               ///< So many commands it does not answer at first.
@@ -183,7 +184,7 @@ class StandInAutopilot {
         armed_height_m_ = vehicle_.state().X_WB.translation().z();
         return mav::result_accepted;
       case mav::command_take_off:
-        if (!is_armed_ || is_px4()) {
+        if (!is_armed_ || is_px4() || rules_.denies_take_off) {
           return denied;
         }
         controller_.take_off(vehicle_.state(),
