@@ -78,6 +78,15 @@ void OffboardControl::hear(const std::uint8_t* bytes, std::size_t count, Duratio
   }
 }
 
+VehicleMotion OffboardControl::present(Duration now) const {
+  VehicleMotion motion = telemetry_.motion(now);
+  if (!telemetry_.is_fresh(now) && stream_.sent()) {
+    motion.X_WB.translation() = stream_.sent()->p_WB;
+    motion.v_WB = stream_.sent()->v_WB;
+  }
+  return motion;
+}
+
 void OffboardControl::beat(Duration now) {
   if (!telemetry_.kind() || (next_beat_ && now < *next_beat_)) {
     return;
@@ -113,7 +122,7 @@ void OffboardControl::advance(Duration now) {
   if (const auto command = commands_.due(now)) {
     send(*command);
   }
-  if (const auto setpoint = stream_.due(now, telemetry_.motion(now))) {
+  if (const auto setpoint = stream_.due(now, present(now))) {
     send_setpoint(*setpoint, now);
   }
 }
@@ -130,7 +139,7 @@ void OffboardControl::obey(const FlightCommand& command, Duration now) {
       break;
     case FlightCommand::Kind::hold:
       if (leg_ == Leg::climbing || leg_ == Leg::flying) {
-        stream_.stop(telemetry_.motion(now), now);
+        stream_.stop(present(now), now);
         enter(Leg::flying, now);
       }
       break;

@@ -89,6 +89,8 @@ class OffboardControl {
   void ask(MavCommandLong command, std::string what, Duration now);
   void beat(Duration now);
 
+  /// The vehicle's motion; while nobody says where it is, that of the set-points that it flies.
+  [[nodiscard]] VehicleMotion present(Duration now) const;
   void step_connection(Duration now);
   void listen(Duration now);
   void request(Duration now);

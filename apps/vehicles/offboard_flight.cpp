@@ -95,7 +95,7 @@ void OffboardControl::await_arming(Duration now) {
     enter(Leg::climbing, now);
     const double rise_m = goal_height_m_ - telemetry_.motion(now).X_WB.translation().z();
     if (kind() == AutopilotKind::px4) {
-      stream_.climb(telemetry_.motion(now), goal_height_m_, now);
+      stream_.climb(present(now), goal_height_m_, now);
     } else {
       MavCommandLong climb;
       climb.command = mav::command_take_off;
@@ -137,7 +137,7 @@ void OffboardControl::await_landing(Duration now) {
 
 void OffboardControl::take_off(double height_m, Duration now) {
   goal_height_m_ = start_.ground_z_m + height_m;
-  const VehicleMotion motion = telemetry_.motion(now);
+  const VehicleMotion motion = present(now);
   if (leg_ == Leg::climbing || leg_ == Leg::flying) {
     stream_.climb(motion, goal_height_m_, now);
     enter(Leg::climbing, now);
@@ -154,7 +154,7 @@ void OffboardControl::land(Duration now) {
   land.command = mav::command_land;
   ask(land, "to land", now);
   if (stream_.motion() != SetpointStream::Motion::none) {
-    stream_.stop(telemetry_.motion(now), now);
+    stream_.stop(present(now), now);
   }
   enter(Leg::landing, now);
 }

@@ -12,12 +12,16 @@ constexpr auto setpoint_loss = 500ms;  // Before PX4 itself gives up, after 1 s 
 
 }  // namespace
 
+void SetpointStream::end() {
+  motion_ = Motion::none;
+  sent_.reset();
+}
+
 void SetpointStream::start(const VehicleMotion& vehicle, Duration now) {
-  const bool goes_on = motion_ != Motion::none && has_yaw_;
   reference_ = {};
   reference_.p_WB = vehicle.X_WB.translation();
   reference_.v_WB = vehicle.v_WB;
-  reference_.yaw_rad = goes_on ? yaw_rad_ : yaw_of(vehicle.X_WB.linear().col(0));
+  reference_.yaw_rad = sent_ ? sent_->yaw_rad : yaw_of(vehicle.X_WB.linear().col(0));
   last_ = now;
 }
 
@@ -60,17 +64,14 @@ std::optional<Setpoint> SetpointStream::due(Duration now, const VehicleMotion& v
   if (motion_ == Motion::follow && now - newest_.stamp.time_since_epoch() > setpoint_loss) {
     stop(vehicle, now);
   }
-  Setpoint sent;
   if (motion_ == Motion::follow) {
-    sent = extrapolated(newest_, to_seconds(now - newest_.stamp.time_since_epoch()));
+    sent_ = extrapolated(newest_, to_seconds(now - newest_.stamp.time_since_epoch()));
   } else {
     move(to_seconds(now - last_));
     last_ = now;
-    sent = reference_;
+    sent_ = reference_;
   }
-  yaw_rad_ = sent.yaw_rad;
-  has_yaw_ = true;
-  return sent;
+  return sent_;
 }
 
 }  // namespace flyball

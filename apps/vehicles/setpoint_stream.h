@@ -19,7 +19,7 @@ class SetpointStream {
  public:
   enum class Motion : std::uint8_t { none, stop, climb, follow };
 
-  void end() { motion_ = Motion::none; }
+  void end();
   /// Brakes from the vehicle's present motion, then stays.
   void stop(const VehicleMotion& vehicle, Duration now);
   /// Straight up from where the vehicle is, to `height_m` in W.
@@ -30,6 +30,8 @@ class SetpointStream {
   /// flight's last one is older than .5 s, the stream stops at the vehicle's place.
   [[nodiscard]] std::optional<Setpoint> due(Duration now, const VehicleMotion& vehicle);
   [[nodiscard]] Motion motion() const { return motion_; }
+  /// The last one; empty before the first, and after `end`.
+  [[nodiscard]] const std::optional<Setpoint>& sent() const { return sent_; }
 
  private:
   void start(const VehicleMotion& vehicle, Duration now);
@@ -39,8 +41,7 @@ class SetpointStream {
   Setpoint reference_{};  ///< Of the stream's own motions.
   Setpoint newest_{};     ///< Of the flight.
   double height_m_{};
-  double yaw_rad_{};  ///< The last that was streamed.
-  bool has_yaw_{};
+  std::optional<Setpoint> sent_{};
   Duration last_{};  ///< When the reference was moved.
   std::optional<Duration> next_{};
 };

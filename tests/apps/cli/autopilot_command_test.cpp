@@ -5,7 +5,12 @@
 #include "autopilot/udp_autopilot.h"
 #include "flyball_program.h"
 #include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -52,21 +57,53 @@ TEST(AutopilotCommand, leaves_nothing_behind_when_the_autopilot_cannot_be_flown)
   EXPECT_TRUE(flyball.place.is_empty());
 }
 
+/// The program beside the test, which can end it.
+class ProgramBeside {
+ public:
+  explicit ProgramBeside(const std::string& arguments) {
+    const std::string line = "cd '" + place.path() + "' && { '" + FlyballProgram::binary() + "' " +
+                             arguments +
+                             " > out 2> err & echo $! > pid; wait $!; echo $? > code; } &";
+    EXPECT_EQ(std::system(line.c_str()), 0);  // NOLINT(cert-env33-c): the test's own words
+  }
+  /// Waits until `happened`, or the program has ended.
+  void await(const std::function<bool()>& happened) const {
+    while (!happened() && place.content("code").empty()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+  }
+  void terminate() const { ::kill(std::stoi(place.content("pid")), SIGTERM); }
+  [[nodiscard]] std::string exit_code() const {
+    await([] { return false; });
+    return place.content("code");
+  }
+  ScratchFolder place;
+};
+
 TEST(AutopilotCommand, lands_the_vehicle_when_it_is_interrupted) {
   kit::UdpAutopilot autopilot{kit::StandInRules{}};
-  const ScratchFolder place;
-  // By then it is up, on a machine that is not very slow; on any other one there is less to land.
-  const std::string line = "cd '" + place.path() + "' && timeout --preserve-status -s INT 12 '" +
-                           FlyballProgram::binary() + "' " + flight + " --autopilot " +
-                           autopilot.address() + " > out 2> err";
-  const int status = std::system(line.c_str());  // NOLINT(cert-env33-c): the test's own words
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130) << place.content("err");
+  const ProgramBeside program{flight + " --autopilot " + autopilot.address()};
+  program.await([&autopilot] { return autopilot.is_up(); });
+  program.terminate();
+  EXPECT_EQ(program.exit_code(), "143\n");
+  const std::string said = program.place.content("err");
   const kit::StandInAutopilot& flown = autopilot.stop();
-  EXPECT_FALSE(flown.is_armed()) << place.content("err");
-  EXPECT_FALSE(flown.is_up());
-  EXPECT_NE(place.content("err").find("PX4 is connected"), std::string::npos)
-      << place.content("err");
+  EXPECT_FALSE(flown.is_armed()) << said;
+  EXPECT_FALSE(flown.is_up()) << said;
+  EXPECT_NE(said.find("PX4 is connected"), std::string::npos) << said;
+  EXPECT_NE(said.find("lands before the program ends"), std::string::npos) << said;
+  EXPECT_NE(program.place.content("flight/summary.json").find("interrupted"), std::string::npos);
+}
+
+TEST(AutopilotCommand, leaves_nothing_behind_when_it_is_interrupted_before_the_flight) {
+  kit::StandInRules rules;
+  rules.never_sends = MavLocalPosition::kind.id;
+  kit::UdpAutopilot autopilot{rules};
+  const ProgramBeside program{flight + " --autopilot " + autopilot.address()};
+  program.await([&autopilot] { return autopilot.is_greeted(); });
+  program.terminate();
+  EXPECT_EQ(program.exit_code(), "143\n") << program.place.content("err");
+  EXPECT_FALSE(std::filesystem::exists(program.place.path("flight")));
 }
 
 }  // namespace

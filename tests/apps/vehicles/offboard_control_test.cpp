@@ -287,6 +287,24 @@ TEST(OffboardControl, stops_and_holds_when_the_flight_falls_silent) {
   EXPECT_EQ(rig.control.failure(), "");
 }
 
+TEST(OffboardControl, stops_where_the_set_points_led_when_nobody_says_where_the_vehicle_is) {
+  OffboardRig rig;
+  ASSERT_TRUE(rig.connect());
+  ASSERT_TRUE(rig.take_off(3.0));
+  rig.fly({2.0, 0.0, 0.0}, 3s);
+  rig.autopilot.lose_output(true);
+  rig.fly({2.0, 0.0, 0.0}, 1s);
+  const std::size_t flown = rig.autopilot.targets().size();
+  rig.run(3s);  // Half a second with, and then without a set-point to follow.
+  float before_m = 0.0F;
+  for (std::size_t i = flown; i < rig.autopilot.targets().size(); ++i) {
+    const float east_m = rig.autopilot.targets()[i].p_m[1];
+    EXPECT_TRUE(i == flown || east_m >= before_m) << i;  // Never back.
+    before_m = east_m;
+  }
+  EXPECT_LT(rig.autopilot.truth().v_WB.norm(), 0.05);
+}
+
 TEST(OffboardControl, never_sends_a_set_point_that_is_not_finite) {
   OffboardRig rig;
   ASSERT_TRUE(rig.connect());

@@ -31,6 +31,9 @@ class UdpAutopilot {
   UdpAutopilot& operator=(const UdpAutopilot&) = delete;
 
   [[nodiscard]] std::string address() const { return "udp:127.0.0.1:" + std::to_string(port_); }
+  /// While it runs: whether the vehicle is up, and whether somebody has said hello.
+  [[nodiscard]] bool is_up() const { return is_up_; }
+  [[nodiscard]] bool is_greeted() const { return is_greeted_; }
   /// It stops, and can be looked at.
   StandInAutopilot& stop() {
     is_stopped_ = true;
@@ -74,6 +77,8 @@ class UdpAutopilot {
       const auto now = std::chrono::steady_clock::now();
       autopilot_.step(std::chrono::duration_cast<Duration>(now - flown_until));
       flown_until = now;
+      is_up_ = autopilot_.moved_m().z() > 0.5;
+      is_greeted_ = autopilot_.heartbeats() > 0;
       const std::vector<std::uint8_t> bytes = autopilot_.take_output();
       if (!bytes.empty()) {
         (void)::sendto(socket_, bytes.data(), bytes.size(), 0,
@@ -85,6 +90,8 @@ class UdpAutopilot {
   StandInAutopilot autopilot_;
   std::uint16_t port_;
   int socket_{::socket(AF_INET, SOCK_DGRAM, 0)};
+  std::atomic<bool> is_up_{false};
+  std::atomic<bool> is_greeted_{false};
   std::atomic<bool> is_stopped_{false};
   std::thread thread_{};
 };
