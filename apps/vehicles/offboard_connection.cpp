@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: offboard_control
 //
 // From silence to an autopilot that sends what is needed and stands at the start.
 

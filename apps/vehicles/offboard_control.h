@@ -119,6 +119,7 @@ class OffboardControl {
   Duration since_{};  ///< When the leg began.
   bool is_connected_{};
   bool has_refused_setpoint_{};
+  bool is_landing_granted_{};
   std::size_t requested_{};  ///< How many of the messages.
   int limit_tries_{};
   Duration next_limit_try_{};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: offboard_control
 //
 // The legs of a flight, from the command to take off until the vehicle stands again.
 
@@ -73,8 +72,9 @@ void OffboardControl::prepare(Duration now) {
   }
 }
 
+/// An answer may be lost on its way; what the autopilot shows counts.
 void OffboardControl::await_mode(Duration now) {
-  if (commands_.is_accepted() && telemetry_.mode() == commanded_mode(kind())) {
+  if (telemetry_.mode() == commanded_mode(kind())) {
     MavCommandLong arm;
     arm.command = mav::command_arm;
     arm.parameters[0] = 1.0F;
@@ -91,7 +91,8 @@ void OffboardControl::await_mode(Duration now) {
 }
 
 void OffboardControl::await_arming(Duration now) {
-  if (commands_.is_accepted() && telemetry_.is_armed()) {
+  if (telemetry_.is_armed()) {
+    commands_.forget();
     enter(Leg::climbing, now);
     const double rise_m = goal_height_m_ - telemetry_.motion(now).X_WB.translation().z();
     if (kind() == AutopilotKind::px4) {
@@ -126,11 +127,12 @@ void OffboardControl::climb(Duration now) {
 void OffboardControl::await_landing(Duration now) {
   if (telemetry_.mode() == landing_mode(kind())) {
     stream_.end();
-  }
-  if (commands_.is_accepted() && !telemetry_.is_armed() &&
-      telemetry_.is_on_ground().value_or(false)) {
-    stream_.end();
     commands_.forget();
+    is_landing_granted_ = true;
+  }
+  is_landing_granted_ = is_landing_granted_ || commands_.is_accepted();
+  if (is_landing_granted_ && !telemetry_.is_armed() && telemetry_.is_on_ground().value_or(false)) {
+    stream_.end();
     enter(Leg::standing, now);
   }
 }
@@ -153,6 +155,7 @@ void OffboardControl::land(Duration now) {
   MavCommandLong land;
   land.command = mav::command_land;
   ask(land, "to land", now);
+  is_landing_granted_ = false;
   if (stream_.motion() != SetpointStream::Motion::none) {
     stream_.stop(present(now), now);
   }

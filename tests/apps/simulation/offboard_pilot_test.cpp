@@ -3,7 +3,7 @@
 #include "flyball/runtime/modeled/virtual_executor.h"
 #include "flyball/simulation/realtime_flight.h"
 
-#include "autopilot/autopilot_in_memory.h"
+#include "autopilot/offboard_rig.h"
 #include "autopilot/udp_autopilot.h"
 #include "short_delivery.h"
 #include <string>
@@ -46,16 +46,9 @@ struct FlownByAutopilot {
   }
 };
 
-kit::StandInRules stand_in(AutopilotKind kind) {
-  kit::StandInRules rules;
-  rules.kind = kind;
-  rules.guided_timeout_s = 0.5F;
-  return rules;
-}
-
 TEST(OffboardPilot, a_delivery_is_flown_by_either_autopilot) {
   for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
-    FlownByAutopilot flown{stand_in(kind)};
+    FlownByAutopilot flown{kit::safe_rules(kind)};
     const auto record = flown.fly(kit::short_delivery());
     ASSERT_TRUE(record) << record.error().message;
     const Summary& summary = record->summary;
@@ -70,7 +63,7 @@ TEST(OffboardPilot, a_delivery_is_flown_by_either_autopilot) {
 
 TEST(OffboardPilot, a_flight_repeats_to_the_bit_in_virtual_time) {
   const auto hash = [] {
-    FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+    FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
     const auto record = flown.fly(kit::short_delivery());
     return record ? record->summary.trace_hash : record.error().message;
   };
@@ -81,7 +74,7 @@ TEST(OffboardPilot, takes_about_the_energy_of_the_simulated_flight) {
   for (const char* model : {"regression", "thrust"}) {
     Scenario scenario = kit::short_delivery();
     scenario.vehicle.rotor_power = model;
-    FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+    FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
     const auto real = flown.fly(scenario);
     ASSERT_TRUE(real);
     const Summary simulated = kit::flown(scenario).summary;
@@ -101,7 +94,7 @@ TEST(OffboardPilot, a_flight_without_an_autopilot_that_answers_is_an_error) {
 }
 
 TEST(OffboardPilot, a_flight_ends_when_somebody_takes_over_and_says_so) {
-  FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+  FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
   const auto record = flown.fly(kit::short_delivery(60.0), [&flown](MissionTime now) {
     if (now == MissionTime{10s}) {
       flown.autopilot.switch_mode(kit::StandInAutopilot::px4_position);
@@ -115,7 +108,7 @@ TEST(OffboardPilot, a_flight_ends_when_somebody_takes_over_and_says_so) {
 }
 
 TEST(OffboardPilot, a_vehicle_whose_positions_stop_coming_brakes) {
-  FlownByAutopilot flown{stand_in(AutopilotKind::px4)};
+  FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
   double fastest_m_s = 0.0;
   double later_m_s = 0.0;
   const auto record = flown.fly(kit::short_delivery(60.0), [&](MissionTime now) {
@@ -136,7 +129,7 @@ TEST(OffboardPilot, a_vehicle_whose_positions_stop_coming_brakes) {
 }
 
 TEST(OffboardPilot, a_vehicle_in_the_air_is_landed_when_the_mission_is_over) {
-  FlownByAutopilot flown{stand_in(AutopilotKind::ardupilot)};
+  FlownByAutopilot flown{kit::safe_rules(AutopilotKind::ardupilot)};
   Scenario scenario = kit::short_delivery(60.0);
   scenario.mission.time_limit_s = 10.0;
   const auto record = flown.fly(scenario);
@@ -147,7 +140,7 @@ TEST(OffboardPilot, a_vehicle_in_the_air_is_landed_when_the_mission_is_over) {
 }
 
 TEST(OffboardPilot, flies_in_real_time_through_udp) {
-  kit::UdpAutopilot autopilot{stand_in(AutopilotKind::px4)};
+  kit::UdpAutopilot autopilot{kit::safe_rules(AutopilotKind::px4)};
   auto stream = open_byte_stream(autopilot.address());
   ASSERT_TRUE(stream) << stream.error().message;
   std::string told;

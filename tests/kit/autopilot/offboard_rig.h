@@ -12,6 +12,14 @@
 
 namespace flyball::kit {
 
+/// Of an autopilot that is set up as it should be, of a kind.
+inline StandInRules safe_rules(AutopilotKind kind) {
+  StandInRules rules;
+  rules.kind = kind;
+  rules.guided_timeout_s = 0.5F;
+  return rules;
+}
+
 struct OffboardRig {
   explicit OffboardRig(const StandInRules& rules = {})
       : autopilot{rules, shipped_airframe()}, control{{start_W, ground_z_m}} {}

@@ -32,6 +32,7 @@ struct StandInRules {
   bool denies_take_off{};
   bool denies_landing{};
   std::uint16_t deaf_to{};              ///< A command that it never answers.
+  bool loses_answers{};                 ///< It does what it is told, and nobody hears that it will.
   int unanswered_first{};               ///< So many commands it does not answer at first.
   int lost_of{};                        ///< Each frame of so many is lost, both ways; 0: none.
   int twice_of{};                       ///< Each frame of so many comes twice; 0: none.
@@ -164,7 +165,9 @@ class StandInAutopilot {
     answer.result = obey(command);
     answer.target_system = 1;
     answer.target_component = mav::component_onboard_computer;
-    send(answer);
+    if (!rules_.loses_answers) {
+      send(answer);
+    }
   }
 
   std::uint8_t obey(const MavCommandLong& command) {

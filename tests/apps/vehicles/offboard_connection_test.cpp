@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "autopilot/offboard_rig.h"
+#include "vehicles/offboard_control.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(OffboardConnection, refuses_what_is_no_multirotor_of_the_two) {
+  kit::StandInRules rules;
+  rules.type = 1;
+  kit::OffboardRig plane{rules};
+  EXPECT_FALSE(plane.connect());
+  EXPECT_NE(plane.control.failure().find("no multirotor"), std::string::npos);
+}
+
+TEST(OffboardConnection, says_that_nobody_was_heard) {
+  kit::OffboardRig rig;
+  rig.autopilot.be_silent(true);
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(), "no autopilot was heard within 15 s");
+}
+
+TEST(OffboardConnection, connects_through_a_late_first_answer_and_a_line_that_loses_and_doubles) {
+  for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
+    kit::StandInRules rules = kit::safe_rules(kind);
+    rules.unanswered_first = 3;
+    rules.lost_of = 7;
+    rules.twice_of = 5;
+    kit::OffboardRig rig{rules};
+    ASSERT_TRUE(rig.connect()) << rig.control.failure();
+    ASSERT_TRUE(rig.take_off(2.0)) << rig.control.failure();
+    rig.fly({1.0, 0.0, 0.0}, 3s);
+    EXPECT_NEAR(rig.autopilot.moved_m().x(), 3.0, 0.3);
+    ASSERT_TRUE(rig.land()) << rig.control.failure();
+  }
+}
+
+TEST(OffboardConnection, says_which_command_was_not_answered) {
+  kit::StandInRules rules;
+  rules.deaf_to = mav::command_message_interval;
+  kit::OffboardRig rig{rules};
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(),
+            "the autopilot was asked to send LOCAL_POSITION_NED and did not answer, 5 times");
+}
+
+TEST(OffboardConnection, says_what_the_autopilot_does_not_tell) {
+  kit::StandInRules rules;
+  rules.never_sends = MavLocalPosition::kind.id;
+  kit::OffboardRig rig{rules};
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(),
+            "the autopilot does not say, where it is; wait until it is ready to arm");
+}
+
+TEST(OffboardConnection, does_not_take_over_a_vehicle_that_is_armed) {
+  kit::OffboardRig rig;
+  rig.autopilot.arm();
+  EXPECT_FALSE(rig.connect());
+  EXPECT_NE(rig.control.failure().find("land and disarm it"), std::string::npos);
+}
+
+TEST(OffboardConnection, warns_of_an_ardupilot_that_believes_old_set_points) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
+  rules.guided_timeout_s = 3.0F;
+  kit::OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect());
+  EXPECT_NE(rig.news.find("GUID_TIMEOUT is 3.0 s"), std::string::npos) << rig.news;
+}
+
+}  // namespace
+}  // namespace flyball
