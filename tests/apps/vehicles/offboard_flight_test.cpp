@@ -122,6 +122,8 @@ TEST(OffboardFlight, asks_to_land_also_where_it_does_not_know_whether_it_was_arm
   const auto last = [&rig] { return rig.autopilot.commands().back().command; };
   ASSERT_TRUE(rig.run(10s, [&] { return last() == mav::command_arm; }));
   rig.control.obey({FlightCommand::Kind::land, 0.0}, rig.now);
+  rig.run(10ms);
+  EXPECT_TRUE(rig.control.is_in_charge());  // Until somebody says yes.
   ASSERT_TRUE(rig.run(2s, [&] { return !rig.control.is_in_charge(); }));
   EXPECT_EQ(last(), mav::command_land);
 }
