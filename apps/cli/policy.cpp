@@ -42,10 +42,13 @@ std::variant<Place, std::vector<Error>> place_of(const CheckOptions& options) {
     return *errors;
   }
   const Scenario& scenario = std::get<LoadedScenario>(loaded).scenario;
-  auto knobs = standard_knobs(scenario);
   const auto platform = find_platform(scenario.platform.name);
-  if (!knobs || !platform) {
-    return std::vector<Error>{!knobs ? knobs.error() : platform.error()};
+  if (!platform) {
+    return std::vector<Error>{platform.error()};
+  }
+  auto knobs = standard_knobs(scenario, ModeledPlatform{*platform});
+  if (!knobs) {
+    return std::vector<Error>{knobs.error()};
   }
   return Place{KnobSettings{std::move(*knobs)}, board_model_of(*platform)};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicles/autopilot_telemetry.h"
 
+#include "flyball/flight/perception/pose_history.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,8 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto silence = 3s;           // Three heartbeats.
-constexpr auto oldest_motion = 250ms;  // Older poses stop the vehicle (apps/flight/README.md).
+constexpr auto silence = 3s;                          // Three heartbeats.
+constexpr Duration oldest_motion = longest_pose_age;  // Older poses stop the vehicle.
 
 template <std::size_t n>
 bool are_finite(const std::array<float, n>& fields) {

@@ -230,10 +230,11 @@ std::int32_t FlyballGovernor::decide(double now_s) {
 }
 
 void FlyballGovernor::answer(const flyball::Decision& decision, const Observation& seen) {
-  governor_->write_why(why_.data(), why_.size());
   if (const char* refused = signals_.refused()) {
     std::snprintf(why_.data(), why_.size(),
                   "signal %s was observed with a value that it cannot have", refused);
+  } else {
+    governor_->write_why(why_.data(), why_.size());
   }
   answer_ = {};
   answer_.mode = static_cast<std::uint32_t>(knobs_.mode());
