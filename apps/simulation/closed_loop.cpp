@@ -145,18 +145,27 @@ void ClosedLoop::watch_pilot() {
   }
 }
 
+double ClosedLoop::rotor_power_w(double dt_s) {
+  if (const auto battery = pilot_->battery()) {
+    log_.reported_battery = battery;
+    return std::max(0.0, battery->power.value() - log_.computer_w);
+  }
+  return scenario_.vehicle.rotor_power == "thrust"
+             ? thrust_power_w(vehicle_, scenario_.vehicle.drive_efficiency)
+             : regression_.update(vehicle_.state(), vehicle_.carried_kg(), wind_.velocity_W(),
+                                  dt_s);
+}
+
 void ClosedLoop::energy_step() {
   const double dt_s = to_seconds(Duration{energy_period});
   const VehicleState& state = vehicle_.state();
   // As often as power: the shortest gusts are 3 m long, .2 s at 15 m/s.
   wind_.advance(dt_s, state.X_WB.translation().z() - link_.brief().site.ground_z_m, state.v_WB);
-  log_.rotor_w = scenario_.vehicle.rotor_power == "thrust"
-                     ? thrust_power_w(vehicle_, scenario_.vehicle.drive_efficiency)
-                     : regression_.update(state, vehicle_.carried_kg(), wind_.velocity_W(), dt_s);
   const double busy_core_s = executor_.busy_core_s();
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
   log_.computer_w = (computer_power(busy) + device_power(dt_s)).value();
+  log_.rotor_w = rotor_power_w(dt_s);
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);
@@ -166,6 +175,7 @@ void ClosedLoop::energy_step() {
   if (is_airborne()) {
     log_.airborne_s += dt_s;
     log_.hover_time_s += speed < hover_below_m_s ? dt_s : 0.0;
+    log_.measured_s += pilot_->battery() ? dt_s : 0.0;
   }
   if (on_energy_) {
     on_energy_();

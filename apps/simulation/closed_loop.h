@@ -23,6 +23,7 @@
 #include "simulation/simulated_things.h"
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace flyball {
@@ -37,6 +38,8 @@ struct FlightLog {
   double airborne_s{};
   double rotor_w{};     ///< Now.
   double computer_w{};  ///< Now.
+  double measured_s{};  ///< In the air, with a rotor power that was measured.
+  std::optional<ReportedBattery> reported_battery{};  ///< The last one.
 };
 
 class ClosedLoop {
@@ -87,6 +90,8 @@ class ClosedLoop {
   [[nodiscard]] Watts computer_power(double busy_cores) const;
   /// Of the GPU and of the link to an edge computer, on average since the last call `dt_s` ago.
   [[nodiscard]] Watts device_power(double dt_s);
+  /// Of the rotors now, and on from `dt_s` ago.
+  [[nodiscard]] double rotor_power_w(double dt_s);
   void physics_step();
   void watch_pilot();
   void energy_step();

@@ -253,6 +253,12 @@ void fill_computing(Summary& summary, const Flight& flight) {
   if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
     summary.quality["simulator_late_s_max"] = to_seconds(late);
   }
+  if (const FlightLog& log = flight.loop->log(); log.measured_s > 0.0) {
+    summary.quality["rotor_power_measured_percent"] = 100.0 * log.measured_s / log.airborne_s;
+    if (log.reported_battery->percent) {
+      summary.quality["autopilot_battery_percent"] = *log.reported_battery->percent;
+    }
+  }
   if (const SoftErrors& errors = *flight.soft_errors; errors.is_used()) {
     summary.quality["bit_flips"] = static_cast<double>(errors.flips());
     summary.quality["readers_lost"] = static_cast<double>(errors.lost());

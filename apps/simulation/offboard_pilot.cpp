@@ -39,6 +39,9 @@ class OffboardPilot final : public Pilot {
   [[nodiscard]] FlightStatus status() const override { return autopilot_.status(); }
   [[nodiscard]] bool may_touch_ground() const override { return autopilot_.may_touch_ground(); }
   [[nodiscard]] bool knows_pose() const override { return autopilot_.motion().is_fresh; }
+  [[nodiscard]] std::optional<ReportedBattery> battery() const override {
+    return autopilot_.battery();
+  }
   [[nodiscard]] std::string failure() const override { return autopilot_.failure(); }
   void begin_landing() override { autopilot_.begin_landing(); }
   void await_landing(const std::function<bool()>& turned) override {

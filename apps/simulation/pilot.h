@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace flyball {
@@ -39,6 +40,8 @@ class Pilot {
   [[nodiscard]] virtual bool may_touch_ground() const = 0;
   /// Whether it is known where the vehicle is.
   [[nodiscard]] virtual bool knows_pose() const = 0;
+  /// The battery of the vehicle, computer included, where somebody measures it.
+  [[nodiscard]] virtual std::optional<ReportedBattery> battery() const = 0;
   /// One sentence when the flight cannot go on; empty otherwise.
   [[nodiscard]] virtual std::string failure() const = 0;
   /// The flight is over: what is still up comes down. First without waiting, then with; `turned`

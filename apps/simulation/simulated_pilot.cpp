@@ -52,6 +52,7 @@ class SimulatedPilot final : public Pilot {
   }
 
   [[nodiscard]] bool knows_pose() const override { return true; }
+  [[nodiscard]] std::optional<ReportedBattery> battery() const override { return std::nullopt; }
   [[nodiscard]] std::string failure() const override { return {}; }
   void begin_landing() override {}
   void await_landing(const std::function<bool()>& /*turned*/) override {}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace flyball {
@@ -53,6 +54,9 @@ void AutopilotTelemetry::hear(const MavlinkFrame& frame, Duration now) {
     case MavLocalPosition::kind.id:
       hear_position(mavlink_message<MavLocalPosition>(frame), now);
       break;
+    case MavSystemStatus::kind.id:
+      hear_battery(mavlink_message<MavSystemStatus>(frame), now);
+      break;
     case MavExtendedState::kind.id:
       is_on_ground_ =
           mavlink_message<MavExtendedState>(frame).landed_state == mav::landed_on_ground;
@@ -88,16 +92,55 @@ void AutopilotTelemetry::hear_position(const MavLocalPosition& position, Duratio
   if (!are_finite(position.p_m) || !are_finite(position.v_m_s)) {
     return;
   }
+  const Vec3 p_N = vector_of(position.p_m);
   const Vec3 v_N = vector_of(position.v_m_s);
   const double step_s = 1e-3 * (position.time_boot_ms - static_cast<double>(position_boot_ms_));
   constexpr double longest_step_s = 0.25;
   if (position_made_ && step_s > 0.0) {
     a_N_ = step_s < longest_step_s ? Vec3{(v_N - v_N_) / step_s} : Vec3::Zero();
+    follow_jump(p_N, v_N, step_s);
   }
-  p_N_ = vector_of(position.p_m);
+  p_N_ = p_N;
   v_N_ = v_N;
   position_boot_ms_ = position.time_boot_ms;
   position_made_ = clock_.made(position.time_boot_ms, now);
+}
+
+/// A jump is what no multirotor flies: more than both velocities and 20 m/s^2 explain.
+void AutopilotTelemetry::follow_jump(const Vec3& p_N, const Vec3& v_N, double step_s) {
+  constexpr double least_m = 0.5;  // Chosen: smaller ones are a gust for what flies.
+  constexpr double most_m_s2 = 20.0;
+  const Vec3 jump_N = p_N - p_N_ - 0.5 * step_s * (v_N_ + v_N);
+  const double jump_m = jump_N.norm();
+  if (!is_placed_ || jump_m <= least_m + 0.5 * most_m_s2 * step_s * step_s) {
+    return;
+  }
+  origin_.start_N += jump_N;
+  a_N_ = Vec3::Zero();
+  std::array<char, 120> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "the autopilot's position jumped by %.1f m; start and goal of the mission jump along",
+      jump_m);
+  tell(text.data());
+}
+
+void AutopilotTelemetry::hear_battery(const MavSystemStatus& status, Duration now) {
+  battery_.reset();
+  if (status.battery_mv == mav_unknown_voltage || status.battery_ca < 0) {
+    return;
+  }
+  battery_heard_ = now;
+  battery_ =
+      ReportedBattery{Watts{1e-3 * status.battery_mv * 1e-2 * status.battery_ca}, std::nullopt};
+  if (status.battery_percent >= 0) {
+    battery_->percent = status.battery_percent;
+  }
+}
+
+std::optional<ReportedBattery> AutopilotTelemetry::battery(Duration now) const {
+  constexpr auto oldest_battery = 2s;  // Two messages of one a second.
+  return now - battery_heard_ <= oldest_battery ? battery_ : std::nullopt;
 }
 
 void AutopilotTelemetry::hear_attitude(const MavAttitudeQuaternion& attitude, Duration now) {

@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/geometry.h"
 #include "flyball/runtime/time.h"
+#include "flyball/vehicles/vehicle_report.h"
 
 #include "vehicles/autopilot_kind.h"
 #include "vehicles/mavlink_messages.h"
@@ -26,7 +27,9 @@ struct VehicleMotion {
 };
 
 /// Listens to one autopilot: the first whose HEARTBEAT comes. A pose is as old as it is by the
-/// autopilot's own clock.
+/// autopilot's own clock. Where its estimate of the position jumps, the mission's world goes along:
+/// the vehicle has not moved, and what its map shows around it still is where it was (as the frame
+/// "odom" of REP 105, which is continuous and may drift).
 class AutopilotTelemetry {
  public:
   void hear(const MavlinkFrame& frame, Duration now);
@@ -48,11 +51,16 @@ class AutopilotTelemetry {
   [[nodiscard]] std::optional<bool> is_on_ground() const { return is_on_ground_; }
 
   /// Where it calls `at_N` what is `at_W` in the mission.
-  void place(const LocalOrigin& origin) { origin_ = origin; }
+  void place(const LocalOrigin& origin) {
+    origin_ = origin;
+    is_placed_ = true;
+  }
   [[nodiscard]] const LocalOrigin& origin() const { return origin_; }
   [[nodiscard]] bool has_position() const { return position_made_.has_value(); }
   [[nodiscard]] bool has_attitude() const { return attitude_made_.has_value(); }
   [[nodiscard]] Vec3 position_N() const { return p_N_; }
+  /// Empty where nobody measures it, or has not said so for 2 s.
+  [[nodiscard]] std::optional<ReportedBattery> battery(Duration now) const;
   /// Whether position and attitude are no older than .25 s.
   [[nodiscard]] bool is_fresh(Duration now) const;
   /// Now: position and attitude go on with their rates for the age of their messages, .25 s at
@@ -62,6 +70,8 @@ class AutopilotTelemetry {
  private:
   void hear_heartbeat(const MavlinkFrame& frame, Duration now);
   void hear_position(const MavLocalPosition& position, Duration now);
+  void follow_jump(const Vec3& p_N, const Vec3& v_N, double step_s);
+  void hear_battery(const MavSystemStatus& status, Duration now);
   void hear_attitude(const MavAttitudeQuaternion& attitude, Duration now);
   void hear_text(const MavStatusText& text);
 
@@ -70,6 +80,7 @@ class AutopilotTelemetry {
   MavHeartbeat heartbeat_{};
   std::optional<bool> is_on_ground_{};
   LocalOrigin origin_{};
+  bool is_placed_{};
   Vec3 p_N_{Vec3::Zero()};
   Vec3 v_N_{Vec3::Zero()};
   Vec3 a_N_{Vec3::Zero()};
@@ -77,6 +88,8 @@ class AutopilotTelemetry {
   Eigen::Quaterniond q_ND_{Eigen::Quaterniond::Identity()};
   Vec3 w_D_{Vec3::Zero()};
   std::optional<Duration> heartbeat_heard_{};
+  std::optional<ReportedBattery> battery_{};
+  Duration battery_heard_{};
   SenderClock clock_{};
   std::optional<Duration> position_made_{};
   std::optional<Duration> attitude_made_{};

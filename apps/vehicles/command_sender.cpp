@@ -25,6 +25,11 @@ void CommandSender::ask(const MavCommandLong& command, std::string what, Duratio
   next_ = now;
 }
 
+void CommandSender::forget() {
+  asked_.reset();
+  failure_.clear();
+}
+
 void CommandSender::give_up(const std::string& how) {
   failure_ = "the autopilot was asked " + what_ + " and " + how;
 }

@@ -19,7 +19,7 @@ class CommandSender {
   /// Forgets the one before, answered or not.
   /// @param what  For messages to people: "to arm".
   void ask(const MavCommandLong& command, std::string what, Duration now);
-  void forget() { asked_.reset(); }
+  void forget();
 
   /// The command, where it is due now: at first, and again while it is not answered.
   [[nodiscard]] std::optional<MavCommandLong> due(Duration now);

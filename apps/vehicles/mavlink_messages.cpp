@@ -14,9 +14,9 @@ std::string mavlink_result_name(std::uint8_t result) {
 }
 
 std::vector<MavlinkKind> kinds_from_autopilot() {
-  return {MavHeartbeat::kind,     MavParamValue::kind, MavAttitudeQuaternion::kind,
-          MavLocalPosition::kind, MavCommandAck::kind, MavExtendedState::kind,
-          MavStatusText::kind};
+  return {MavHeartbeat::kind,          MavSystemStatus::kind,  MavParamValue::kind,
+          MavAttitudeQuaternion::kind, MavLocalPosition::kind, MavCommandAck::kind,
+          MavExtendedState::kind,      MavStatusText::kind};
 }
 
 }  // namespace flyball

@@ -23,21 +23,29 @@ struct WantedMessage {
   std::uint32_t id;
   float interval_us;
   const char* what;
+  const char* otherwise;  ///< What happens where it is denied; null: the vehicle cannot be flown.
 };
 
 // 50 Hz take 5 kB/s, which a serial line of 115200 baud carries twice.
-constexpr std::array<WantedMessage, 3> wanted_messages{{
-    {MavLocalPosition::kind.id, 20e3F, "to send LOCAL_POSITION_NED"},
-    {MavAttitudeQuaternion::kind.id, 20e3F, "to send ATTITUDE_QUATERNION"},
-    {MavExtendedState::kind.id, 200e3F, "to send EXTENDED_SYS_STATE"},
+constexpr std::array<WantedMessage, 4> wanted_messages{{
+    {MavLocalPosition::kind.id, 20e3F, "to send LOCAL_POSITION_NED", nullptr},
+    {MavAttitudeQuaternion::kind.id, 20e3F, "to send ATTITUDE_QUATERNION", nullptr},
+    {MavExtendedState::kind.id, 200e3F, "to send EXTENDED_SYS_STATE", nullptr},
+    {MavSystemStatus::kind.id, 200e3F, "to send SYS_STATUS", "power is estimated"},
 }};
 
 }  // namespace
 
 void OffboardControl::step_connection(Duration now) {
   if (!commands_.failure().empty()) {
-    fail(commands_.failure());
-    return;
+    const char* otherwise =
+        leg_ == Leg::requesting ? wanted_messages.at(requested_ - 1).otherwise : nullptr;
+    if (otherwise == nullptr) {
+      fail(commands_.failure());
+      return;
+    }
+    telemetry_.tell(commands_.failure() + "; " + otherwise);
+    commands_.forget();
   }
   switch (leg_) {
     case Leg::listening:

@@ -34,6 +34,8 @@ class OffboardControl {
   /// A set-point whose stamp is a time of the link. One that is not finite, also as `float`, is
   /// refused. Nothing while the autopilot does not fly by our set-points.
   void follow(const Setpoint& setpoint);
+  /// The flight cannot go on, as this sentence says: a vehicle that is up and ours is landed.
+  void give_up(std::string sentence, Duration now);
 
   /// Bytes to send since the last call.
   [[nodiscard]] std::vector<std::uint8_t> take_output() { return std::exchange(output_, {}); }
@@ -52,6 +54,9 @@ class OffboardControl {
   [[nodiscard]] bool may_touch_ground() const;
   [[nodiscard]] bool is_fresh(Duration now) const { return telemetry_.is_fresh(now); }
   [[nodiscard]] VehicleMotion motion(Duration now) const { return telemetry_.motion(now); }
+  [[nodiscard]] std::optional<ReportedBattery> battery(Duration now) const {
+    return telemetry_.battery(now);
+  }
   [[nodiscard]] bool is_armed() const { return telemetry_.is_armed(); }
   /// "PX4", "ArduPilot". @pre `is_connected()`.
   [[nodiscard]] const char* autopilot_name() const { return to_string(kind()); }

@@ -151,6 +151,13 @@ void OffboardControl::take_off(double height_m, Duration now) {
   }
 }
 
+void OffboardControl::give_up(std::string sentence, Duration now) {
+  fail(std::move(sentence));
+  if (is_in_charge()) {
+    land(now);
+  }
+}
+
 void OffboardControl::land(Duration now) {
   MavCommandLong land;
   land.command = mav::command_land;

@@ -76,6 +76,12 @@ const filled = (type, fields) => Object.assign(new type(), fields);
 const said = [
   [filled(minimal.Heartbeat, { type: 2, autopilot: 12, baseMode: 209, customMode: 0x60000, systemStatus: 4,
     mavlinkVersion: 3 }), [0, 0x60000, 2, 12, 209, 4, 3]],
+  [filled(common.SysStatus, { onboardControlSensorsPresent: 1, onboardControlSensorsEnabled: 2,
+    onboardControlSensorsHealth: 3, load: 500, voltageBattery: 22200, currentBattery: 1530, batteryRemaining: 83,
+    dropRateComm: 4, errorsComm: 5, errorsCount1: 6, errorsCount2: 7, errorsCount3: 8, errorsCount4: 9,
+    onboardControlSensorsPresentExtended: 10, onboardControlSensorsEnabledExtended: 11,
+    onboardControlSensorsHealthExtended: 12 }),
+  [1, 1, 2, 3, 500, 22200, 1530, 4, 5, 6, 7, 8, 9, 83, 10, 11, 12]],
   [filled(common.ParamValue, { paramId: "GUID_TIMEOUT", paramValue: 0.5, paramType: 9, paramCount: 900,
     paramIndex: 77 }), [22, 0.5, 900, 77, "GUID_TIMEOUT", 9]],
   [filled(common.AttitudeQuaternion, { timeBootMs: 70000, q1: 0.5, q2: -0.5, q3: 0.25, q4: 0.75, rollspeed: 1.5,

@@ -50,6 +50,7 @@ int read_file(const char* name) {
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
   for (const MavlinkFrame& frame : reader.read(first, bytes.size())) {
     print_if<MavHeartbeat>(frame);
+    print_if<MavSystemStatus>(frame);
     print_if<MavParamValue>(frame);
     print_if<MavAttitudeQuaternion>(frame);
     print_if<MavLocalPosition>(frame);
@@ -68,6 +69,7 @@ void print_kind() {
 
 int write_file(const char* name) {
   print_kind<MavHeartbeat>();
+  print_kind<MavSystemStatus>();
   print_kind<MavParamRequestRead>();
   print_kind<MavParamValue>();
   print_kind<MavAttitudeQuaternion>();

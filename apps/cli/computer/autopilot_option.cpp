@@ -32,8 +32,9 @@ Result<std::unique_ptr<AutopilotLink>> open_autopilot(const AutopilotOption& opt
   if (!stream) {
     return stream.error();
   }
-  return std::make_unique<AutopilotLink>(std::move(*stream),
-                                         [](const std::string& sentence) { note(sentence); });
+  return std::make_unique<AutopilotLink>(
+      std::move(*stream), [](const std::string& sentence) { note(sentence); },
+      [] { return Duration{std::chrono::steady_clock::now().time_since_epoch()}; });
 }
 
 }  // namespace flyball

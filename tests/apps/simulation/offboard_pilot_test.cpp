@@ -107,6 +107,35 @@ TEST(OffboardPilot, a_flight_ends_when_somebody_takes_over_and_says_so) {
   EXPECT_TRUE(flown.autopilot.is_up());  // Nobody made it land.
 }
 
+TEST(OffboardPilot, a_jump_of_the_autopilots_estimate_does_not_throw_the_vehicle) {
+  FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
+  double fastest_m_s = 0.0;
+  const auto record = flown.fly(kit::short_delivery(60.0), [&](MissionTime now) {
+    fastest_m_s = std::max(fastest_m_s, flown.autopilot.truth().v_WB.norm());
+    if (now == MissionTime{10s}) {
+      flown.autopilot.jump({4.0, -3.0, 1.0});
+    }
+  });
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->summary.status, MissionStatus::succeeded) << to_string(record->summary.failure);
+  EXPECT_NE(flown.told.find("jumped by 5.1 m"), std::string::npos) << flown.told;
+  EXPECT_LT(flown.autopilot.moved_m().head<2>().norm(), 1.0);  // Home, where it really began.
+  EXPECT_LT(fastest_m_s, 1.1 * record->summary.max_speed_m_s);
+}
+
+TEST(OffboardPilot, rotor_power_is_what_the_autopilot_measures) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::px4);
+  rules.battery_a = 20.0F;  // 400 W with the computer.
+  FlownByAutopilot flown{rules};
+  const auto record = flown.fly(kit::short_delivery());
+  ASSERT_TRUE(record);
+  const Summary& summary = record->summary;
+  EXPECT_NEAR(summary.energy_rotor_j + summary.energy_computer_j, 400.0 * summary.mission_time_s,
+              20.0);
+  EXPECT_NEAR(summary.quality.at("rotor_power_measured_percent"), 100.0, 1e-6);
+  EXPECT_EQ(summary.quality.at("autopilot_battery_percent"), 83.0);
+}
+
 TEST(OffboardPilot, a_vehicle_whose_positions_stop_coming_brakes) {
   FlownByAutopilot flown{kit::safe_rules(AutopilotKind::px4)};
   double fastest_m_s = 0.0;
@@ -145,7 +174,8 @@ TEST(OffboardPilot, flies_in_real_time_through_udp) {
   ASSERT_TRUE(stream) << stream.error().message;
   std::string told;
   AutopilotLink link{std::move(*stream),
-                     [&told](const std::string& sentence) { told += sentence + "\n"; }};
+                     [&told](const std::string& sentence) { told += sentence + "\n"; },
+                     [] { return Duration{std::chrono::steady_clock::now().time_since_epoch()}; }};
   // A small camera, so that maps are made in time on a slow machine under a sanitizer as well.
   Scenario scenario = kit::short_delivery();
   scenario.camera.width_px = 32;

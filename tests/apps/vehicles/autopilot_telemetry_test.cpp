@@ -116,6 +116,52 @@ TEST(AutopilotTelemetry, takes_the_acceleration_from_two_velocities_and_the_auto
   EXPECT_EQ(telemetry.motion(2s).a_WB, Vec3::Zero());
 }
 
+TEST(AutopilotTelemetry, a_jump_of_the_estimate_does_not_move_the_vehicle) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(level(1000)), 1s);
+  telemetry.hear(framed(local_position(1000, 2.0F, 4.0F)), 1s);
+  telemetry.place({});
+  telemetry.hear(framed(local_position(1020, 12.08F, 4.0F)), 1020ms);
+  EXPECT_NEAR(telemetry.motion(1020ms).X_WB.translation().y(), 2.08, 1e-5);
+  EXPECT_EQ(telemetry.motion(1020ms).a_WB, Vec3::Zero());
+  EXPECT_NEAR(telemetry.origin().to_N({0.0, 3.0, 0.0}).x(), 13.0, 1e-5);  // It flies there by that.
+  telemetry.hear(framed(local_position(1040, 12.16F, 4.0F)), 1040ms);
+  EXPECT_NEAR(telemetry.motion(1040ms).X_WB.translation().y(), 2.16, 1e-5);
+  const std::vector<std::string> told = telemetry.take_news();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told.front().find("jumped by 10.0 m"), std::string::npos) << told.front();
+}
+
+TEST(AutopilotTelemetry, what_a_vehicle_can_fly_is_no_jump) {
+  AutopilotTelemetry telemetry = heard_px4();
+  telemetry.hear(framed(level(1000)), 1s);
+  telemetry.hear(framed(local_position(1000, 0.0F, 0.0F)), 1s);
+  telemetry.place({});
+  telemetry.hear(framed(local_position(1020, 0.4F, 0.4F)), 1020ms);  // A gust.
+  EXPECT_NEAR(telemetry.motion(1020ms).X_WB.translation().y(), 0.4, 1e-5);
+  telemetry.hear(framed(local_position(3020, 16.0F, 0.0F)), 3020ms);  // Accelerates, and brakes.
+  EXPECT_NEAR(telemetry.motion(3020ms).X_WB.translation().y(), 16.0, 1e-5);
+  EXPECT_TRUE(telemetry.take_news().empty());
+}
+
+TEST(AutopilotTelemetry, knows_the_power_of_a_battery_while_it_is_measured) {
+  AutopilotTelemetry telemetry = heard_px4();
+  EXPECT_FALSE(telemetry.battery(0s));
+  MavSystemStatus status;
+  telemetry.hear(framed(status), 1s);  // Without a power module.
+  EXPECT_FALSE(telemetry.battery(1s));
+  status.battery_mv = 22200;
+  status.battery_ca = 1500;
+  telemetry.hear(framed(status), 1s);
+  ASSERT_TRUE(telemetry.battery(1s));
+  EXPECT_NEAR(telemetry.battery(1s)->power.value(), 333.0, 1e-9);
+  EXPECT_FALSE(telemetry.battery(1s)->percent);
+  status.battery_percent = 83;
+  telemetry.hear(framed(status), 2s);
+  EXPECT_EQ(telemetry.battery(4s)->percent, 83.0);
+  EXPECT_FALSE(telemetry.battery(4001ms));
+}
+
 TEST(AutopilotTelemetry, does_not_believe_what_is_not_finite_or_no_rotation) {
   AutopilotTelemetry telemetry = heard_px4();
   telemetry.hear(framed(local_position(0, std::numeric_limits<float>::quiet_NaN(), 0.0F)), 1s);

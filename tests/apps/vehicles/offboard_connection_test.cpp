@@ -48,6 +48,19 @@ TEST(OffboardConnection, says_which_command_was_not_answered) {
             "the autopilot was asked to send LOCAL_POSITION_NED and did not answer, 5 times");
 }
 
+TEST(OffboardConnection, flies_without_a_message_that_it_can_do_without_and_says_so) {
+  kit::StandInRules rules;
+  rules.denies_message = MavSystemStatus::kind.id;
+  kit::OffboardRig rig{rules};
+  EXPECT_TRUE(rig.connect());
+  EXPECT_EQ(rig.news,
+            "the autopilot was asked to send SYS_STATUS and answered DENIED; power is "
+            "estimated\n");
+  rules.denies_message = MavExtendedState::kind.id;
+  kit::OffboardRig without_landed_state{rules};
+  EXPECT_FALSE(without_landed_state.connect());
+}
+
 TEST(OffboardConnection, says_what_the_autopilot_does_not_tell) {
   kit::StandInRules rules;
   rules.never_sends = MavLocalPosition::kind.id;

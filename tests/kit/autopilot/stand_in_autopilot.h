@@ -37,6 +37,8 @@ struct StandInRules {
   int lost_of{};                        ///< Each frame of so many is lost, both ways; 0: none.
   int twice_of{};                       ///< Each frame of so many comes twice; 0: none.
   std::uint32_t never_sends{0xffffff};  ///< A message, whatever is asked.
+  std::uint32_t denies_message{0xffffff};  ///< It says that it does not send it.
+  float battery_a{-1.0F};  ///< What its power module measures at 20 V; negative: it has none.
 };
 
 class StandInAutopilot {
@@ -71,6 +73,8 @@ class StandInAutopilot {
     mode_ = mode;
     controller_.hold(vehicle_.state());
   }
+  /// Its estimate of where it is jumps; what it was told to fly to does not.
+  void jump(const Vec3& by_N) { rules_.local_start_N += by_N; }
   void arm() { is_armed_ = true; }
   void disarm() { is_armed_ = false; }
   void lose_output(bool is_lost) { loses_output_ = is_lost; }
@@ -174,6 +178,9 @@ class StandInAutopilot {
     constexpr std::uint8_t denied = 2;
     switch (command.command) {
       case mav::command_message_interval:
+        if (static_cast<std::uint32_t>(command.parameters[0]) == rules_.denies_message) {
+          return denied;
+        }
         intervals_[static_cast<std::uint32_t>(command.parameters[0])] =
             std::chrono::microseconds{std::lround(command.parameters[1])};
         return mav::result_accepted;
@@ -275,6 +282,15 @@ class StandInAutopilot {
       MavExtendedState landed;
       landed.landed_state = is_up() && moved_m().z() > 0.05 ? 2 : mav::landed_on_ground;
       send(landed);
+    }
+    if (is_due(MavSystemStatus::kind.id)) {
+      MavSystemStatus status;
+      if (rules_.battery_a >= 0.0F) {
+        status.battery_mv = 20000;
+        status.battery_ca = static_cast<std::int16_t>(std::lround(100.0F * rules_.battery_a));
+        status.battery_percent = 83;
+      }
+      send(status);
     }
     if (is_due(MavLocalPosition::kind.id)) {
       send(position());

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Which cores a process and its threads may use, and which threads stand back.
+/// Which cores a process and its threads may use, and which threads stand back or come first.
 
 #include <optional>
 #include <string>
@@ -22,5 +22,10 @@ namespace flyball {
 /// The calling thread runs when no other one on its core wants to, whatever priority it had from
 /// the one that made it. Where that fails it runs on as it did.
 void step_back();
+
+/// The calling thread runs before all others of the process, and as soon as it wants to: for one
+/// that keeps a vehicle in the air and hardly computes. Where the system does not permit it
+/// (SCHED_FIFO, `CAP_SYS_NICE`), the thread runs on as it did.
+void come_first();
 
 }  // namespace flyball
