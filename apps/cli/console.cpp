@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -25,12 +27,32 @@ volatile std::sig_atomic_t interrupted = 0;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 int output_error = 0;
 
+// When that was, in milliseconds that begin again after 24 days.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupted_ms = 0;
+
+constexpr unsigned wrapped_ms = 0x7fffffff;
+
+int now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // One of the few calls that a handler may make.
+  const auto ms = static_cast<std::uint64_t>(now.tv_sec) * 1000 +
+                  static_cast<std::uint64_t>(now.tv_nsec) / 1000000;
+  return static_cast<int>(ms & wrapped_ms);
+}
+
+// A second signal has its usual effect, unless it means the first one: a terminal that closes and
+// its shell both send SIGHUP, within milliseconds, and a flight has to land and to keep its record.
 void remember(int signal) {
-  if (interrupted != 0) {  // A second signal has its usual effect.
+  constexpr unsigned same_wish_ms = 1000;
+  const unsigned since_ms = static_cast<unsigned>(now_ms() - interrupted_ms) & wrapped_ms;
+  if (interrupted == 0) {
+    interrupted = signal;
+    interrupted_ms = now_ms();
+  } else if (since_ms >= same_wish_ms) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
-  interrupted = signal;
 }
 
 }  // namespace

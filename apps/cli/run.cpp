@@ -9,6 +9,7 @@
 #include "flyball/simulation/mission.h"
 
 #include "cli/computer/autopilot_option.h"
+#include "cli/computer/depth_camera_option.h"
 #include "cli/computer/real_computer.h"
 #include "cli/computer/service_notice.h"
 #include "commands.h"
@@ -37,6 +38,7 @@ struct RunOptions {
   std::string mcap{};
   ExecutorOptions executor{};
   AutopilotOption autopilot{};
+  std::string depth_camera{};
 };
 
 std::string with_unit(double value, int digits, const std::string& unit) {
@@ -217,7 +219,8 @@ Status write_all(const RunOptions& options,
 /// What of the flight is real.
 struct Hardware {
   RealComputer& computer;
-  AutopilotLink* autopilot{};  ///< Null: the vehicle is simulated.
+  AutopilotLink* autopilot{};   ///< Null: the vehicle is simulated.
+  DepthSource* depth_camera{};  ///< Null: its images are drawn.
 };
 
 /// @param made  Folders that are of no use when nothing flies.
@@ -242,6 +245,7 @@ int fly_into(const std::string& folder,
   hooks.timeline = options.timeline.empty() ? nullptr : &timeline;
   hooks.onboard_record = onboard_record->get();
   hooks.autopilot = hardware.autopilot;
+  hooks.depth_camera = hardware.depth_camera;
   computer.equip(hooks);
   Result<MissionRecord> record = fly(scenario, hooks);
   computer.close();
@@ -295,6 +299,10 @@ int run(const RunOptions& options) {
   if (!autopilot) {
     return refuse({autopilot.error()});
   }
+  auto depth_camera = open_depth_camera(options.depth_camera, scenario.camera);
+  if (!depth_camera) {
+    return refuse({depth_camera.error()});
+  }
   auto computer = RealComputer::open(options.executor, *platform);
   if (!computer) {
     return refuse({computer.error()});
@@ -305,7 +313,8 @@ int run(const RunOptions& options) {
   if (!prepared) {
     return refuse({prepared.error()});
   }
-  return fly_into(folder, *prepared, options, scenario, {**computer, autopilot->get()});
+  return fly_into(folder, *prepared, options, scenario,
+                  {**computer, autopilot->get(), depth_camera->get()});
 }
 
 }  // namespace
@@ -344,6 +353,7 @@ void add_run(CLI::App& program, int& exit_code) {
                     ->type_name("FILE"));
   add_executor(*command, options->executor);
   add_autopilot(*command, options->autopilot);
+  add_depth_camera(*command, options->depth_camera);
   add_output(*command, options->flight);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -4,7 +4,16 @@
 
 #include "flyball/flight/perception/perception_nodes.h"
 
+#include <utility>
+
 namespace flyball {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto live_period = 5ms;  // A fraction of a frame: an image waits so long at most.
+
+}  // namespace
 
 CameraDrivers::CameraDrivers(const Scenario& scenario,
                              const SimulatedThings& things,
@@ -19,9 +28,14 @@ CameraDrivers::CameraDrivers(const Scenario& scenario,
       depth_camera_{things.world, scenario.camera, scenario.seed} {}
 
 void CameraDrivers::start(const Vehicle& vehicle) {
-  const Duration frame = from_seconds(1.0 / scenario_.camera.rate_hz);
-  queue_.every(MissionTime{frame}, frame, EventOrder::sensor,
-               [this, &vehicle] { take_depth(vehicle.state().X_WB); });
+  if (live_depth_ != nullptr) {
+    queue_.every(MissionTime{live_period}, live_period, EventOrder::sensor,
+                 [this] { take_live_depth(); });
+  } else {
+    const Duration frame = from_seconds(1.0 / scenario_.camera.rate_hz);
+    queue_.every(MissionTime{frame}, frame, EventOrder::sensor,
+                 [this, &vehicle] { take_depth(vehicle.state().X_WB); });
+  }
   if (has_gimbal()) {
     start_gimbal(vehicle);
   }
@@ -78,6 +92,30 @@ void CameraDrivers::take_depth(const Pose& X_WB) {
     }
     executor_.publish(topics_.depth, depth);
   });
+}
+
+/// It shows what was there before its way to this computer began.
+void CameraDrivers::take_live_depth() {
+  live_clock_.note(queue_.now(), live_depth_->now());
+  auto reading = live_depth_->take();
+  if (!reading) {
+    return;
+  }
+  const MissionTime captured =
+      live_clock_.mission(reading->arrived) - from_seconds(scenario_.camera.delay_s);
+  if (captured < MissionTime{}) {
+    return;
+  }
+  const std::uint64_t number = frame_count_++;
+  const auto pixels = static_cast<int>(reading->depth_m.size());
+  newest_depth_ = {
+      captured,
+      number,
+      pixels,
+      Deferred<DepthImage>::of({captured, number, scenario_.camera.intrinsics(),
+                                scenario_.camera.max_range_m, std::move(reading->depth_m)}),
+      {}};
+  executor_.publish(topics_.depth, newest_depth_);
 }
 
 void CameraDrivers::take_colour(const Vehicle& vehicle) {

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// The vehicle's cameras: they take images of the true world, and publish them when these are due.
+/// The vehicle's cameras: they take images of the true world, or a real camera does, and publish
+/// them when these are due.
 
 #include "flyball/flight/vehicle_port.h"
 #include "flyball/runtime/event_queue.h"
@@ -11,6 +12,8 @@
 #include "flyball/sim/depth_camera.h"
 #include "flyball/sim/vehicle.h"
 #include "flyball/simulation/rendering.h"
+#include "flyball/vehicles/clock_offset.h"
+#include "flyball/vehicles/depth_source.h"
 
 #include "simulation/picture_thread.h"
 #include "simulation/simulated_things.h"
@@ -38,6 +41,9 @@ class CameraDrivers {
   void on_picture(PictureListener listener) { on_picture_ = std::move(listener); }
   /// @pre Before `start`.
   void render(Rendering when) { rendering_ = when; }
+  /// The depth images come from this camera, which outlives the drivers; null: they are drawn.
+  /// @pre Before `start`.
+  void take_depth_from(DepthSource* live) { live_depth_ = live; }
 
   [[nodiscard]] bool has_gimbal() const { return colour_cameras_.gimbal != nullptr; }
 
@@ -47,6 +53,7 @@ class CameraDrivers {
  private:
   void start_gimbal(const Vehicle& vehicle);
   void take_depth(const Pose& X_WB);
+  void take_live_depth();
   void take_colour(const Vehicle& vehicle);
   void publish_colour(const TakenPicture& picture);
   void publish_at(MissionTime at, std::function<void()> publish);
@@ -60,6 +67,8 @@ class CameraDrivers {
   PictureListener on_picture_{};
   Rendering rendering_{};
   std::unique_ptr<PictureThread> pictures_{};  ///< Null but for `Rendering::as_cameras_do`.
+  DepthSource* live_depth_{};
+  ClockOffset live_clock_{};
   DepthFrame newest_depth_{};
   std::uint64_t frame_count_{};
   std::uint64_t colour_count_{};

@@ -159,6 +159,7 @@ void connect(Flight& flight, const MissionHooks& hooks) {
     });
   }
   flight.loop->cameras().render(hooks.rendering);
+  flight.loop->cameras().take_depth_from(hooks.depth_camera);
   if (hooks.onboard_record != nullptr) {
     hooks.onboard_record->connect({flight.graph, *flight.executor,
                                    [&flight] { return flight.queue.now(); },
@@ -190,6 +191,13 @@ void connect(Flight& flight, const MissionHooks& hooks) {
   flight.soft_errors->start();
   flight.board.measure();
   flight.loop->on_energy([&flight] { flight.board.measure(); });
+}
+
+/// Waits for what is not simulated.
+Status make_ready(const Flight& flight, const MissionHooks& hooks) {
+  const Status seen =
+      hooks.depth_camera != nullptr ? hooks.depth_camera->await(hooks.stop) : Status{Done{}};
+  return seen ? flight.loop->prepare(hooks.stop) : seen;
 }
 
 /// Flies until the mission is over, and what happens at that same moment.
@@ -320,6 +328,9 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!workload) {
     return workload.error();
   }
+  if (const Status real = check_depth_camera(scenario, *setup, hooks); !real) {
+    return real.error();
+  }
   if (const Status named = check_map_name(hooks.final_map); !named) {
     return named.error();
   }
@@ -343,7 +354,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (const Status possible = flight.soft_errors->check(); !possible) {
     return possible.error();
   }
-  if (const Status ready = flight.loop->prepare(hooks.stop); !ready) {
+  if (const Status ready = make_ready(flight, hooks); !ready) {
     return ready.error();
   }
   connect(flight, hooks);

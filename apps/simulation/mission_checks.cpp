@@ -39,4 +39,27 @@ Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {
                                         "without --executor realtime"}};
 }
 
+Status check_depth_camera(const Scenario& scenario,
+                          const MissionSetup& setup,
+                          const MissionHooks& hooks) {
+  if (hooks.depth_camera == nullptr) {
+    return Done{};
+  }
+  std::string why;
+  if (hooks.autopilot == nullptr) {
+    why = "no simulated vehicle carries it; add --autopilot";
+  } else if (scenario.camera.count != 1) {
+    why = "camera.count = " + std::to_string(scenario.camera.count) + "; set it to 1";
+  } else if (setup.things.cameras.forward) {
+    why = "kernels.localizer = \"" + scenario.kernels.localizer +
+          "\" takes images in colour, too; set it to truth, which is the autopilot's pose then";
+  } else if (setup.things.cameras.gimbal) {
+    why = "mission.workload = \"" + scenario.mission.workload +
+          "\" looks for people in colour; fly another workload";
+  }
+  return why.empty() ? Status{Done{}}
+                     : Status{Error{ErrorCode::invalid_input,
+                                    "a real depth camera cannot be flown with: " + why}};
+}
+
 }  // namespace flyball

@@ -6,6 +6,7 @@
 
 #include "flyball/simulation/mission.h"
 
+#include "simulation/mission_setup.h"
 #include <string>
 
 namespace flyball {
@@ -14,5 +15,9 @@ namespace flyball {
 [[nodiscard]] Status check_map_name(const std::string& path);
 /// Links and faults exist on a modeled computer only.
 [[nodiscard]] Status check_executor(const Scenario& scenario, const MissionHooks& hooks);
+/// A real depth camera hangs on a real vehicle, alone: no other camera can be real.
+[[nodiscard]] Status check_depth_camera(const Scenario& scenario,
+                                        const MissionSetup& setup,
+                                        const MissionHooks& hooks);
 
 }  // namespace flyball

@@ -4,7 +4,6 @@
 #include "flyball/runtime/realtime/cpus.h"
 
 #include "vehicles/offboard_control.h"
-#include <algorithm>
 #include <utility>
 
 #include <pthread.h>
@@ -137,7 +136,11 @@ bool AutopilotLink::has_connected() {
   if (!control_->is_connected()) {
     return false;
   }
-  at_mission_ = asked_ = called_ = now_;
+  mission_ = {};
+  if (!clock_) {
+    mission_.note({}, now_);
+  }
+  asked_ = called_ = now_;
   news_.push_back(std::string{control_->autopilot_name()} + " is connected");
   return true;
 }
@@ -146,9 +149,9 @@ void AutopilotLink::step(MissionTime now) {
   {
     const Lock lock{mutex_};
     if (clock_) {
-      note_mission(now);
+      mission_.note(now, clock_() - clock_began_);
     }
-    asked_ = at_mission_ + now.time_since_epoch();
+    asked_ = mission_.host(now);
     if (!clock_) {
       exchange(asked_);
     }
@@ -161,13 +164,6 @@ void AutopilotLink::step(MissionTime now) {
   tell_news();
 }
 
-/// Mission time begins some time after `connect`, and a step that is late makes it look later.
-void AutopilotLink::note_mission(MissionTime now) {
-  const Duration began = clock_() - clock_began_ - now.time_since_epoch();
-  at_mission_ = has_begun_ ? std::min(at_mission_, began) : began;
-  has_begun_ = true;
-}
-
 void AutopilotLink::obey(const FlightCommand& command) {
   const Lock lock{mutex_};
   control_->obey(command, now_);
@@ -176,7 +172,7 @@ void AutopilotLink::obey(const FlightCommand& command) {
 void AutopilotLink::follow(const Setpoint& setpoint) {
   const Lock lock{mutex_};
   Setpoint shifted = setpoint;
-  shifted.stamp += at_mission_;
+  shifted.stamp = MissionTime{mission_.host(setpoint.stamp)};
   control_->follow(shifted);
 }
 

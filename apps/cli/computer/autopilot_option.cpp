@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/computer/autopilot_option.h"
 
+#include "cli/computer/host_clock.h"
 #include "cli/console.h"
 #include "cli/flight_options.h"
 #include <utility>
@@ -33,8 +34,7 @@ Result<std::unique_ptr<AutopilotLink>> open_autopilot(const AutopilotOption& opt
     return stream.error();
   }
   return std::make_unique<AutopilotLink>(
-      std::move(*stream), [](const std::string& sentence) { note(sentence); },
-      [] { return Duration{std::chrono::steady_clock::now().time_since_epoch()}; });
+      std::move(*stream), [](const std::string& sentence) { note(sentence); }, host_clock);
 }
 
 }  // namespace flyball

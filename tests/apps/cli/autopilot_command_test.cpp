@@ -2,9 +2,11 @@
 // test-label: closed_loop
 // compiled-alone
 
+#include "autopilot/pgm_bytes.h"
 #include "autopilot/udp_autopilot.h"
 #include "flyball_program.h"
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -12,7 +14,10 @@
 #include <string>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -72,7 +77,8 @@ class ProgramBeside {
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     }
   }
-  void terminate() const { ::kill(std::stoi(place.content("pid")), SIGTERM); }
+  void terminate() const { send(SIGTERM); }
+  void send(int signal) const { ::kill(std::stoi(place.content("pid")), signal); }
   [[nodiscard]] std::string exit_code() const {
     await([] { return false; });
     return place.content("code");
@@ -93,6 +99,81 @@ TEST(AutopilotCommand, lands_the_vehicle_when_it_is_interrupted) {
   EXPECT_NE(said.find("PX4 is connected"), std::string::npos) << said;
   EXPECT_NE(said.find("lands before the program ends"), std::string::npos) << said;
   EXPECT_NE(program.place.content("flight/summary.json").find("interrupted"), std::string::npos);
+}
+
+/// A terminal that closes and its shell each say so, within milliseconds.
+TEST(AutopilotCommand, a_signal_that_comes_twice_at_once_lands_the_vehicle_too) {
+  kit::UdpAutopilot autopilot{kit::StandInRules{}};
+  const ProgramBeside program{flight + " --autopilot " + autopilot.address()};
+  program.await([&autopilot] { return autopilot.is_up(); });
+  program.send(SIGHUP);
+  program.send(SIGCONT);  // So that the two are not one.
+  std::this_thread::sleep_for(std::chrono::milliseconds{2});
+  program.send(SIGHUP);
+  EXPECT_EQ(program.exit_code(), "129\n");
+  EXPECT_FALSE(autopilot.stop().is_armed()) << program.place.content("err");
+  EXPECT_NE(program.place.content("flight/summary.json").find("interrupted"), std::string::npos);
+}
+
+/// Writes images of open space into a pipe for as long as somebody reads them.
+class CameraBeside {
+ public:
+  explicit CameraBeside(const std::string& pipe) : pipe_{pipe} {
+    EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::signal(SIGPIPE, SIG_IGN);  // The program may end first.
+    thread_ = std::thread{[this] { run(); }};
+  }
+  ~CameraBeside() {
+    is_ending_ = true;
+    thread_.join();
+  }
+  CameraBeside(const CameraBeside&) = delete;
+  CameraBeside& operator=(const CameraBeside&) = delete;
+
+ private:
+  void run() const {
+    const std::string image =
+        kit::pgm_bytes(32, 18, std::vector<std::uint16_t>(std::size_t{32} * 18, 65535));
+    int pipe = -1;
+    while (!is_ending_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{50});
+      pipe = pipe < 0 ? open(pipe_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC) : pipe;
+      if (pipe >= 0 && write(pipe, image.data(), image.size()) < 0) {
+        break;
+      }
+    }
+    close(pipe);
+  }
+
+  std::string pipe_;
+  std::atomic<bool> is_ending_{false};
+  std::thread thread_{};
+};
+
+TEST(AutopilotCommand, flies_by_the_images_of_a_pipe) {
+  kit::UdpAutopilot autopilot{kit::StandInRules{}};
+  const ScratchFolder folder;
+  const CameraBeside camera{folder.path("depth")};
+  const ProgramBeside program{flight + " --autopilot " + autopilot.address() + " --depth-camera '" +
+                              folder.path("depth") + "'"};
+  program.await([&autopilot] { return autopilot.is_up(); });
+  program.terminate();
+  EXPECT_EQ(program.exit_code(), "143\n") << program.place.content("err");
+  EXPECT_FALSE(autopilot.stop().is_armed()) << program.place.content("err");
+}
+
+TEST(AutopilotCommand, refuses_a_depth_camera_that_cannot_be) {
+  const FlyballProgram flyball;
+  const auto no_pipe = flyball.run(flight + " --depth-camera - < /dev/null");
+  EXPECT_EQ(no_pipe.exit_code, 2);
+  EXPECT_NE(no_pipe.errors.find("standard input is no pipe"), std::string::npos) << no_pipe.errors;
+  EXPECT_TRUE(flyball.place.is_empty());
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo(folder.path("depth").c_str(), 0600), 0);
+  const auto simulated = flyball.run(flight + " --depth-camera '" + folder.path("depth") + "'");
+  EXPECT_EQ(simulated.exit_code, 2);
+  EXPECT_NE(simulated.errors.find("add --autopilot"), std::string::npos) << simulated.errors;
+  EXPECT_TRUE(flyball.place.is_empty());
 }
 
 TEST(AutopilotCommand, leaves_nothing_behind_when_it_is_interrupted_before_the_flight) {

@@ -14,6 +14,7 @@
 #include "flyball/scenario/scenario.h"
 #include "flyball/simulation/rendering.h"
 #include "flyball/vehicles/autopilot_link.h"
+#include "flyball/vehicles/depth_source.h"
 
 #include <functional>
 #include <memory>
@@ -44,12 +45,15 @@ struct MissionHooks {
   /// Flies the vehicle, while the simulator renders its cameras at the pose that it reports; is
   /// connected before the flight, and has landed after it. Null: the vehicle is simulated.
   AutopilotLink* autopilot{};
+  /// The vehicle's depth camera, whose first image is waited for before the flight. Null: it is
+  /// drawn.
+  DepthSource* depth_camera{};
   MakeExecutor executor{};  ///< Empty: a `VirtualExecutor`, which models the scenario's computer.
 };
 
 /// @error `not_found` for an unknown kernel, policy, world, airframe or platform, with the way out;
 ///        those of `Mapper::read` and `Mapper::write` for the map files, and of
-///        `AutopilotLink::connect`.
+///        `AutopilotLink::connect` and `DepthSource::await`.
 [[nodiscard]] Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks);
 
 /// The workload's graph, printed: as text, or for Graphviz.

@@ -9,6 +9,7 @@
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/time.h"
 #include "flyball/vehicles/byte_stream.h"
+#include "flyball/vehicles/clock_offset.h"
 #include "flyball/vehicles/flight_start.h"
 #include "flyball/vehicles/vehicle_report.h"
 
@@ -78,7 +79,6 @@ class AutopilotLink {
   // With the lock.
   void exchange(Duration now);
   void watch_caller();
-  void note_mission(MissionTime now);
 
   // Without it.
   void run();
@@ -99,11 +99,10 @@ class AutopilotLink {
 
   mutable PriorityMutex mutex_{};  ///< Guards what follows, and the stream but for its `wait`.
   std::unique_ptr<OffboardControl> control_{};
-  Duration now_{};         ///< Since the link was made, at the last exchange.
-  Duration asked_{};       ///< When the mission was where its last step says.
-  Duration called_{};      ///< When the caller was heard last.
-  Duration at_mission_{};  ///< When the mission's time began.
-  bool has_begun_{};       ///< It did.
+  Duration now_{};     ///< Since the link was made, at the last exchange.
+  Duration asked_{};   ///< When the mission was where its last step says.
+  Duration called_{};  ///< When the caller was heard last.
+  ClockOffset mission_{};
   Duration next_landing_try_{};
   bool is_broken_{};   ///< The stream said so, and people were told.
   bool has_failed_{};  ///< The flight, and people were told.
