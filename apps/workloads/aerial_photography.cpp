@@ -15,6 +15,7 @@
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -75,14 +76,25 @@ class AerialPhotography final : public Workload {
         has_started_ = true;
       }
       look(job);
-      if (has_started_) {
-        job.publish(vehicle_.setpoint, follower_.tick(job.now(), control_period));
+      if (has_started_ && pose) {
+        job.publish(vehicle_.setpoint,
+                    follower_.tick(job.now(), control_period, limit_m_s(job, *pose)));
       }
       job.publish(vehicle_.gimbal, follower_.gimbal());
       return work;
     }
 
    private:
+    /// A vehicle whose governor wants it to stand, or that does not know where it is, brakes.
+    [[nodiscard]] double limit_m_s(JobContext& job, const PoseEstimate& pose) const {
+      const auto knobs = job.latest(mission_.knobs);
+      const auto place = job.latest(localization_.status);
+      const bool must_stand = (knobs && knobs->restraint.must_hover) || (place && place->is_lost) ||
+                              job.now() - pose.stamp > longest_pose_age;
+      constexpr double none = std::numeric_limits<double>::max();
+      return must_stand ? 0.0 : knobs ? knobs->value("mission.max_speed_m_s") : none;
+    }
+
     void look(JobContext& job) {
       // A detection is older than what a tracker says, but it is all there is when no tracker could
       // hold the person, because they turned round or the view swung.
@@ -137,8 +149,9 @@ class AerialPhotography final : public Workload {
     spec.priority = 40;
     spec.deadline = control_period;
     spec.on_miss = OnMiss::brake;
-    spec.reads = {target_.target.index, target_.sighting.index, localization_.pose.index,
-                  localization_.poses.index, mission_.state.index};
+    spec.reads = {target_.target.index,      target_.sighting.index,     localization_.pose.index,
+                  localization_.poses.index, localization_.status.index, mission_.state.index,
+                  mission_.knobs.index};
     spec.writes = {vehicle_.setpoint.index, vehicle_.gimbal.index, tracked_topic_.index};
     auto control = std::make_shared<Control>(*this, follow_settings());  // Owner: this node alone.
     graph.node(std::move(spec), [control](JobContext& job) { return (*control)(job); });

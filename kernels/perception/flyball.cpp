@@ -11,6 +11,8 @@
 
 #include "bricks/brick_store.h"
 #include "bricks/lattice_mapper.h"
+#include "scans/ray_scan.h"
+#include <algorithm>
 
 namespace {
 
@@ -51,6 +53,18 @@ class FlyballMapper final : public flyball::Mapper {
   }
 
   [[nodiscard]] std::vector<double> resolutions_m() const override { return map_->resolutions_m(); }
+  /// One lattice of cells refuses longer rays than so many of its finest ones.
+  [[nodiscard]] std::vector<flyball::KnobSpec> knobs() const override {
+    auto all = Mapper::knobs();
+    for (flyball::KnobSpec& spec : all) {
+      if (spec.name == "map.range_m" && !resolutions_m().empty()) {
+        spec.max =
+            std::min(spec.max, flyball::RayScan::most_cells_per_ray * resolutions_m().front());
+        spec.fallback = std::min(spec.fallback, spec.max);
+      }
+    }
+    return all;
+  }
 
   Result<flyball::Work> prepare(const flyball::PointCloud& cloud_C,
                                 const flyball::Pose& X_WC,

@@ -71,9 +71,10 @@ class Tree {
   /// on their gains, so that several can be looked at together.
   void grow() {
     const flyball::ExploreSettings& settings = request_.settings;
-    const int most_tries = tries_per_node * settings.most_iterations;
+    const int most = std::max(settings.most_iterations, settings.iterations);
+    const int most_tries = tries_per_node * most;
     least_ = std::max(settings.iterations, size());
-    for (int tries = 0; tries < most_tries && size() < settings.most_iterations; ++tries) {
+    for (int tries = 0; tries < most_tries && size() < most; ++tries) {
       const int unseen = size() - seen_;
       if (size() >= least_ && (seen_ < least_ || unseen >= settings.threads)) {
         look();

@@ -28,6 +28,33 @@ Work insert_scan(Mapper& mapper, kit::Place place, int frame, double resolution_
   return kit::insert_scan(mapper, place, frame, resolution_m, range_m);
 }
 
+TEST(Flyball, refuses_an_image_without_a_depth_for_each_pixel) {
+  const auto mapper = kit::made_mapper("flyball");
+  DepthImage image;
+  image.camera = {640, 480, 320.0, 319.5, 239.5};
+  image.depth_m.assign(1000, 3.0F);
+  PointCloudFrame frame;
+  frame.pixels = RangeImage{Deferred<DepthImage>::of(image), 7.0};
+  const auto work = mapper->prepare_frame(frame, looking_along_x(), {0.15, 7.0});
+  ASSERT_FALSE(work);
+  EXPECT_EQ(work.error().message, "a depth image of 640 x 480 pixels has 1000 depths");
+  mapper->commit();
+  EXPECT_TRUE(mapper->occupied().empty());
+}
+
+TEST(Flyball, offers_no_range_that_it_refuses) {
+  for (const double finest_m : {0.03, 0.15}) {
+    const auto mapper = kit::made_mapper("flyball", {{"finest_m", finest_m}});
+    for (const KnobSpec& spec : mapper->knobs()) {
+      if (spec.name == "map.range_m") {
+        EXPECT_NEAR(spec.max, std::min(25.0, 250.0 * finest_m), 1e-9);
+        EXPECT_LE(spec.fallback, spec.max);
+        EXPECT_TRUE(mapper->prepare({}, looking_along_x(), {finest_m, spec.max}).ok());
+      }
+    }
+  }
+}
+
 TEST(Flyball, shows_a_scan_only_after_commit) {
   const auto mapper = kit::made_mapper("flyball");
   ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, range_m}).ok());

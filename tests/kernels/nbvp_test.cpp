@@ -47,6 +47,13 @@ TEST(Nbvp, stops_at_its_number_of_nodes_and_counts_its_work) {
   EXPECT_GT(step.work.count("ray_cells"), 0.0);
 }
 
+TEST(Nbvp, looks_as_long_as_it_is_asked_to_also_beyond_its_usual_end) {
+  ExploreRequest request = kit::request_from({1.0, 3.0, 1.2}, 0.0);
+  request.settings.iterations = 2 * request.settings.most_iterations;
+  const ExploreStep step = nbvp()->explore(request, hall());
+  EXPECT_EQ(step.work.count("iterations"), request.settings.iterations);
+}
+
 TEST(Nbvp, answers_the_same_to_the_same_and_otherwise_for_another_seed) {
   const auto ask = [](std::uint64_t seed) {
     ExploreRequest request = kit::request_from({1.0, 3.0, 1.2}, 0.0);

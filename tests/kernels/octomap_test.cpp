@@ -26,6 +26,20 @@ std::unique_ptr<Mapper> make_octomap() {
   return registry.make<Mapper>("octomap");
 }
 
+TEST(Octomap, refuses_an_image_without_a_depth_for_each_pixel) {
+  const auto mapper = make_octomap();
+  DepthImage image;
+  image.camera = {640, 480, 320.0, 319.5, 239.5};
+  image.depth_m.assign(1000, 3.0F);
+  PointCloudFrame frame;
+  frame.pixels = RangeImage{Deferred<DepthImage>::of(image), 7.0};
+  const auto work = mapper->prepare_frame(frame, looking_along_x(), {0.15, 7.0});
+  ASSERT_FALSE(work);
+  EXPECT_EQ(work.error().message, "a depth image of 640 x 480 pixels has 1000 depths");
+  mapper->commit();
+  EXPECT_TRUE(mapper->occupied().empty());
+}
+
 TEST(Octomap, shows_a_scan_only_after_commit) {
   const auto mapper = make_octomap();
   ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, 7.0}).ok());

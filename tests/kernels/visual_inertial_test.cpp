@@ -7,6 +7,7 @@
 #include "circle_flight.h"
 #include "textured_camera.h"
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -99,6 +100,19 @@ TEST(VisualInertial, follows_a_start_from_rest) {
   EXPECT_NEAR(companion.next().v_WB.norm(), 2.0, 0.1);
   EXPECT_GT(companion.work.count("tracks"), 100);
   EXPECT_GT(companion.work.count("filter_updates"), 1000);
+}
+
+TEST(VisualInertial, does_not_believe_a_sample_that_no_sensor_can_mean) {
+  Companion companion{{2.0, 0.3, false}};
+  for (int i = 0; i < 10; ++i) {
+    ImuSample broken = companion.imu.sample(companion.at(companion.felt_s),
+                                            MissionTime{from_seconds(companion.felt_s)});
+    broken.f_B.x() = i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e4;
+    broken.w_WB_B.z() = i % 3 == 0 ? 1e6 : 0.0;
+    companion.localizer->feel(broken);
+    EXPECT_TRUE(companion.next().tracked) << i;
+  }
+  EXPECT_LT(companion.miss_m, 0.06);
 }
 
 TEST(VisualInertial, does_without_depth) {

@@ -94,6 +94,11 @@ bool Navigator::is_detour() const {
 }
 
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
+  constexpr auto lost_after = std::chrono::seconds{30};  // Three times a plan's deadline.
+  if (asked_ && now - asked_->at > lost_after) {
+    asked_.reset();  // Neither a path nor a failure has come: a message was lost.
+    want_plan(now, "no answer to a plan");
+  }
   if (!goal_W_ || !newest_.map || asked_ || back_.is_active()) {
     return std::nullopt;
   }

@@ -15,23 +15,29 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto same_time = 60ms;      // A little more than a frame of the depth camera, at 20 Hz.
+/// A picture's depth image is that of a frame before or after it, at most.
+Duration same_time(const DepthCameraSpec& depth) {
+  constexpr double frames = 1.2;
+  constexpr Duration least = 60ms;
+  return std::max(least, from_seconds(frames / depth.rate_hz));
+}
+
 constexpr double inner_share = 0.25;  // Of the box, to each side of its middle. Chosen.
 
-/// The pixel that looks along a direction of the level frame L (x forward, y left, z up).
-std::optional<std::array<double, 2>> pixel_of(const Vec3& ray_L, const Intrinsics& camera) {
-  if (ray_L.x() <= 0.0) {
+/// The pixel that looks along a direction of the camera's frame (x right, y down, z ahead).
+std::optional<std::array<double, 2>> pixel_of(const Vec3& ray_C, const Intrinsics& camera) {
+  if (ray_C.z() <= 0.0) {
     return std::nullopt;
   }
-  const double u = camera.centre_x_px - camera.focal_px * ray_L.y() / ray_L.x();
-  const double v = camera.centre_y_px - camera.focal_px * ray_L.z() / ray_L.x();
+  const double u = camera.centre_x_px + camera.focal_px * ray_C.x() / ray_C.z();
+  const double v = camera.centre_y_px + camera.focal_px * ray_C.y() / ray_C.z();
   if (u < 0.0 || v < 0.0 || u > camera.width_px - 1.0 || v > camera.height_px - 1.0) {
     return std::nullopt;
   }
   return std::array{u, v};
 }
 
-/// Finite depths around a pixel, in no order.
+/// Measured depths around a pixel, in no order.
 std::vector<float> depths_near(const DepthImage& depth,
                                const std::array<double, 2>& pixel,
                                const std::array<double, 2>& half) {
@@ -51,8 +57,8 @@ std::vector<float> depths_near(const DepthImage& depth,
           depth.depth_m[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
     }
   }
-  const auto is_infinite = [](float d) { return !std::isfinite(d); };
-  depths.erase(std::remove_if(depths.begin(), depths.end(), is_infinite), depths.end());
+  const auto is_no_depth = [](float d) { return !std::isfinite(d) || d <= 0.0F; };
+  depths.erase(std::remove_if(depths.begin(), depths.end(), is_no_depth), depths.end());
   return depths;
 }
 
@@ -72,8 +78,9 @@ class Detect {
       return work;
     }
     const auto pose = poses_.at(frame->captured);
+    const DepthCameraSpec& camera = parts_.brief->settings.camera;
     const Duration apart = depth->captured - frame->captured;
-    if (!pose || apart > same_time || -apart > same_time) {
+    if (!pose || std::max(apart, -apart) > same_time(camera)) {
       return work;
     }
     parts_.kernels.detector->apply(knobs->knobs);
@@ -95,7 +102,8 @@ class Detect {
             const PoseEstimate& pose) {
     Sightings seen{frame, pose.X_WB.translation(), {}};
     for (const Detection& person : people) {
-      if (const auto p_W = place_of(person.box, frame, depth.image.value(), pose.X_WB)) {
+      if (const auto p_W = place_of(person.box, frame, depth.image.value(),
+                                    parts_.brief->settings.camera, pose.X_WB)) {
         seen.people.push_back({person.box, person.score, *p_W});
       }
     }
@@ -115,12 +123,14 @@ class Detect {
 std::optional<Vec3> place_of(const ImageBox& box,
                              const ColourFrame& frame,
                              const DepthImage& depth,
+                             const DepthCameraSpec& mount,
                              const Pose& X_WB) {
   const Intrinsics& camera = frame.camera;
+  const Pose X_LD = camera_pose(Pose::Identity(), mount);
   const Vec3 ray_C{(box.centre_x_px() - camera.centre_x_px) / camera.focal_px,
                    (box.centre_y_px() - camera.centre_y_px) / camera.focal_px, 1.0};
-  const Vec3 ray_L = frame.X_LC.linear() * ray_C;
-  const auto pixel = pixel_of(ray_L, depth.camera);
+  const Vec3 ray_D = X_LD.linear().transpose() * (frame.X_LC.linear() * ray_C);
+  const auto pixel = pixel_of(ray_D, depth.camera);
   if (!pixel) {
     return std::nullopt;
   }
@@ -132,7 +142,7 @@ std::optional<Vec3> place_of(const ImageBox& box,
   }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
-  return level_frame(X_WB) * (ray_L * (static_cast<double>(*middle) / ray_L.x()));
+  return level_frame(X_WB) * (X_LD * (ray_D * (static_cast<double>(*middle) / ray_D.z())));
 }
 
 Topic<Sightings> add_person_search(Graph& graph,

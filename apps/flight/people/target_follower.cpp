@@ -14,8 +14,8 @@ constexpr double max_yaw_rate_rad_s = 1.5707963267948966;  // MAVBench: 90 degre
 constexpr Pid::Gains distance_gains{1.0, 0.1, 0.2, 6.0};
 constexpr Pid::Gains yaw_gains{2.0, 0.0, 0.1, max_yaw_rate_rad_s};
 // alpha is chosen for boxes that jitter by some pixels. It is meant for frames 50 ms apart; a
-// longer gap counts as several frames. beta = alpha^2 / (2 - alpha) makes the filter critically
-// damped (Kalata 1984, doi:10.1109/TAES.1984.310438).
+// longer gap counts as several frames. beta = alpha^2 / (2 - alpha) weighs noise against lag
+// (Benedict and Bordner 1962, IRE Transactions on Automatic Control 7(4)).
 constexpr double alpha_of_frame = 0.2;
 constexpr double nominal_frame_s = 0.05;
 constexpr double fastest_person_m_s = 5.0;
@@ -209,13 +209,16 @@ Vec3 TargetFollower::search(MissionTime now, double dt_s, Setpoint& setpoint) {
   return out_W * (std::clamp(away_m - search_from_m, 0.0, search_speed_m_s) / away_m);
 }
 
-Setpoint TargetFollower::tick(MissionTime now, Duration period) {
+Setpoint TargetFollower::tick(MissionTime now, Duration period, double limit_m_s) {
   const double dt_s = to_seconds(period);
   const double age_s = seen_ ? to_seconds(now - *seen_) : settings_.coast_s;
   Setpoint setpoint;
   setpoint.stamp = now;
-  const Vec3 wish_W =
+  Vec3 wish_W =
       age_s < settings_.coast_s ? follow(age_s, dt_s, setpoint) : search(now, dt_s, setpoint);
+  if (wish_W.norm() > limit_m_s && limit_m_s < settings_.max_speed_m_s) {
+    wish_W *= limit_m_s / wish_W.norm();
+  }
   yaw_rad_ = wrap_angle(yaw_rad_ + setpoint.yaw_rate_rad_s * dt_s);
   steer(wish_W, dt_s, setpoint);
   setpoint.yaw_rad = yaw_rad_;

@@ -81,6 +81,10 @@ class LatticeMapper final : public Mapper {
   Result<Work> prepare_frame(const PointCloudFrame& frame,
                              const Pose& X_WC,
                              const MapperSettings& settings) override {
+    if (auto status = check_image(frame); !status) {
+      pending_ = nullptr;
+      return status.error();
+    }
     return prepare_scan(frame.cloud_C.value(), frame.pixels ? &frame : nullptr, X_WC, settings);
   }
 

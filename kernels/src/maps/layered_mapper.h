@@ -52,6 +52,10 @@ class LayeredMapper final : public Mapper {
     if (!frame.pixels) {
       return prepare(frame.cloud_C.value(), X_WC, settings);
     }
+    if (auto status = check_image(frame); !status) {
+      pending_ = nullptr;
+      return status.error();
+    }
     return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
       return exact.compute(frame, X_WC, settings.range_m);
     });

@@ -246,6 +246,8 @@ Status write_octree(octomap::OcTree& tree, const std::string& path) {
     }
     fs::rename(beside, path);
   } catch (const std::exception& e) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
     return Error{ErrorCode::failed, failed.message + ": " + e.what()};
   }
   return Done{};

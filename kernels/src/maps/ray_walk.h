@@ -29,6 +29,10 @@ class RayWalk {
       : start_{cell_of(lattice, from)}, end_{cell_of(lattice, to)} {
     octomap::point3d direction = to - from;
     length_ = static_cast<float>(direction.norm());
+    if (!(length_ > 0.0F)) {  // A depth so small that floats lose it.
+      end_ = start_;
+      return;
+    }
     direction /= length_;
     for (unsigned i = 0; i < 3; ++i) {
       aim(i, lattice, from(i), direction(i));

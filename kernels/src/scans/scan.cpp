@@ -80,6 +80,21 @@ Status check_view(const Pose& X_WC, const MapperSettings& settings, double cell_
   return Done{};
 }
 
+Status check_image(const PointCloudFrame& frame) {
+  if (!frame.pixels) {
+    return Done{};
+  }
+  const DepthImage& image = frame.pixels->image.value();
+  const Intrinsics& camera = image.camera;
+  const auto pixels =
+      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  return image.depth_m.size() == pixels
+             ? Status{Done{}}
+             : invalid("a depth image of " + std::to_string(camera.width_px) + " x " +
+                       std::to_string(camera.height_px) + " pixels has " +
+                       std::to_string(image.depth_m.size()) + " depths");
+}
+
 Status check_points(const PointCloud& cloud_C, const Pose& X_WC) {
   if (!X_WC.matrix().allFinite() || !is_finite(cloud_C.hits_C) || !is_finite(cloud_C.clear_C)) {
     return invalid("scan " + std::to_string(cloud_C.sequence) +

@@ -39,5 +39,8 @@ void to_world(const PointCloud& cloud_C, const Pose& X_WC, Scan& scan);
                                 double edge_m);
 /// @error `invalid_input` for a point or a pose that is not finite.
 [[nodiscard]] Status check_points(const PointCloud& cloud_C, const Pose& X_WC);
+/// Whether the image of a frame has a depth for each pixel; frames without one have nothing to
+/// check.
+[[nodiscard]] Status check_image(const PointCloudFrame& frame);
 
 }  // namespace flyball

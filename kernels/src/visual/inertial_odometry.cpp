@@ -82,8 +82,13 @@ void InertialOdometry::start(const std::optional<Pose>& X_WB) {
   refused_views_ = 0;
 }
 
+/// One sample that no sensor can mean would spoil the estimate for good.
 void InertialOdometry::feel(const ImuSample& sample) {
-  waiting_.push_back(sample);
+  constexpr double most_m_s2 = 500.0;   // Chosen: 50 g, and 16 turns a second. Both are beyond what
+  constexpr double most_rad_s = 100.0;  // such sensors measure.
+  if (sample.f_B.norm() <= most_m_s2 && sample.w_WB_B.norm() <= most_rad_s) {
+    waiting_.push_back(sample);
+  }
 }
 
 void InertialOdometry::begin(MissionTime now) {

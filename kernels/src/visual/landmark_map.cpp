@@ -155,7 +155,9 @@ void LandmarkMap::bind(std::size_t old, std::size_t now, const Matrix6& covarian
   }
   const double left = covariance.trace() / before;
   for (std::size_t i = old + 1; i <= now; ++i) {
-    const double share = (keyframes_[i].path_m - keyframes_[old].path_m) / path_m;
+    // The path does not grow from each keyframe to the next where an old place was found again.
+    const double share =
+        std::clamp((keyframes_[i].path_m - keyframes_[old].path_m) / path_m, 0.0, 1.0);
     keyframes_[i].covariance *= 1.0 - share * (1.0 - left);
   }
 }

@@ -50,5 +50,12 @@ TEST(RayWalk, breaks_ties_at_corners_as_stock_does) {
   }
 }
 
+TEST(RayWalk, is_empty_where_floats_lose_its_length) {
+  const octomap::OcTree lattice{0.15};
+  const octomap::point3d from{0.0F, 0.0F, 0.0F};
+  const octomap::point3d to{-1e-25F, -1e-25F, 1e-25F};  // Other cells, and no way to them.
+  EXPECT_EQ((RayWalk{lattice, from, to}.visit_free([](const RayWalk::Cell&) {})), 0U);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -29,6 +29,19 @@ TEST(NavigatorFailures, plans_anew_after_the_governors_next_look_when_only_the_m
   }
 }
 
+TEST(NavigatorFailures, asks_again_for_a_plan_whose_answer_was_lost) {
+  Trip trip;
+  trip.set_goal(Vec3{20, 0, 1.5});
+  const auto lost = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(lost.has_value());
+  trip.now += 30s;
+  EXPECT_FALSE(trip.navigator.next_query(trip.now).has_value());
+  trip.now += 1s;
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_NE(again->id, lost->id);
+}
+
 TEST(NavigatorFailures, waits_for_smaller_cells_after_a_plan_that_failed_in_large_ones) {
   for (const bool comes : {false, true}) {
     Trip trip;

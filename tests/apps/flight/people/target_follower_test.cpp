@@ -63,7 +63,7 @@ class Follower : public testing::Test {
         follower.detected(target, pose);
       }
       follower.tracked(target, pose);
-      setpoint = follower.tick(now, 20ms);
+      setpoint = follower.tick(now, 20ms, 10.0);
     }
     return setpoint;
   }
@@ -72,7 +72,7 @@ class Follower : public testing::Test {
     Setpoint setpoint;
     for (int i = 0; i < static_cast<int>(std::lround(time_s / 0.02)); ++i) {
       now += 20ms;
-      setpoint = follower.tick(now, 20ms);
+      setpoint = follower.tick(now, 20ms, 10.0);
     }
     return setpoint;
   }
@@ -230,10 +230,27 @@ TEST_F(Follower, never_wants_more_than_its_acceleration) {
   for (int i = 0; i < 100; ++i) {
     now += 20ms;
     follower.detected(seen(now, {40.0, i < 50 ? 9.0 : -9.0, 0.0}, hover().X_WB), hover());
-    const Setpoint next = follower.tick(now, 20ms);
+    const Setpoint next = follower.tick(now, 20ms, 10.0);
     EXPECT_LE((next.v_WB - before).norm(), 0.02 * FollowSettings{}.max_acceleration_m_s2 + 1e-9);
     before = next.v_WB;
   }
+}
+
+TEST_F(Follower, stands_where_it_is_told_to_and_faces_the_person_on) {
+  follower.start(hover());
+  const auto fly_for = [&](int ticks, double limit_m_s) {
+    Setpoint setpoint;
+    for (int i = 0; i < ticks; ++i) {
+      now += 20ms;
+      follower.detected(seen(now, {20.0, 0.0, 0.0}, hover().X_WB), hover());
+      setpoint = follower.tick(now, 20ms, limit_m_s);
+    }
+    return setpoint;
+  };
+  EXPECT_GT(fly_for(60, 10.0).v_WB.norm(), 2.0);
+  EXPECT_LE(fly_for(60, 1.0).v_WB.norm(), 1.0 + 1e-6);
+  EXPECT_LT(fly_for(150, 0.0).v_WB.norm(), 1e-6);
+  EXPECT_LT(std::abs(follower.gimbal().pan_rad), 0.1);
 }
 
 }  // namespace

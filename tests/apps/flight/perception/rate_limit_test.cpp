@@ -31,6 +31,14 @@ TEST(RateLimit, passes_as_many_frames_as_it_is_told) {
   }
 }
 
+TEST(RateLimit, passes_on_when_the_cameras_clock_begins_anew) {
+  RateLimit limit;
+  EXPECT_TRUE(limit.passes(MissionTime{101s}, 10.0));
+  EXPECT_TRUE(limit.passes(MissionTime{5s}, 10.0));
+  EXPECT_FALSE(limit.passes(MissionTime{5050ms}, 10.0));
+  EXPECT_TRUE(limit.passes(MissionTime{5100ms}, 10.0));
+}
+
 TEST(RateLimit, may_change_between_two_frames) {
   RateLimit limit;
   EXPECT_TRUE(limit.passes(MissionTime{0ms}, 1.0));

@@ -28,14 +28,16 @@ struct Sightings {
 }
 
 /// The place in the world of the middle of a box in a colour image. Its distance is the median
-/// depth of the box's inner quarter in a depth image that the level camera in the body's centre
-/// took at the same time.
+/// depth of the box's inner quarter in a depth image that was taken at the same time. The two
+/// cameras are taken to be at one place: what lies between them is small beside the distance.
 ///
-/// @param X_WB  Pose of the body at that time; of its attitude only the heading counts.
-/// @return      Empty where the depth image does not reach, or has no return.
+/// @param mount  Of the depth camera.
+/// @param X_WB   Pose of the body at that time; of its attitude only the heading counts.
+/// @return       Empty where the depth image does not reach, or has no return.
 [[nodiscard]] std::optional<Vec3> place_of(const ImageBox& box,
                                            const ColourFrame& frame,
                                            const DepthImage& depth,
+                                           const DepthCameraSpec& mount,
                                            const Pose& X_WB);
 
 /// Adds the node `detect`. A detection that has no place is left out.

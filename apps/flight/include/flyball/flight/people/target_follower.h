@@ -59,7 +59,8 @@ class TargetFollower {
   /// A detector's measurement. A detection where the person cannot be counts only when it is
   /// repeated.
   void detected(const Target& target, const PoseEstimate& pose);
-  [[nodiscard]] Setpoint tick(MissionTime now, Duration period);
+  /// @param limit_m_s  Of speed now, beside that of the settings; 0: the vehicle is to stand.
+  [[nodiscard]] Setpoint tick(MissionTime now, Duration period, double limit_m_s);
   [[nodiscard]] const GimbalAngles& gimbal() const { return gimbal_; }
 
  private:
