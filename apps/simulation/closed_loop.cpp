@@ -71,8 +71,8 @@ ClosedLoop::ClosedLoop(MissionLink& link,
       battery_{things.airframe.battery_cells, things.airframe.battery_ah,
                scenario.vehicle.battery_charge},
       cameras_{scenario, things, executor, queue, topics},
-      gps_{scenario.gps, EarthOrigin{}, scenario.seed},
-      barometer_{scenario.barometer, EarthOrigin{}.height_m, scenario.seed},
+      gps_{scenario.gps, things.origin, scenario.seed},
+      barometer_{scenario.barometer, things.origin.height_m, scenario.seed},
       imu_{ImuSpec{}, scenario.seed},
       wind_{wind_spec(scenario.vehicle), scenario.seed} {}
 

@@ -74,7 +74,7 @@ void make(std::shared_ptr<Family>& kernel, const Scenario& scenario, std::vector
   }
 }
 
-Result<MissionKernels> make_kernels(const Scenario& scenario) {
+Result<MissionKernels> make_kernels(const Scenario& scenario, const GeodeticOrigin& origin) {
   MissionKernels kernels;
   std::vector<Error> missing;
   make(kernels.point_cloud, scenario, missing);
@@ -89,7 +89,7 @@ Result<MissionKernels> make_kernels(const Scenario& scenario) {
   if (!missing.empty()) {
     return joined(missing);
   }
-  kernels.localizer->start(GeodeticOrigin{});
+  kernels.localizer->start(origin);
   return kernels;
 }
 
@@ -183,7 +183,7 @@ Result<MissionSetup> set_up_without_governor(const Scenario& scenario) {
     return world.error();
   }
   setup.things.world = std::move(*world);
-  auto kernels = make_kernels(scenario);
+  auto kernels = make_kernels(scenario, setup.things.origin);
   if (!kernels) {
     return kernels.error();
   }

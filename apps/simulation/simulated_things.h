@@ -4,6 +4,7 @@
 /// @file
 /// What the simulator knows and the vehicle does not: the true world, the airframe, the cameras.
 
+#include "flyball/runtime/messages.h"
 #include "flyball/sim/airframe.h"
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/world.h"
@@ -21,6 +22,7 @@ struct ColourCameras {
 /// What the simulated vehicle and its surroundings are made of.
 struct SimulatedThings {
   World world{};
+  GeodeticOrigin origin{};  ///< Of the world; the localizer is told it, too.
   Airframe airframe{};
   ColourCameras cameras{};
 };

@@ -23,7 +23,7 @@ Vec3 earth_centred(double latitude, double longitude, double height_m) {
           b_m * b_m / root * std::sin(latitude) + height_m * std::sin(latitude)};
 }
 
-Vec3 east_north_up(const Geodetic& g, const EarthOrigin& o) {
+Vec3 east_north_up(const Geodetic& g, const GeodeticOrigin& o) {
   const Vec3 d = earth_centred(g.latitude_rad, g.longitude_rad, g.height_m) -
                  earth_centred(o.latitude_rad, o.longitude_rad, o.height_m);
   // Turns the earth until the origin lies on the x axis: up, east and north are then x, y and z.
@@ -33,8 +33,8 @@ Vec3 east_north_up(const Geodetic& g, const EarthOrigin& o) {
 }
 
 TEST(Gps, geodetic_inverts_the_ellipsoid_within_a_micrometre) {
-  const EarthOrigin origins[] = {{}, {-1.2, 2.9, -20.0}, {0.0, 0.0, 0.0}, {1.5, -3.1, 4000.0}};
-  for (const EarthOrigin& origin : origins) {
+  const GeodeticOrigin origins[] = {{}, {-1.2, 2.9, -20.0}, {0.0, 0.0, 0.0}, {1.5, -3.1, 4000.0}};
+  for (const GeodeticOrigin& origin : origins) {
     for (const Vec3& p_W :
          {Vec3{0, 0, 0}, Vec3{1e4, -3e3, 500}, Vec3{-7e3, 9e3, -50}, Vec3{6e4, 8e4, 1e3}}) {
       EXPECT_LT((east_north_up(geodetic_of(p_W, origin), origin) - p_W).norm(), 1e-6 + 1e-9)
@@ -44,7 +44,7 @@ TEST(Gps, geodetic_inverts_the_ellipsoid_within_a_micrometre) {
 }
 
 TEST(Gps, one_metre_north_is_the_meridians_radius) {
-  const EarthOrigin origin;
+  const GeodeticOrigin origin;
   const double e2 = 1.0 - b_m * b_m / (a_m * a_m);
   const double s = std::sin(origin.latitude_rad);
   const double meridian_m = a_m * (1.0 - e2) / std::pow(1.0 - e2 * s * s, 1.5) + origin.height_m;
@@ -64,7 +64,7 @@ VehicleState at(const Vec3& p_W) {
 
 Vec3 fix_error(const NavigationSample& sample,
                const VehicleState& state,
-               const EarthOrigin& origin) {
+               const GeodeticOrigin& origin) {
   return east_north_up({sample.latitude_rad, sample.longitude_rad, sample.height_m}, origin) -
          state.X_WB.translation();
 }
@@ -72,7 +72,7 @@ Vec3 fix_error(const NavigationSample& sample,
 TEST(Gps, a_receiver_without_noise_gives_the_truth) {
   GpsSpec spec;
   spec.white_noise_m = spec.wander_m = spec.velocity_noise_m_s = 0.0;
-  const EarthOrigin origin;
+  const GeodeticOrigin origin;
   Gps gps{spec, origin, 1};
   const VehicleState state = at({120.0, -40.0, 7.0});
   const NavigationSample sample = gps.sample(state, MissionTime{std::chrono::seconds{3}}, true);
@@ -113,7 +113,7 @@ Wander wander_at(double rate_hz) {
   spec.white_noise_m = spec.velocity_noise_m_s = 0.0;
   spec.wander_m = 2.0;
   spec.wander_time_s = 5.0;
-  const EarthOrigin origin;
+  const GeodeticOrigin origin;
   const VehicleState state = at(Vec3::Zero());
   double sum2 = 0.0;
   double product = 0.0;
@@ -150,7 +150,7 @@ TEST(Gps, white_noise_has_the_declared_deviation) {
   spec.wander_m = 0.0;
   spec.white_noise_m = 1.5;
   spec.velocity_noise_m_s = 0.2;
-  const EarthOrigin origin;
+  const GeodeticOrigin origin;
   Gps gps{spec, origin, 5};
   const VehicleState state = at(Vec3::Zero());
   double position = 0.0;

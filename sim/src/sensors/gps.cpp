@@ -20,7 +20,7 @@ double prime_vertical_m(double latitude_rad) {
   return semi_major_m / std::sqrt(1.0 - e2 * s * s);
 }
 
-Vec3 earth_centred(const EarthOrigin& o) {
+Vec3 earth_centred(const GeodeticOrigin& o) {
   const double n = prime_vertical_m(o.latitude_rad);
   const double axial = (n + o.height_m) * std::cos(o.latitude_rad);
   return {axial * std::cos(o.longitude_rad), axial * std::sin(o.longitude_rad),
@@ -28,7 +28,7 @@ Vec3 earth_centred(const EarthOrigin& o) {
 }
 
 /// East, north and up in earth-centred axes.
-Eigen::Matrix3d axes_at(const EarthOrigin& o) {
+Eigen::Matrix3d axes_at(const GeodeticOrigin& o) {
   const double sin_lat = std::sin(o.latitude_rad);
   const double cos_lat = std::cos(o.latitude_rad);
   const double sin_lon = std::sin(o.longitude_rad);
@@ -58,11 +58,11 @@ Geodetic geodetic_from_centre(const Vec3& p) {
 
 }  // namespace
 
-Geodetic geodetic_of(const Vec3& p_W, const EarthOrigin& origin) {
+Geodetic geodetic_of(const Vec3& p_W, const GeodeticOrigin& origin) {
   return geodetic_from_centre(earth_centred(origin) + axes_at(origin) * p_W);
 }
 
-Gps::Gps(const GpsSpec& spec, const EarthOrigin& origin, std::uint64_t seed)
+Gps::Gps(const GpsSpec& spec, const GeodeticOrigin& origin, std::uint64_t seed)
     : spec_{spec}, origin_{origin}, noise_{seed, "gps"} {
   bias_W_ = spec_.wander_m * normal3(noise_);  // Stationary from the first fix on.
 }

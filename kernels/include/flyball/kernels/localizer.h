@@ -15,13 +15,6 @@
 
 namespace flyball {
 
-/// Where W's origin lies on the earth.
-struct GeodeticOrigin {
-  double latitude_rad{0.8290};   ///< 47.5 degrees north.
-  double longitude_rad{0.1484};  ///< 8.5 degrees east.
-  double height_m{400.0};
-};
-
 /// A localizer that looks at frames carries the place on by its last speed for so long without one.
 /// At 5 m/s^2 that speed is wrong by 2.5 m/s by then.
 inline constexpr double longest_reckoning_s = 0.5;

@@ -16,6 +16,14 @@
 
 namespace flyball {
 
+/// Where W's origin lies on the earth. The simulated receiver places the world there, and the
+/// localizer is told the same place.
+struct GeodeticOrigin {
+  double latitude_rad{0.8290};   ///< 47.5 degrees north.
+  double longitude_rad{0.1484};  ///< 8.5 degrees east.
+  double height_m{400.0};        ///< Above the WGS-84 ellipsoid.
+};
+
 /// Pinhole camera without distortion.
 struct Intrinsics {
   int width_px{};

@@ -21,13 +21,6 @@ struct GpsSpec {
   double velocity_noise_m_s{0.05};
 };
 
-/// Where W's origin lies on the earth (degrees north, east; metres above the ellipsoid).
-struct EarthOrigin {
-  double latitude_rad{0.8290};
-  double longitude_rad{0.1484};
-  double height_m{400.0};
-};
-
 struct Geodetic {
   double latitude_rad{};
   double longitude_rad{};
@@ -36,18 +29,18 @@ struct Geodetic {
 
 /// East-north-up around `origin` to the WGS-84 ellipsoid; the tangent plane, not a flat earth:
 /// exact to 1 um within 100 km.
-[[nodiscard]] Geodetic geodetic_of(const Vec3& p_W, const EarthOrigin& origin);
+[[nodiscard]] Geodetic geodetic_of(const Vec3& p_W, const GeodeticOrigin& origin);
 
 class Gps {
  public:
-  Gps(const GpsSpec& spec, const EarthOrigin& origin, std::uint64_t seed);
+  Gps(const GpsSpec& spec, const GeodeticOrigin& origin, std::uint64_t seed);
   /// One sample of the navigation sensors; `with_fix` adds a GPS fix.
   /// The orientation is passed on as it is: an AHRS is part of the flight controller.
   [[nodiscard]] NavigationSample sample(const VehicleState& state, MissionTime now, bool with_fix);
 
  private:
   GpsSpec spec_;
-  EarthOrigin origin_;
+  GeodeticOrigin origin_;
   RandomStream noise_;
   Vec3 bias_W_{Vec3::Zero()};
   std::optional<MissionTime> last_fix_{};
