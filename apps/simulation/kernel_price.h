@@ -4,6 +4,7 @@
 /// @file
 /// That no kernel flies without a price in the platform file, because it would take no time.
 
+#include "flyball/runtime/graph.h"
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/result.h"
 #include "flyball/scenario/scenario.h"
@@ -23,5 +24,12 @@ struct PricedKernel {
 [[nodiscard]] Status check_price(const Scenario& scenario,
                                  const Platform& platform,
                                  const PricedKernel& kernel);
+
+/// The same for all nodes of a graph that the modeled computer runs, once it is built. The checks
+/// of single kernels come before it, because they can name another way out.
+/// @error The platform has no price for some nodes: one sentence for each of them.
+[[nodiscard]] Status check_prices_of_nodes(const Scenario& scenario,
+                                           const Platform& platform,
+                                           const Graph& graph);
 
 }  // namespace flyball

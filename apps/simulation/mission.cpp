@@ -13,6 +13,7 @@
 #include "simulation/flight_recorder.h"
 #include "simulation/future_frames.h"
 #include "simulation/judging/referee.h"
+#include "simulation/kernel_price.h"
 #include "simulation/mission_checks.h"
 #include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
@@ -299,6 +300,13 @@ Result<std::unique_ptr<Workload>> make_workload(const Scenario& scenario, const 
   return workload;
 }
 
+Status check_graph(const Scenario& scenario, const Flight& flight, const MissionHooks& hooks) {
+  const Status priced = hooks.executor  // Which measures what jobs take, or need not know it.
+                            ? Done{}
+                            : check_prices_of_nodes(scenario, flight.computer, flight.graph);
+  return priced ? flight.soft_errors->check() : priced;
+}
+
 }  // namespace
 
 Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
@@ -351,7 +359,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
                 *record.trace,
                 std::move(*workload),
                 {hooks.executor, hooks.computer, hooks.autopilot}};
-  if (const Status possible = flight.soft_errors->check(); !possible) {
+  if (const Status possible = check_graph(scenario, flight, hooks); !possible) {
     return possible.error();
   }
   if (const Status ready = make_ready(flight, hooks); !ready) {

@@ -4,6 +4,7 @@
 #include "flyball/scenario/files.h"
 
 #include "scratch_folder.h"
+#include "short_delivery.h"
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -119,6 +120,21 @@ TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
       << unpriced.error().message;
   scenario.kernels.mapper_parameters = {{"cost_of", std::string{"octomap"}}};
   EXPECT_TRUE(set_up(scenario).ok());
+}
+
+TEST(MissionSetup, is_not_flown_with_a_planner_that_the_platform_has_no_price_for) {
+  const ScratchFolder folder;
+  Scenario scenario = kit::short_delivery();
+  const std::string table = "[kernels." + scenario.kernels.planner;
+  scenario.platform.name = folder.file(
+      "older.toml",
+      shipped_platform_with({{table + "]", "[kernels.another]"},
+                             {table + ".seconds_per]", "[kernels.another.seconds_per]"}}));
+  const auto refused = fly(scenario, {});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("of node \"plan\", so its jobs would cost no time"),
+            std::string::npos)
+      << refused.error().message;
 }
 
 TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
