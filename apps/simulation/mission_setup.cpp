@@ -95,15 +95,14 @@ Result<MissionKernels> make_kernels(const Scenario& scenario, const GeodeticOrig
 
 Result<std::unique_ptr<PolicyGovernor>> make_governor(const Scenario& scenario,
                                                       const KnobSettings& knobs,
-                                                      const BoardModel& board) {
+                                                      const BoardModel& board,
+                                                      PolicyGovernor::HostClock clock) {
   auto policy = start_policy(scenario, knobs, board);
   if (!policy) {
     return policy.error();
   }
-  // No watchdog: the virtual computer's time is not the host's, and a mission must not depend on
-  // it.
   return std::make_unique<PolicyGovernor>(std::move(*policy), knobs, PolicyGovernorSettings{},
-                                          nullptr);
+                                          std::move(clock));
 }
 
 BoardModel known_on_board(const Scenario& scenario, const MissionSetup& setup) {
@@ -147,12 +146,13 @@ Workbench workbench_of(const Scenario& scenario, const MissionSetup& setup) {
           setup.equipment.kernels};
 }
 
-Result<MissionSetup> set_up(const Scenario& scenario) {
+Result<MissionSetup> set_up(const Scenario& scenario, PolicyGovernor::HostClock clock) {
   auto setup = set_up_without_governor(scenario);
   if (!setup) {
     return setup;
   }
-  auto governor = make_governor(scenario, setup->equipment.knobs, known_on_board(scenario, *setup));
+  auto governor = make_governor(scenario, setup->equipment.knobs, known_on_board(scenario, *setup),
+                                std::move(clock));
   if (!governor) {
     return governor.error();
   }

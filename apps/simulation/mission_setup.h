@@ -42,8 +42,11 @@ struct Workbench {
 };
 [[nodiscard]] Workbench workbench_of(const Scenario& scenario, const MissionSetup& setup);
 
+/// @param clock  Of the governor's watchdog. Null: it has none, because the time of a modeled
+///               computer is not the host's, and a mission must not depend on that.
 /// @error `not_found` or `invalid_input`: one sentence with the name and the way out.
-[[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario);
+[[nodiscard]] Result<MissionSetup> set_up(const Scenario& scenario,
+                                          PolicyGovernor::HostClock clock = nullptr);
 /// The same without a governor: `governor` is null. The policy is not even loaded, so a scenario
 /// from somebody else cannot run their code.
 [[nodiscard]] Result<MissionSetup> set_up_without_governor(const Scenario& scenario);

@@ -137,6 +137,21 @@ TEST(MissionSetup, is_not_flown_with_a_planner_that_the_platform_has_no_price_fo
       << refused.error().message;
 }
 
+TEST(MissionSetup, gives_the_governor_a_watchdog_where_it_is_given_a_clock) {
+  int asked = 0;
+  const auto slow = [&asked] { return HostTime{std::chrono::seconds{++asked}}; };
+  Observation seen;
+  seen.phase = MissionPhase::cruise;
+  const auto watched = set_up(Scenario{}, slow);
+  ASSERT_TRUE(watched.ok()) << watched.error().message;
+  (void)watched->governor->decide(seen);
+  EXPECT_EQ(watched->governor->last_fault(), PolicyFault::overtime);
+  const auto unwatched = set_up(Scenario{});
+  ASSERT_TRUE(unwatched.ok()) << unwatched.error().message;
+  (void)unwatched->governor->decide(seen);
+  EXPECT_EQ(unwatched->governor->last_fault(), PolicyFault::none);
+}
+
 TEST(MissionSetup, refuses_a_power_model_that_the_airframe_has_no_numbers_for) {
   Scenario scenario;
   scenario.vehicle.airframe = "f450";
