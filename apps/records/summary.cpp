@@ -112,7 +112,7 @@ void read_flight(const Json& json, Summary& summary) {
 
 void read_computing(const Json& json, Summary& summary) {
   summary.replans = count_in<int>(json, "replans");
-  summary.deadline_overruns = count_in(json, "deadline_overruns");
+  summary.deadline_misses = count_in(json, "deadline_misses");
   summary.decisions = count_in(json, "decisions");
   summary.knob_changes = count_in(json, "knob_changes");
   summary.policy_faults = count_in(json, "policy_faults");
@@ -167,7 +167,7 @@ std::string to_json(const Summary& summary, int indent) {
       {"hover_time_s", summary.hover_time_s},
       {"min_clearance_m", summary.min_clearance_m},
       {"replans", summary.replans},
-      {"deadline_overruns", summary.deadline_overruns},
+      {"deadline_misses", summary.deadline_misses},
       {"decisions", summary.decisions},
       {"knob_changes", summary.knob_changes},
       {"policy_faults", summary.policy_faults},

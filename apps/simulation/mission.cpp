@@ -240,7 +240,7 @@ void fill_computing(Summary& summary, const Flight& flight) {
   const MapUses& maps = flight.link->map_uses();
   const auto& navigator = flight.link->navigator();
   summary.replans = navigator ? navigator->replans : 0;
-  summary.deadline_overruns = flight.board.read().deadline_misses + maps.overruns;
+  summary.deadline_misses = flight.board.read().deadline_misses;
   summary.decisions = flight.governor->decisions();
   summary.knob_changes = flight.governor->knob_changes();
   summary.policy_faults = flight.governor->faults();

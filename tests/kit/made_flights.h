@@ -26,7 +26,7 @@ inline Summary made_summary(const std::string& policy, std::uint64_t seed) {
   summary.max_speed_m_s = 5.5;
   summary.hover_time_s = 12.5;
   summary.replans = 7;
-  summary.deadline_overruns = 8;
+  summary.deadline_misses = 8;
   summary.decisions = 400;
   summary.knob_changes = 9;
   summary.policy_faults = 10;

@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, double>> figures_of(const Summary& s) {
       {"latency_p50_s", s.latency_p50_s},
       {"latency_p95_s", s.latency_p95_s},
       {"late_maps_percent", share(s.bound_overruns, s.maps)},
-      {"deadline_overruns", static_cast<double>(s.deadline_overruns)},
+      {"deadline_misses", static_cast<double>(s.deadline_misses)},
       {"knob_changes", static_cast<double>(s.knob_changes)},
       {"throttle_events", static_cast<double>(s.throttle_events)},
       {"min_clearance_m", s.min_clearance_m}};

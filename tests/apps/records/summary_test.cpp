@@ -92,7 +92,7 @@ TEST(Summary, has_exactly_the_documented_keys) {
                               "hover_time_s",
                               "min_clearance_m",
                               "replans",
-                              "deadline_overruns",
+                              "deadline_misses",
                               "decisions",
                               "knob_changes",
                               "policy_faults",
@@ -142,7 +142,7 @@ TEST(Summary, what_is_no_summary_is_refused_and_changes_nothing) {
 TEST(Summary, a_count_that_is_none_is_named) {
   const auto good = nlohmann::json::parse(to_json(made_summary("a", 1)));
   Summary kept = made_summary("kept", 1);
-  for (const char* key : {"seed", "replans", "deadline_overruns", "decisions", "knob_changes",
+  for (const char* key : {"seed", "replans", "deadline_misses", "decisions", "knob_changes",
                           "policy_faults", "maps", "bound_overruns", "throttle_events"}) {
     for (const char* value : {"-1", "1e300", "18446744073709551616", "2.5", "null", "\"7\""}) {
       auto json = good;

@@ -39,7 +39,7 @@ struct Summary {
   double max_speed_m_s{};
   double hover_time_s{};  ///< Airborne below .1 m/s.
   int replans{};
-  std::uint64_t deadline_overruns{};
+  std::uint64_t deadline_misses{};  ///< Of jobs on board, late maps not counted.
   std::uint64_t decisions{};
   std::uint64_t knob_changes{};
   std::uint64_t policy_faults{};  ///< Decisions in which safe settings replaced the policy's.
