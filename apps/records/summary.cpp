@@ -129,8 +129,7 @@ void read_computing(const Json& json, Summary& summary) {
   if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
     summary.hottest_c = hottest.get<double>();
   }
-  // In older summaries the key is `promises`.
-  read_bounds(json.at(json.contains("latency_bounds") ? "latency_bounds" : "promises"), summary);
+  read_bounds(json.at("latency_bounds"), summary);
   read_kernels(json.at("kernels"), summary);
   for (const auto& [name, value] : json.at("quality").items()) {
     summary.quality[name] = number(value);

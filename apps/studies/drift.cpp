@@ -24,7 +24,7 @@ std::vector<std::string> event(int number,
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
   const auto& channel = row.at("channel").get_ref<const std::string&>();
-  if (channel == "latency_bound" || channel == "promise") {  // Older records have the latter.
+  if (channel == "latency_bound") {
     record.push_back(
         {MissionTime{seconds_in(row, "t_s")}, count_in(row, "issued"), count_in(row, "late")});
   }

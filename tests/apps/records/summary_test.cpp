@@ -29,17 +29,6 @@ TEST(Summary, reads_back_what_was_written) {
   EXPECT_FALSE(read.latency_bounds[1].most_late);
 }
 
-TEST(Summary, reads_latency_bounds_under_the_key_of_older_files) {
-  const Summary written = made_summary("two_level", 1);
-  const std::string key = "\"latency_bounds\"";
-  std::string older = to_json(written);
-  ASSERT_NE(older.find(key), std::string::npos);
-  older.replace(older.find(key), key.size(), "\"promises\"");
-  Summary read;
-  ASSERT_TRUE(from_json(older, read));
-  EXPECT_EQ(to_json(read), to_json(written));
-}
-
 TEST(Summary, every_status_and_failure_reads_back) {
   Summary summary = made_summary("a", 1);
   for (const auto status :
