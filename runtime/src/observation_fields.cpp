@@ -145,9 +145,11 @@ std::vector<ObservationField> flight_fields() {
       field<&O::map_revision>(
           "map_revision", "1",
           "Number of maps that were published; the latency is the newest one's"),
-      seconds<&O::latency>("latency_s", "From sensor to command, of the newest map"),
-      seconds<&O::latency_bound>("latency_bound_s",
-                                 "Upper bound on that latency, from which the speed limit follows"),
+      seconds<&O::latency>("latency_s", "From sensor to published map, of the newest map"),
+      seconds<&O::latency_bound>(
+          "latency_bound_s",
+          "Upper bound on a map's age (in the C library on a frame's latency), from which "
+          "the speed limit follows"),
       field<&O::deadline_misses>("deadline_misses", "1",
                                  "Deadlines missed since the last decision"),
       field<&O::queue_drops>("queue_drops", "1", "Messages dropped since the last decision"),

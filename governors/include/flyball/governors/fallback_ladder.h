@@ -16,7 +16,8 @@ namespace flyball {
 /// From none to all of the policy taken away; the highest one that has a cause is in force.
 enum class Fallback : std::uint8_t {
   none,
-  wide_bound,  ///< Maps came later than bounded: the bound is widened, the policy goes on.
+  wide_bound,  ///< Maps came later than the age that the guard counts with: that bound is widened,
+               ///< the policy goes on.
   table,  ///< Its input cannot be believed: every knob at its default, clock and cores at most.
   safe_static,  ///< It failed or took too long: every knob at its default.
   hover  ///< Deadlines are missed again and again: brake and stand, with the table's settings.
@@ -24,8 +25,15 @@ enum class Fallback : std::uint8_t {
 [[nodiscard]] std::string_view to_string(Fallback fallback);
 
 /// The thresholds lie above what missions do that nothing is wrong with: in twelve of
-/// delivery_outdoor_to_indoor, 12 000 maps and 15 000 looks, no map came later than bounded and no
-/// look saw more than one deadline missed.
+/// delivery_outdoor_to_indoor, 12 000 maps and 15 000 looks, no map was late and no look saw more
+/// than one deadline missed.
+///
+/// A map is late when its latency is longer than `Observation::latency_bound` was while it was
+/// made. The guard counts with maps of that age, so a late map is older on arrival than a map
+/// should ever become, and the vehicle has flown too fast. A bound on the latency alone, as a
+/// policy states it, is tighter and is meant to be violated by some 5 % of the maps: that is no
+/// alarm. In the C library the two are the same: the bound is there 1.1 times the largest latency
+/// of the last 20 frames, and the safe speed follows from it.
 struct FallbackSettings {
   bool enabled{true};
   int late_maps{2};          ///< Of the last `map_window`: alarm.
@@ -36,7 +44,8 @@ struct FallbackSettings {
   /// The table asks for the most. What is still granted after so long is what there is (a computer
   /// that is too hot): the policy goes on with it.
   Duration cap_patience{std::chrono::seconds{2}};
-  /// Deadlines missed, less `miss_drain_hz` a second: above 5 within 2 s or 50 within 20 s.
+  /// Each missed deadline adds 1 to a count, which falls by `miss_drain_hz` a second: above this
+  /// the vehicle hovers, until the count is 0 again and `least_hover` has passed.
   double missed_deadlines{5.0};
   double miss_drain_hz{2.5};
   Duration least_hover{std::chrono::seconds{2}};
@@ -73,7 +82,7 @@ class FallbackLadder {
   FallbackSettings settings_;
   std::string_view why_{};
   std::uint64_t revision_{};
-  Duration bound_{};      ///< Latency bound of the next map.
+  Duration bound_{};      ///< Age that the next map's latency shall not exceed.
   std::uint64_t late_{};  ///< One bit for each of the newest maps.
   Request last_request_{};
   bool is_table_{};  ///< Which asks for more than the policy did: no new beginning.

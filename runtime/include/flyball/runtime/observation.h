@@ -44,11 +44,14 @@ struct Observation {
   double nearest_obstacle_m{};  ///< In the map, from the body's centre; 20 when none is nearer.
   double distance_to_goal_m{};
   double tracking_error_m{};
-  double speed_limit_m_s{};         ///< The mission's least, here and 20 m on.
-  double map_resolution_m{};        ///< Of the newest map.
-  std::uint64_t map_revision{};     ///< Counts published maps; `latency` is the newest one's.
-  Duration latency{};               ///< Newest sensor-to-command time.
-  Duration latency_bound{};         ///< In force for the speed limit.
+  double speed_limit_m_s{};      ///< The mission's least, here and 20 m on.
+  double map_resolution_m{};     ///< Of the newest map.
+  std::uint64_t map_revision{};  ///< Counts published maps; `latency` is the newest one's.
+  Duration latency{};            ///< Of the newest map, from sensor to published map.
+  /// The map age that the speed limit counts with: a map's latency, the time until the next map and
+  /// the reckoning of the localizer, each at its bound (`MapLatency::age_bound`). So it is more
+  /// than a bound on `latency` alone. The C library bounds the latency of a frame here.
+  Duration latency_bound{};
   std::uint32_t deadline_misses{};  ///< Since the last decision.
   std::uint32_t queue_drops{};      ///< Since the last decision.
   /// Searches without a path since one was found, and stalls since the vehicle last moved.

@@ -49,7 +49,7 @@ struct NavigatorState {
   double target_speed_m_s{};
   bool stands_still{true};
   double known_free_m{};
-  Duration latency_bound{};
+  Duration latency_bound{};  ///< On the age of a map (`MapLatency::age_bound`), in force.
   TrackingError tracking_error{};
   /// Searches without a path since one was found, and stalls since the vehicle last moved.
   int planner_failures{};
@@ -66,7 +66,7 @@ struct NavigatorState {
 
 /// How a published map kept to its bound on latency.
 struct MapUse {
-  double budget_use{};           ///< Latency over its bound.
+  double budget_use{};           ///< Latency over its own bound (`MapLatency::latency_bound`).
   double sensor_to_command_s{};  ///< Until the first set-point that knows the map.
 };
 

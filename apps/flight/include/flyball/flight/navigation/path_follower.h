@@ -82,9 +82,9 @@ class PathFollower {
   void set_known_free(const TierDistances& free_until_m) { free_until_m_ = free_until_m; }
   /// A map with frames up to this time is the newest one.
   void map_captured(MissionTime captured) { newest_capture_ = captured; }
-  /// Bound on the latency from sensor to published map, plus the interval between maps: delta
-  /// without t_b. Until it is
-  /// set, the vehicle does not move through space that has to be mapped.
+  /// Bound on the age of a map (`MapLatency::age_bound`): the latency from sensor to published map
+  /// plus the interval between maps, which is delta without t_b. Until it is set, the vehicle does
+  /// not move through space that has to be mapped.
   void set_latency_bound(Duration bound) { latency_bound_ = bound; }
 
   /// Moves the reference by `dt`. @param error_W  From the reference to the vehicle.
