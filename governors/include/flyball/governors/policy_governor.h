@@ -7,7 +7,9 @@
 #include "flyball/governors/fallback_ladder.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
-#include "flyball/runtime/governor.h"
+#include "flyball/runtime/decision.h"
+#include "flyball/runtime/knob.h"
+#include "flyball/runtime/observation.h"
 
 #include <cstdint>
 #include <functional>
@@ -41,7 +43,7 @@ enum class PolicyFault : std::uint8_t {
 /// as a whole by the safe default: every knob at its default value, at once whatever the dwell.
 /// What fails around the policy is met by the other steps of fallback_ladder.h.
 /// The watchdog judges an answer by the time it took; it cannot interrupt one that never comes.
-class PolicyGovernor final : public Governor {
+class PolicyGovernor final {
  public:
   /// A clock for the watchdog, in host time; it decides nothing but a fault. Null: no watchdog (the
   /// virtual executor, where missions must not depend on the host's speed).
@@ -58,7 +60,8 @@ class PolicyGovernor final : public Governor {
   /// One wish for each knob that the policy named, in the policy's order; a wish that comes too
   /// soon after a change is answered with the value in force, and so is that of a knob that follows
   /// it. Allocates nothing.
-  [[nodiscard]] Decision decide(const Observation& seen) noexcept override;
+  /// @post Every wish names an existing knob and a legal value of it.
+  [[nodiscard]] Decision decide(const Observation& seen) noexcept;
   /// Settings of which the policy wants to be told how long a frame will take; empty: it does not.
   [[nodiscard]] std::vector<MapSetting> foresees() const;
   /// For a policy that asks for it, before `decide`.
