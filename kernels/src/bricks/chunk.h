@@ -38,7 +38,6 @@ inline constexpr unsigned count = 64;
 }  // namespace brick_code
 
 struct alignas(64) Chunk {
-  static constexpr int bricks_per_edge = 8;
   static constexpr std::size_t brick_count = 512;
   using Bricks = std::array<Brick, brick_count>;
 

@@ -27,6 +27,5 @@ class Scalar {
 
 using Hertz = Scalar<struct HertzTag>;
 using Watts = Scalar<struct WattsTag>;
-using Joules = Scalar<struct JoulesTag>;
 
 }  // namespace flyball

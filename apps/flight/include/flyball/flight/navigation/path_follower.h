@@ -96,8 +96,6 @@ class PathFollower {
   [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
   [[nodiscard]] double s_m() const { return s_m_; }
   [[nodiscard]] double speed_m_s() const { return speed_m_s_; }
-  /// Arc length along all paths so far.
-  [[nodiscard]] double travelled_m() const { return travelled_m_; }
   [[nodiscard]] double target_speed_m_s() const { return target_m_s_; }
   [[nodiscard]] Vec3 position_W() const;
   [[nodiscard]] double yaw_rad() const { return yaw_rad_; }
