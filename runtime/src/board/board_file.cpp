@@ -138,7 +138,6 @@ Result<BoardFile> read_board(const toml::table& table, const std::string& path) 
   reader.number("cycles_per_addition", 0.1, 10.0, board.cycles_per_addition);
   board.clock_step = Hertz{step_hz};
   board.lowest_kept_clock = Hertz{lowest_hz};
-  reader.text("platform", board.platform);
   if (!board.cores_if_asked.empty() && board.core_order.empty()) {
     reader.complain("cores_if_asked", "needs core_order");
   }

@@ -25,7 +25,6 @@ struct BoardFile {
   Hertz clock_step{100e6};                   ///< Between clocks, where the driver lists none.
   Hertz lowest_kept_clock{};                 ///< The firmware ignores lower ones; 0: it keeps all.
   double cycles_per_addition{1.0};  ///< Of a chain of dependent additions, for `measured_clock`.
-  std::string platform{};           ///< Platform file with priors of power and prices; empty: none.
 };
 
 /// @error `not_found`, `invalid_input`: unknown keys and impossible values, all in one message.
