@@ -67,9 +67,11 @@ std::string core_line(const BoardInventory& found, const BoardFile& board) {
   std::string text = listed(on) + " on-line";
   text += off.empty() ? "" : "; " + listed(off) + " off-line";
   text += "; taken in the order " + listed(core_order_of(found.cores, board, false));
-  text += board.cores_if_asked.empty() ? ""
-                                       : ", and " + listed(board.cores_if_asked) + " only if asked";
-  return text + (board.may_unplug_cores ? "; may be switched off if asked"
+  // No command of this program asks for either (`LinuxBoardOptions`).
+  text += board.cores_if_asked.empty()
+              ? ""
+              : "; a program of your own may ask for " + listed(board.cores_if_asked) + " too";
+  return text + (board.may_unplug_cores ? "; a program of your own may have idle ones switched off"
                                         : "; are never switched off on this board");
 }
 

@@ -30,8 +30,9 @@ TEST(BoardReport, tells_of_a_tx2) {
             "board        jetson_tx2 (NVIDIA Jetson TX2 Developer Kit), Linux 4.9.253-tegra\n"
             "clock        cores 0, 3, 4, 5: 12 from 345.6 MHz to 2035.2 MHz (tegra_cpufreq, "
             "schedutil), may be set\n"
-            "cores        0, 3, 4, 5 on-line; 1, 2 off-line; taken in the order 0, 3, 4, 5, and "
-            "1, 2 only if asked; may be switched off if asked\n"
+            "cores        0, 3, 4, 5 on-line; 1, 2 off-line; taken in the order 0, 3, 4, 5; a "
+            "program of your own may ask for 1, 2 too; a program of your own may have idle ones "
+            "switched off\n"
             "power        by VDD_IN\n"
             "rails        VDD_IN 3.954 W, VDD_SYS_CPU 0.836 W\n"
             "heat         MCPU-therm 43 C, takes clocks away from 95.5 C on\n");
