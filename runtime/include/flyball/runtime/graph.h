@@ -72,7 +72,7 @@ double bytes_on_wire(const T& /*message*/, long /*otherwise*/) {
 enum class OnMiss : std::uint8_t {
   warn,   ///< Count it.
   skip,   ///< Tell the job to stop; its outputs never appear.
-  brake,  ///< Tell the guard to stop the vehicle.
+  brake,  ///< Stop the vehicle: whoever runs the executor must, in `Executor::on_miss`.
 };
 
 /// A job starts when a message arrives on `topic`, ...
