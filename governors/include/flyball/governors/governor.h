@@ -78,8 +78,10 @@ enum {
   flyball_governor_name_bytes = 63 /* Of a knob's, a stage's, a count's name; at most. */
 };
 
-/** What a governor may turn. The three names that policies of Flyball know: map.resolution_m,
- * map.range_m, cpu.frequency_hz; `flyball list knobs` prints more. */
+/** What a governor may turn. These names policies of Flyball know: map.resolution_m, map.range_m
+ * and cpu.frequency_hz, which most of them set; explore.iterations, which mission_energy sets too;
+ * and map.rate_hz, planner.budget, cpu.cores and mission.max_speed_m_s, which the policy fixed
+ * sets, as it sets all others. `flyball list knobs` prints more, and says what each one means. */
 typedef struct FlyballGovernorKnob {
   uint32_t struct_size;
   uint32_t legal_count;
@@ -168,7 +170,8 @@ typedef struct FlyballGovernorDecision {
   const char* reason;   /* fixed, density, deadline, energy, load, fallback */
   const char* fallback; /* none, wide_bound, table, safe_static, hover: see governors/README.md */
   const char* why;      /* One sentence; empty for the fallback "none". */
-  /** The largest latency of the last 20 frames, times 1.1, and wider while maps come late. */
+  /** The largest latency of the last 20 frames, times 1.1, and wider while frames come late: two of
+   * the last 20 took longer than this bound was before them (the fallback wide_bound). */
   double latency_bound_s;
   /** From which the vehicle stops within the signal known_free_m, braking with
    * max_deceleration_m_s2, if the next frame takes as long as bounded: the guard's rule. 0 while
