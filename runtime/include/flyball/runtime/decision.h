@@ -11,7 +11,16 @@
 
 namespace flyball {
 
-enum class Reason : std::uint8_t { fixed, density, deadline, energy, load, fallback };
+/// What a policy went by, in short: a closed list, because libraries, scripts and records use it.
+/// Who finds no word for his rule takes the nearest.
+enum class Reason : std::uint8_t {
+  fixed,     ///< A setting that was given, whatever is observed.
+  density,   ///< Obstacles: how dense or near they are, or which gaps they leave.
+  deadline,  ///< Something has to be done in time.
+  energy,    ///< The least energy.
+  load,      ///< How busy the computer is.
+  fallback   ///< The governor decided instead of the policy.
+};
 
 [[nodiscard]] std::string_view to_string(Reason reason);
 
