@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 // Poses, for ten seconds: no frame takes longer to map.
-constexpr std::size_t longest_job = 1000;
+constexpr std::size_t pose_queue_length = 1000;
 
 using Fixes = std::optional<Topic<VisualFix>>;
 
@@ -214,7 +214,7 @@ bool is_localizers_turn(JobContext& job,
 LocalizationTopics add_localization(Graph& graph, const FlightParts& parts) {
   LocalizationTopics topics;
   topics.pose = graph.topic<PoseEstimate>("pose");
-  topics.poses = graph.topic<PoseEstimate>("poses", longest_job);
+  topics.poses = graph.topic<PoseEstimate>("poses", pose_queue_length);
   topics.status = graph.topic<LocalizationStatus>("localization");
   Fixes fixes;
   if (parts.vehicle.view) {

@@ -171,8 +171,8 @@ Pose camera_pose(const Pose& X_WB, const DepthCameraSpec& camera) {
   return X_WC;
 }
 
-PerceptionTopics add_perception(Graph& graph, const FlightParts& of_vehicle) {
-  const FlightParts parts = with_camera_rate(graph, of_vehicle);
+PerceptionTopics add_perception(Graph& graph, const FlightParts& given) {
+  const FlightParts parts = with_camera_rate(graph, given);
   PerceptionTopics topics;
   topics.localization = add_localization(graph, parts);
   topics.cloud = graph.topic<PointCloudFrame>("cloud");
