@@ -61,8 +61,7 @@ class WorldGenerator {
 
   [[nodiscard]] virtual std::vector<ParameterSpec> parameters() const = 0;
   /// Same parameters and seed, same world. Start and goal are clear by at least 1 m up to 2.5 m
-  /// height
-  /// (a scanned place: by `start_clear_m` and `goal_clear_m` within the flight band).
+  /// height (a scanned place: by `start_clear_m` and `goal_clear_m` within the flight band).
   /// @error `not_found` (a file), `invalid_input` (parameters that contradict each other).
   [[nodiscard]] virtual Result<World> make(const Parameters& given, std::uint64_t seed) const = 0;
 };
