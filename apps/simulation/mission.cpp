@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/simulation/mission.h"
 
-#include "flyball/flight/governing/governor_loop.h"
-#include "flyball/flight/workload.h"
 #include "flyball/records/version.h"
-#include "flyball/runtime/modeled/virtual_executor.h"
-#include "flyball/runtime/quantile.h"
 
 #include "records/fingerprint.h"
-#include "simulation/closed_loop.h"
-#include "simulation/computer_drift.h"
-#include "simulation/flight_recorder.h"
-#include "simulation/future_frames.h"
-#include "simulation/judging/referee.h"
 #include "simulation/kernel_price.h"
 #include "simulation/mission_checks.h"
-#include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
-#include "simulation/simulated_board.h"
-#include "simulation/soft_errors.h"
+#include "simulation/mission_summary.h"
+#include "simulation/simulated_flight.h"
 #include <cstdio>
 
 namespace flyball {
@@ -30,114 +20,7 @@ constexpr auto state_period = 100ms;
 constexpr auto meter_period = 100ms;  // INA3221 averages over tens of milliseconds.
 constexpr auto progress_period = 10s;
 
-VehicleExtras extras_of(const MissionSetup& setup) {
-  const LocalizerInputs wanted = setup.equipment.kernels.localizer->inputs();
-  VehicleExtras extras;
-  extras.colour_camera = setup.things.cameras.gimbal != nullptr;
-  extras.rgbd_camera = setup.equipment.has_rgb_camera;
-  extras.imu = wanted.imu;
-  extras.true_pose = wanted.truth;
-  return extras;
-}
-
-OperatingPoint start_point(const Scenario& scenario) {
-  return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
-}
-
-/// The modeled computer, with the scenario's edge computer.
-MakeExecutor modeled(const std::optional<EdgeModel>& edge) {
-  return [edge](const Graph& graph, const Platform& computer, EventQueue& queue,
-                const OperatingPoint& start) {
-    auto executor = std::make_unique<VirtualExecutor>(graph, computer, queue, start);
-    if (edge) {
-      executor->connect_edge(*edge);
-    }
-    return executor;
-  };
-}
-
-/// What of a flight is not simulated.
-struct FlightHardware {
-  MakeExecutor make_executor{};  ///< Empty: a modeled one.
-  RealtimeBoard* board{};        ///< Null for one that is modeled.
-  AutopilotLink* autopilot{};    ///< Null: the vehicle is simulated.
-};
-
-/// Everything that one flight needs, in the order in which it must be made.
-struct Flight {
-  Flight(const Scenario& scenario,
-         MissionSetup& setup,
-         MemoryRecorder& trace,
-         std::unique_ptr<Workload> made,
-         const FlightHardware& on = {})
-      : workload{std::move(made)},
-        graph{scenario.mission.workload},
-        computer{setup.platform->model()},
-        board{start_point(scenario)} {
-    parts.brief = adapted_brief(scenario, setup);
-    parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
-    parts.mission = add_mission_topics(graph);
-    parts.kernels = setup.equipment.kernels;
-    workload->build(graph, parts);
-    add_finish(graph, parts.mission);
-    record_node = add_record(graph, parts.mission, trace);
-    add_governing(scenario, setup);
-    const MakeExecutor make = on.make_executor ? on.make_executor : modeled(setup.edge);
-    executor = make(graph, computer, queue, start_point(scenario));
-    link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
-    loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
-                                        parts.vehicle, parts.kernels.localizer, on.autopilot);
-    referee =
-        std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
-                                                        queue, *loop, *parts.kernels.mapper});
-    drift = std::make_unique<ComputerDrift>(*link, scenario, computer, *executor, queue, *loop);
-    soft_errors = std::make_unique<SoftErrors>(*link, scenario, graph, *executor, queue);
-    board.connect(*executor, graph, *loop, drift.get(), on.board);
-    recorder = std::make_unique<FlightRecorder>(*link, graph, *loop);
-  }
-
-  [[nodiscard]] std::shared_ptr<const Brief> adapted_brief(const Scenario& scenario,
-                                                           const MissionSetup& setup) const {
-    Brief brief = brief_of(scenario, setup);
-    workload->adapt(brief);
-    return std::make_shared<const Brief>(std::move(brief));
-  }
-
-  void add_governing(const Scenario& scenario, MissionSetup& setup) {
-    GovernorInputs inputs = governor_inputs(graph);
-    std::vector<MapSetting> settings = setup.governor->foresees();
-    if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
-      future = std::make_unique<FutureFrames>(parts.brief, scenario.plugins, setup.things.world,
-                                              computer, std::move(settings));
-      inputs.future = future.get();
-    }
-    period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
-    inputs.period = period;
-    governor = std::make_shared<GovernorLoop>(parts, setup.equipment.knobs, *setup.governor, board,
-                                              inputs);
-    add_governor(graph, parts, inputs, governor);
-  }
-
-  EventQueue queue;
-  std::unique_ptr<Workload> workload;
-  Graph graph;
-  DriftingPlatform computer;  ///< The true one: what is known of it on board is in the brief.
-  SimulatedBoard board;
-  FlightParts parts;
-  int record_node{};
-  std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
-  std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
-  Duration period{};                       ///< Between decisions.
-  std::unique_ptr<Executor> executor;
-  std::unique_ptr<MissionLink> link;
-  std::unique_ptr<ClosedLoop> loop;
-  std::unique_ptr<Referee> referee;
-  std::unique_ptr<ComputerDrift> drift;
-  std::unique_ptr<SoftErrors> soft_errors;
-  std::unique_ptr<FlightRecorder> recorder;
-};
-
-void tell_progress(const Flight& flight, const MissionHooks& hooks) {
+void tell_progress(const SimulatedFlight& flight, const MissionHooks& hooks) {
   const Vec3& here_W = flight.loop->vehicle().state().X_WB.translation();
   const auto& navigator = flight.link->navigator();
   const double goal_m = navigator ? (navigator->goal_W - here_W).norm() : 0.0;
@@ -147,7 +30,7 @@ void tell_progress(const Flight& flight, const MissionHooks& hooks) {
   hooks.progress(to_seconds(flight.queue.now()), text);
 }
 
-void connect(Flight& flight, const MissionHooks& hooks) {
+void connect(SimulatedFlight& flight, const MissionHooks& hooks) {
   auto& queue = flight.queue;
   flight.executor->on_job([&flight](const JobRecord& job) { flight.recorder->record_job(job); });
   if (Timeline* timeline = hooks.timeline) {
@@ -195,14 +78,14 @@ void connect(Flight& flight, const MissionHooks& hooks) {
 }
 
 /// Waits for what is not simulated.
-Status make_ready(const Flight& flight, const MissionHooks& hooks) {
+Status make_ready(const SimulatedFlight& flight, const MissionHooks& hooks) {
   const Status seen =
       hooks.depth_camera != nullptr ? hooks.depth_camera->await(hooks.stop) : Status{Done{}};
   return seen ? flight.loop->prepare(hooks.stop) : seen;
 }
 
 /// Flies until the mission is over, and what happens at that same moment.
-void run(Flight& flight, const MissionHooks& hooks) {
+void run(SimulatedFlight& flight, const MissionHooks& hooks) {
   EventQueue& queue = flight.queue;
   do {
     flight.executor->serve_until(queue.next().value_or(queue.now()));
@@ -214,69 +97,6 @@ void run(Flight& flight, const MissionHooks& hooks) {
   flight.executor->stop();
   flight.executor->run_last(flight.record_node);
   flight.loop->await_landing(hooks.stop);
-}
-
-void fill_outcome(Summary& summary, const Flight& flight, const Scenario& scenario) {
-  const FlightLog& log = flight.loop->log();
-  summary.scenario = scenario.name;
-  summary.policy = scenario.governor.policy;
-  summary.seed = scenario.seed;
-  const FlightVerdict verdict = flight.referee->verdict();
-  summary.status = verdict.status;
-  summary.failure = verdict.failure;
-  summary.mission_time_s = to_seconds(flight.queue.now());
-  summary.energy_rotor_j = log.energy_rotor_j;
-  summary.energy_computer_j = log.energy_computer_j;
-  summary.battery_start_percent = 100.0 * scenario.vehicle.battery_charge;
-  summary.battery_end_percent = flight.loop->battery().percent();
-  summary.distance_m = log.distance_m;
-  summary.mean_speed_m_s = log.airborne_s > 0.0 ? log.distance_m / log.airborne_s : 0.0;
-  summary.max_speed_m_s = log.max_speed_m_s;
-  summary.hover_time_s = log.hover_time_s;
-  summary.min_clearance_m = flight.referee->min_clearance_m();
-}
-
-void fill_computing(Summary& summary, const Flight& flight) {
-  const MapUses& maps = flight.link->map_uses();
-  const auto& navigator = flight.link->navigator();
-  summary.replans = navigator ? navigator->replans : 0;
-  summary.deadline_misses = flight.board.read().deadline_misses;
-  summary.decisions = flight.governor->decisions();
-  summary.knob_changes = flight.governor->knob_changes();
-  summary.policy_faults = flight.governor->faults();
-  summary.policy_trouble = flight.governor->trouble();
-  summary.latency_p50_s = quantile(maps.latency_s, 0.5);
-  summary.latency_p95_s = quantile(maps.latency_s, 0.95);
-  summary.latency_max_s = quantile(maps.latency_s, 1.0);
-  summary.maps = maps.budget_use.size();
-  summary.bound_overruns = maps.overruns;
-  summary.budget_use_p50 = quantile(maps.budget_use, 0.5);
-  summary.latency_bounds = flight.governor->bound_levels();
-  summary.decision_host_us_p50 = quantile(flight.governor->decision_host_us(), 0.5);
-  summary.decision_host_us_p99 = quantile(flight.governor->decision_host_us(), 0.99);
-  summary.throttle_events = flight.drift->throttle_events();
-  summary.hottest_c = flight.drift->hottest_c();
-  summary.kernels = flight.recorder->kernels();
-  summary.quality = flight.workload->quality();
-  summary.quality.merge(flight.referee->figures());
-  if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
-    summary.quality["simulator_late_s_max"] = to_seconds(late);
-  }
-  if (const FlightLog& log = flight.loop->log(); log.measured_s > 0.0) {
-    summary.quality["rotor_power_measured_percent"] = 100.0 * log.measured_s / log.airborne_s;
-    if (log.reported_battery->percent) {
-      summary.quality["autopilot_battery_percent"] = *log.reported_battery->percent;
-    }
-  }
-  if (const SoftErrors& errors = *flight.soft_errors; errors.is_used()) {
-    summary.quality["bit_flips"] = static_cast<double>(errors.flips());
-    summary.quality["readers_lost"] = static_cast<double>(errors.lost());
-    summary.quality["refused_messages"] = static_cast<double>(errors.refused());
-  }
-  if (const auto& localization = flight.link->localization()) {
-    summary.quality["localization_lost"] = localization->times_lost;
-    summary.quality["localization_lost_s"] = localization->lost_s;
-  }
 }
 
 Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
@@ -305,7 +125,9 @@ PolicyGovernor::HostClock watchdog_clock(const MissionHooks& hooks) {
   return hooks.computer != nullptr ? PolicyGovernor::HostClock{HostTime::clock::now} : nullptr;
 }
 
-Status check_graph(const Scenario& scenario, const Flight& flight, const MissionHooks& hooks) {
+Status check_graph(const Scenario& scenario,
+                   const SimulatedFlight& flight,
+                   const MissionHooks& hooks) {
   const Status priced = hooks.executor  // Which measures what jobs take, or need not know it.
                             ? Done{}
                             : check_prices_of_nodes(scenario, flight.computer, flight.graph);
@@ -324,7 +146,7 @@ Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
     return workload.error();
   }
   MemoryRecorder trace;
-  const Flight flight{scenario, *setup, trace, std::move(*workload)};
+  const SimulatedFlight flight{scenario, *setup, trace, std::move(*workload)};
   return as_dot ? flight.graph.to_dot() : flight.graph.to_text();
 }
 
@@ -359,11 +181,11 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();
   record.world = setup->things.world;
-  Flight flight{scenario,
-                *setup,
-                *record.trace,
-                std::move(*workload),
-                {hooks.executor, hooks.computer, hooks.autopilot}};
+  SimulatedFlight flight{scenario,
+                         *setup,
+                         *record.trace,
+                         std::move(*workload),
+                         {hooks.executor, hooks.computer, hooks.autopilot}};
   if (const Status possible = check_graph(scenario, flight, hooks); !possible) {
     return possible.error();
   }
@@ -375,8 +197,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (!hooks.final_map.empty()) {
     record.map_file = mapper.write(hooks.final_map, std::nullopt);
   }
-  fill_outcome(record.summary, flight, scenario);
-  fill_computing(record.summary, flight);
+  record.summary = summary_of(flight, scenario);
   record.has_goal = flight.workload->flies_to_goal();
   if (record.world.volume_W.max.x() > record.world.volume_W.min.x()) {
     record.map = mapper.occupied();
