@@ -107,7 +107,11 @@ void GovernorLoop::decide(JobContext& job) {
   }
   apply(job, decision);
   // A job that is killed when the flight ends publishes nothing, so no record has its decision.
-  job.at_end([this](MissionTime) { ++decisions_; });
+  const bool is_fault = governor_.last_fault() != PolicyFault::none;
+  job.at_end([this, is_fault](MissionTime) {
+    ++decisions_;
+    faults_ += is_fault ? 1 : 0;
+  });
 }
 
 void GovernorLoop::publish_knobs(JobContext& job) {
@@ -291,7 +295,6 @@ void GovernorLoop::note_fallback(JobContext& job) {
   has_new_knobs_ = has_new_knobs_ || restraint != knobs_.restraint;
   knobs_.restraint = restraint;
   const bool is_fault = governor_.last_fault() != PolicyFault::none;
-  faults_ += is_fault ? 1 : 0;
   const Fallback fallback = governor_.fallback();
   if (fallback == fallback_ && fallback == Fallback::none) {
     return;

@@ -2,6 +2,7 @@
 // test-label: closed_loop
 #include "flyball/flight/governing/governor_loop.h"
 
+#include "scratch_folder.h"
 #include "short_delivery.h"
 #include <map>
 #include <string>
@@ -20,6 +21,19 @@ TEST(GovernorLoop, decides_at_its_period_and_applies_the_wish_once) {
   // fixed_coarse turns one knob, at the first decision, away from the scenario's .15 m.
   EXPECT_EQ(record.summary.knob_changes, 1U);
   EXPECT_EQ(record.summary.policy_faults, 0U);
+}
+
+TEST(GovernorLoop, counts_a_fault_where_it_counts_the_decision) {
+  const ScratchFolder scripts;
+  Scenario scenario = kit::short_delivery(50.0);
+  scenario.governor.policy =
+      scripts.file("failing.lua", "function decide(seen)\n  error('enough')\nend\n");
+  // The flight ends with a decision, whose job is killed and is in no record.
+  scenario.mission.time_limit_s =
+      20.0 * scenario.governor.period_s - 0.5 * scenario.vehicle.physics_step_s;
+  const MissionRecord record = kit::flown(scenario);
+  EXPECT_GT(record.summary.decisions, 0U);
+  EXPECT_EQ(record.summary.policy_faults, record.summary.decisions);
 }
 
 TEST(GovernorLoop, a_wish_that_this_mission_does_not_have_is_moved_and_recorded_once) {
