@@ -43,6 +43,10 @@ Result<std::vector<NamedImage>> read_list(const std::string& folder, const std::
     if (!stamp || line.words.size() < 2) {
       return wrong(file, line, "expected a time and a file name");
     }
+    const MissionTime last = images.empty() ? *stamp : images.back().stamp;
+    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+      return ordered.error();
+    }
     images.push_back({*stamp, in(folder, line.words[1])});
   }
   return images;
@@ -78,6 +82,10 @@ Result<std::vector<RecordedFrame>> read_associations(const std::string& folder) 
     if (!stamp || line.words.size() < 4) {
       return wrong(file, line, "expected time, image file, time, depth file");
     }
+    const MissionTime last = frames.empty() ? *stamp : frames.back().stamp;
+    if (const Status ordered = check_order(file, line, last, *stamp); !ordered) {
+      return ordered.error();
+    }
     frames.push_back({*stamp, in(folder, line.words[1]), in(folder, line.words[3])});
   }
   return frames;
@@ -89,6 +97,9 @@ Result<std::vector<RecordedFrame>> read_frames(const std::string& folder) {
   }
   const auto images = read_list(folder, "rgb.txt");
   const auto depths = images ? read_list(folder, "depth.txt") : images;
+  if (!depths && depths.error().code == ErrorCode::invalid_input) {
+    return depths.error();
+  }
   if (!depths) {
     return Error{ErrorCode::not_found,
                  "\"" + folder +
@@ -139,9 +150,6 @@ Result<Recording> read_tum(const std::string& folder, const RecordingSettings& s
     return Error{ErrorCode::invalid_input,
                  "\"" + folder + "\" has no image with depth within .02 s of it"};
   }
-  std::stable_sort(
-      frames->begin(), frames->end(),
-      [](const RecordedFrame& a, const RecordedFrame& b) { return a.stamp < b.stamp; });
   recording.frames = std::move(*frames);
   const std::string truth_file = in(folder, "groundtruth.txt");
   if (std::error_code failed; fs::exists(truth_file, failed)) {

@@ -142,6 +142,20 @@ std::string bytes_of(std::string_view hex) {
   return bytes;
 }
 
+TEST(TumRecording, refuses_images_that_run_back_in_time) {
+  const WrittenTum written;
+  const std::string later = "2.0 rgb/2.000000.png 2.0 depth/2.000000.png\n";
+  const std::string sooner = "1.5 rgb/1.500000.png 1.5 depth/1.500000.png\n";
+  const std::string why = ":2: the time 1.5 is earlier than that of the line before";
+  (void)written.place.file("associations.txt", later + sooner);
+  EXPECT_NE(written.refused().find("associations.txt" + why), std::string::npos);
+  written.remove("associations.txt");
+  for (const char* name : {"depth.txt", "rgb.txt"}) {
+    (void)written.place.file(name, later + sooner);
+    EXPECT_NE(written.refused().find(name + why), std::string::npos) << written.refused();
+  }
+}
+
 TEST(TumRecording, reads_jpeg_too_whatever_the_file_is_called) {
   const WrittenTum written;
   kit::write_png(written.place.path("depth/a.png"), 8, 8, std::vector<std::uint16_t>(64, 10000));
