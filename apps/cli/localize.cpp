@@ -9,6 +9,8 @@
 #include "console.h"
 #include "flight_options.h"
 #include "recording_options.h"
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -72,6 +74,30 @@ std::string to_text(const LocalizationRun& run, double uncertain_above_m) {
   return aligned(lines);
 }
 
+/// The path must not take the place of what it was found from.
+Status check_out(const std::string& folder, const Recording& recording, const std::string& out) {
+  std::vector<std::string> own;
+  for (const char* name :
+       {"associations.txt", "rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt",
+        "gyroscope.txt", "mav0/cam0/data.csv", "mav0/cam0/sensor.yaml", "mav0/imu0/data.csv",
+        "mav0/imu0/sensor.yaml", "mav0/state_groundtruth_estimate0/data.csv"}) {
+    own.push_back((std::filesystem::path{folder} / name).string());
+  }
+  for (const RecordedFrame& frame : recording.frames) {
+    own.insert(own.end(), {frame.grey_file, frame.depth_file});
+  }
+  const auto is_out = [&out](const std::string& file) {
+    std::error_code failed;
+    return std::filesystem::equivalent(file, out, failed);
+  };
+  if (std::any_of(own.begin(), own.end(), is_out)) {
+    return Error{ErrorCode::invalid_input, "--out " + out +
+                                               " is a file of the recording itself; give another "
+                                               "name"};
+  }
+  return check_place(out);
+}
+
 int localize(const LocalizeOptions& options) {
   auto localizer = make_seeing_localizer(options.localizer, options.plugins);
   if (!localizer) {
@@ -82,7 +108,8 @@ int localize(const LocalizeOptions& options) {
     return refuse({recording.error()});
   }
   if (!options.out.empty()) {  // Checked first, because a wrong folder would waste the work.
-    if (const Status place = check_place(options.out); !place) {
+    const Status place = check_out(options.recording.folder, *recording, options.out);
+    if (!place) {
       return refuse({place.error()});
     }
   }
@@ -116,7 +143,7 @@ void add_localize(CLI::App& program, int& exit_code) {
                   ->add_option("--uncertain-above", options->uncertain_above_m,
                                "counts poses whose expected error is larger; 0.1 by default")
                   ->type_name("M")
-                  ->check(CLI::PositiveNumber));
+                  ->check(CLI::Range(1e-4, 1000.0)));
   command->add_option("--out", options->out, "writes the path there, as TUM's tools read it")
       ->type_name("FILE");
   command->add_flag("--json", options->as_json, "prints JSON");

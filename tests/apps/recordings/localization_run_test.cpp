@@ -124,6 +124,10 @@ TEST(Localize, refuses_bad_input_in_one_sentence) {
   refused(folder + " --intrinsics 0,1,2,3", "focal lengths");
   refused(folder + " --depth-factor 0", "--depth-factor");
   refused(folder + " --out /dev/null/x", "cannot write");
+  refused(folder + " --uncertain-above 0", "--uncertain-above: Value 0 not in range");
+  const std::string list = flight().place.content("rgb.txt");
+  refused(folder + " --out " + folder + "/rgb.txt", "is a file of the recording itself");
+  EXPECT_EQ(flight().place.content("rgb.txt"), list);
 }
 
 }  // namespace
