@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "maps/octree_file.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 namespace flyball {
 namespace {
@@ -201,7 +203,12 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 Result<std::unique_ptr<octomap::OcTree>> read_octree(const std::string& path) {
   std::error_code ignored;
+  errno = 0;
   std::ifstream file{path, std::ios::binary};
+  if (!file && errno != ENOENT && errno != 0) {
+    return Error{ErrorCode::unavailable, "cannot read map file \"" + path +
+                                             "\": " + std::generic_category().message(errno)};
+  }
   if (!file || !fs::is_regular_file(path, ignored)) {
     return Error{ErrorCode::not_found, "no map file \"" + path + "\""};
   }
@@ -236,13 +243,17 @@ Status write_octree(octomap::OcTree& tree, const std::string& path) {
   const Error failed{ErrorCode::failed, "cannot write map file \"" + path + "\""};
   const std::string beside = path + ".part";
   try {
+    errno = 0;
     std::ofstream file{beside, std::ios::binary};
     is_binary ? write_bt(tree, file) : static_cast<void>(tree.write(file));
     file.close();
     if (!file) {
+      const int reason = errno;  // Of the system's call that failed, if one did.
       std::error_code ignored;
       fs::remove(beside, ignored);
-      return failed;
+      return reason == 0 ? failed
+                         : Error{failed.code,
+                                 failed.message + ": " + std::generic_category().message(reason)};
     }
     fs::rename(beside, path);
   } catch (const std::exception& e) {

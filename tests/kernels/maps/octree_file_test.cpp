@@ -101,13 +101,22 @@ TEST(OctreeFile, what_is_wrong_is_said_in_one_sentence) {
   const auto missing = read_octree("no/such/map.bt");
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+  const ScratchFolder scratch;
+  std::filesystem::create_symlink("loop.bt", scratch.path("loop.bt"));  // Root, too, may not.
+  const auto barred = read_octree(scratch.path("loop.bt"));
+  ASSERT_FALSE(barred.ok());
+  EXPECT_EQ(barred.error().message, "cannot read map file \"" + scratch.path("loop.bt") +
+                                        "\": Too many levels of symbolic links");
 }
 
 TEST(OctreeFile, an_ending_that_is_no_map_is_refused_and_nothing_is_left) {
   const ScratchFolder scratch;
   const auto tree = small_tree();
   EXPECT_FALSE(write_octree(*tree, scratch.path("map.txt")).ok());
-  EXPECT_FALSE(write_octree(*tree, scratch.path("missing/map.bt")).ok());
+  const auto unwritten = write_octree(*tree, scratch.path("missing/map.bt"));
+  ASSERT_FALSE(unwritten.ok());
+  EXPECT_EQ(unwritten.error().message, "cannot write map file \"" + scratch.path("missing/map.bt") +
+                                           "\": No such file or directory");
   EXPECT_TRUE(scratch.is_empty());
 }
 
