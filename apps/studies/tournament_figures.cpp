@@ -3,6 +3,8 @@
 
 #include "studies/tournament_figures.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace flyball {
@@ -61,12 +63,13 @@ DecisionFigures decisions_of(const std::vector<Summary>& flights,
   const Flights succeeded = flights_of(flights, policy);
   DecisionFigures figures;
   figures.policy = policy;
-  figures.overrun_percent = median_over(succeeded, [](const Summary& s) {
-    return s.maps == 0
-               ? 0.0
-               : 100.0 * static_cast<double>(s.bound_overruns) / static_cast<double>(s.maps);
+  Flights mapping;  // The others have no maps that could be late.
+  std::copy_if(succeeded.begin(), succeeded.end(), std::back_inserter(mapping),
+               [](const Summary* flight) { return flight->maps > 0; });
+  figures.overrun_percent = median_over(mapping, [](const Summary& s) {
+    return 100.0 * static_cast<double>(s.bound_overruns) / static_cast<double>(s.maps);
   });
-  figures.budget_use = median_over(succeeded, [](const Summary& s) { return s.budget_use_p50; });
+  figures.budget_use = median_over(mapping, [](const Summary& s) { return s.budget_use_p50; });
   figures.decision_us =
       median_over(succeeded, [](const Summary& s) { return s.decision_host_us_p99; });
   figures.over_bound = over_bound(succeeded, bounds);

@@ -51,6 +51,15 @@ TEST(Tournament, counts_what_came_later_than_bounded) {
   EXPECT_DOUBLE_EQ(worlds[0].decisions[0].decision_us->median, 2.75);
 }
 
+TEST(Tournament, says_nothing_of_late_maps_where_there_are_none) {
+  Summary mapless = flight("hills", "first", 1, 100);
+  mapless.maps = mapless.bound_overruns = 0;
+  const std::vector<WorldResult> worlds = tournament_of({mapless});
+  EXPECT_FALSE(worlds[0].decisions[0].overrun_percent);
+  EXPECT_FALSE(worlds[0].decisions[0].budget_use);
+  EXPECT_TRUE(worlds[0].decisions[0].decision_us);
+}
+
 TEST(Tournament, sets_energy_against_a_bound_that_is_known) {
   const KnownBounds bounds{{{"hills", 1}, 40e3}, {{"hills", 2}, 50e3}};
   const std::vector<WorldResult> worlds = tournament_of(two_worlds(), bounds);
