@@ -16,18 +16,23 @@ std::string rounded(double value, int digits) {
   return text.data();
 }
 
+std::size_t letters_in(const std::string& text) {
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins));
+}
+
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths;
   for (const auto& line : lines) {
     widths.resize(std::max(widths.size(), line.size()));
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      widths[i] = std::max(widths[i], line[i].size());
+      widths[i] = std::max(widths[i], letters_in(line[i]));
     }
   }
   std::string text;
   for (const auto& line : lines) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      text += line[i] + std::string(widths[i] - line[i].size() + 2, ' ');
+      text += line[i] + std::string(widths[i] - letters_in(line[i]) + 2, ' ');
     }
     text += (line.empty() ? "" : line.back()) + "\n";
   }

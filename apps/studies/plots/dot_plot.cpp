@@ -26,7 +26,7 @@ using svg::tick_step;
 
 constexpr double left_px = 60.0;
 constexpr double right_px = 640.0;
-constexpr double top_px = 20.0;
+constexpr double top_px = 30.0;  // Above it stands the title of the vertical axis.
 constexpr double bottom_px = 330.0;
 constexpr double name_row_px = 15.0;
 

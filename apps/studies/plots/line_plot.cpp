@@ -36,6 +36,9 @@ std::vector<double> numbers_of(const std::vector<std::string>& places) {
 
 /// From the lowest end of an interval to the highest one.
 svg::Scale heights_of(const LinePlot& plot) {
+  if (plot.is_percentage) {
+    return svg::around(0.0, 100.0, frame_bottom_px, frame_top_px);
+  }
   std::vector<double> ends;
   for (const PlottedLine& line : plot.lines) {
     for (const auto& value : line.values) {

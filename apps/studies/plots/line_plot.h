@@ -22,9 +22,10 @@ struct LinePlot {
   std::string x_title{};
   std::vector<std::string> places{};  ///< Numbers stand where they belong, anything else in a row.
   std::vector<PlottedLine> lines{};
+  bool is_percentage{};  ///< Then the vertical axis reaches from 0 to 100.
 };
 
-/// The plot's vertical axis need not begin at zero.
+/// The vertical axis of other figures need not begin at zero.
 [[nodiscard]] std::string line_plot_svg(const LinePlot& plot);
 
 }  // namespace flyball

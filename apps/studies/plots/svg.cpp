@@ -79,7 +79,7 @@ Scale around(double low, double high, double from_px, double to_px) {
 
 double width_of(const std::string& text) {
   constexpr double letter_px = 6.8;
-  return letter_px * static_cast<double>(text.size());
+  return letter_px * static_cast<double>(letters_in(text));
 }
 
 std::string axes(const Frame& frame) {

@@ -14,6 +14,11 @@ TEST(TextTable, columns_line_up_and_the_last_one_ends_where_it_ends) {
             "a    bb  c\naaa  b\n\nx        long\n");
 }
 
+TEST(TextTable, counts_letters_and_not_their_bytes) {
+  EXPECT_EQ(letters_in("f\xc3\xbcr"), 3U);
+  EXPECT_EQ(aligned({{"\xc3\xbc", "b"}, {"ab", "c"}}), "\xc3\xbc   b\nab  c\n");
+}
+
 TEST(TextTable, numbers_are_rounded_to_their_digits) {
   EXPECT_EQ(rounded(1.25, 1), "1.2") << "ties go to even";
   EXPECT_EQ(rounded(-0.0312, 2), "-0.03");

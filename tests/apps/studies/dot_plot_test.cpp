@@ -67,6 +67,21 @@ TEST(ParetoPlot, joins_the_best_and_draws_each_point_once) {
   EXPECT_EQ(kit::count(svg, "stroke-dasharray"), 1U);
 }
 
+TEST(ParetoPlot, has_its_title_above_the_topmost_number) {
+  for (const double most : {37.0, 40.0, 45.3, 46.0, 50.0, 92.0}) {
+    const std::string svg = pareto_plot_svg("s", "kJ", {point("one", 10, most)});
+    const double title_px = number_after(svg, "\" y=\"", "kJ");
+    constexpr double letter_px = 12.0;
+    std::size_t numbers = 0;
+    for (std::size_t at = svg.find("x=\"54.0\" y=\""); at != std::string::npos;
+         at = svg.find("x=\"54.0\" y=\"", at + 1)) {
+      ++numbers;
+      EXPECT_GE(std::stod(svg.substr(at + 12)) - letter_px, title_px) << most;
+    }
+    EXPECT_GT(numbers, 1U);
+  }
+}
+
 TEST(ParetoPlot, draws_one_point_without_extent) {
   const PlottedPoint only{"only", {0.0, 0.0, 0.0}, {5.0, 5.0, 5.0}};
   EXPECT_EQ(pareto_plot_svg("s", "kJ", {only}).find("nan"), std::string::npos);

@@ -59,6 +59,17 @@ TEST(LinePlot, has_some_numbers_on_the_axis_whatever_it_spans) {
   }
 }
 
+TEST(LinePlot, shows_shares_between_none_and_all) {
+  LinePlot plot = made_plot({"1", "2", "3"});
+  plot.is_percentage = true;
+  for (PlottedLine& line : plot.lines) {
+    line.values.assign(3, MedianInterval{100.0, 100.0, 100.0});
+  }
+  const std::string svg = line_plot_svg(plot);
+  EXPECT_EQ(kit::count(svg, ">0</text>"), 1U) << svg;
+  EXPECT_EQ(kit::count(svg, ">100</text>"), 1U) << svg;
+}
+
 TEST(LinePlot, leaves_a_gap_where_nothing_is_known) {
   const std::string svg = line_plot_svg(made_plot({"1", "2", "3"}));
   EXPECT_EQ(kit::count(svg, "stroke-width=\"1.5\""), 2U) << "from 1 to 2 for a, from 2 to 3 for b";

@@ -4,6 +4,7 @@
 /// @file
 /// Figures as people read them: on a terminal and in a page.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace flyball {
 
 /// With so many digits after the point.
 [[nodiscard]] std::string rounded(double value, int digits);
+
+/// Of UTF-8; each is taken to be as wide as any other.
+[[nodiscard]] std::size_t letters_in(const std::string& text);
 
 /// Columns of equal width, two blanks apart; the last one is as long as it is.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
