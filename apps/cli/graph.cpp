@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
+#include "scenario/scenario_keys.h"
 #include <algorithm>
 #include <memory>
 
@@ -23,8 +24,10 @@ struct GraphOptions {
 int graph(const GraphOptions& options) {
   const std::vector<std::string> known = workload_names(options.plugins);
   if (std::find(known.begin(), known.end(), options.workload) == known.end()) {
-    return refuse({{ErrorCode::not_found,
-                    "no workload \"" + options.workload + "\"; try: flyball list workloads"}});
+    const std::string near = nearest_name(options.workload, known);
+    return refuse({{ErrorCode::not_found, "no workload \"" + options.workload + "\"; " +
+                                              (near.empty() ? "" : "did you mean " + near + "? ") +
+                                              "try: flyball list workloads"}});
   }
   if (options.format != "text" && options.format != "dot") {
     return refuse(

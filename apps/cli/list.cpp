@@ -18,6 +18,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -66,6 +67,13 @@ std::string first_sentence(const std::string& path) {
 
 Result<Lines> list_files(const std::string& kind) {
   Lines lines;
+  std::error_code failed;
+  if (const std::string folder = share_folder(kind);
+      !std::filesystem::is_directory(folder, failed)) {
+    return Error{ErrorCode::not_found, "no folder \"" + folder +
+                                           "\" to list; set FLYBALL_DATA to the folder "
+                                           "share/flyball of the install, or of the build"};
+  }
   for (const std::string& name : shipped(kind)) {
     lines.push_back({name, first_sentence(share_folder(kind) + "/" + name + ".toml")});
   }

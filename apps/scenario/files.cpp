@@ -4,10 +4,16 @@
 
 #include "flyball/runtime/program.h"
 
+#include "scenario/scenario_keys.h"
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <utility>
+
+#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -31,6 +37,27 @@ Error no_data(const std::string& thing, const std::string& name, const std::stri
                                     folder +
                                     "\"; set FLYBALL_DATA to the folder share/flyball of the "
                                     "install, or of the build"};
+}
+
+/// Of a file that is there and cannot be read; empty: it can, or there is none.
+std::optional<Error> unreadable(const std::string& file) {
+  std::error_code failed;
+  int reason = fs::is_directory(file, failed) ? EISDIR : 0;
+  if (reason == 0 && access(file.c_str(), R_OK) != 0) {
+    reason = errno == ENOENT || errno == ENOTDIR ? 0 : errno;
+  }
+  if (reason == 0) {
+    return std::nullopt;
+  }
+  return Error{ErrorCode::unavailable, "cannot read \"" + file +
+                                           "\": " + std::generic_category().message(reason) +
+                                           "; give a file that you may read"};
+}
+
+/// Among what is shipped.
+std::string suggestion(const std::string& kind, const std::string& name) {
+  const std::string near = nearest_name(name, shipped(kind));
+  return near.empty() ? "" : "did you mean " + near + "? ";
 }
 
 }  // namespace
@@ -71,6 +98,9 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
   const bool is_path = looks_like_path(kind, name_or_path);
   const std::string file =
       is_path ? name_or_path : (fs::path{share_folder(kind)} / (name_or_path + ".toml")).string();
+  if (std::optional<Error> error = name_or_path.empty() ? std::nullopt : unreadable(file)) {
+    return std::move(*error);
+  }
   if (!name_or_path.empty() && fs::is_regular_file(file, failed)) {
     return file;
   }
@@ -83,11 +113,12 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
     return no_data(thing, name_or_path, folder);
   }
   const std::string endings = is_preset ? ".toml, .lua or .so" : ".toml";
-  return Error{ErrorCode::not_found,
-               is_path ? "no file \"" + name_or_path + "\" to read the " + thing +
-                             " from; give a path to a " + endings +
-                             " file, or a name from: flyball list " + list
-                       : "no " + thing + " \"" + name_or_path + "\"; try: flyball list " + list};
+  return Error{ErrorCode::not_found, is_path ? "no file \"" + name_or_path + "\" to read the " +
+                                                   thing + " from; give a path to a " + endings +
+                                                   " file, or a name from: flyball list " + list
+                                             : "no " + thing + " \"" + name_or_path + "\"; " +
+                                                   suggestion(kind, name_or_path) +
+                                                   "try: flyball list " + list};
 }
 
 }  // namespace flyball

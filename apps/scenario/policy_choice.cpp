@@ -84,7 +84,7 @@ Result<PolicyChoice> choose_policy(const std::string& name,
   if (file) {
     return load_policy(*file, plugins.registry(), seed);
   }
-  if (plugins.make<Policy>(name)) {
+  if (file.error().code == ErrorCode::not_found && plugins.make<Policy>(name)) {
     return PolicyChoice{"policy \"" + name + "\"", [name, plugins] {
                           return Result<std::unique_ptr<Policy>>{plugins.make<Policy>(name)};
                         }};

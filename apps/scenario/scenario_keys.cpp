@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -33,24 +35,56 @@ constexpr std::array<UnitSuffix, 46> unit_suffixes{{
     {"_w", "W"},           {"_j", "J"},
 }};
 
+/// Letters added, left out, exchanged for others, or two neighbours in the wrong order (optimal
+/// string alignment), because that is how people mistype.
 std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> before;  // Two rows up.
+  std::vector<std::size_t> above(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    std::vector<std::size_t> row(b.size() + 1, i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({row[j - 1] + 1, above + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
+      const std::size_t same = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({row[j - 1] + 1, above[j] + 1, above[j - 1] + same});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], before[j - 2] + 1);
+      }
     }
+    before = std::move(above);
+    above = std::move(row);
   }
-  return row.back();
+  return above.back();
+}
+
+/// As many edits would turn a name into anything.
+std::size_t most_edits(const std::string& name) {
+  return name.size() / 3 + 1;
 }
 
 std::string after_dot(const std::string& key) {
   const std::size_t dot = key.rfind('.');
   return dot == std::string::npos ? key : key.substr(dot + 1);
+}
+
+/// With the dot; empty without one.
+std::string section_of(const std::string& key) {
+  return key.substr(0, key.size() - after_dot(key).size());
+}
+
+/// Of the same section, or else of another one, where also the name behind the dot must be near:
+/// long sections are alike in many letters.
+std::string nearest_key(const std::string& unknown, const std::vector<std::string>& known) {
+  std::vector<std::string> near;
+  for (const std::string& key : known) {
+    if (edits_between(after_dot(unknown), after_dot(key)) <= most_edits(after_dot(unknown))) {
+      near.push_back(key);
+    }
+  }
+  std::vector<std::string> beside;
+  std::copy_if(
+      near.begin(), near.end(), std::back_inserter(beside),
+      [&unknown](const std::string& key) { return section_of(key) == section_of(unknown); });
+  return nearest_name(unknown, beside.empty() ? near : beside);
 }
 
 bool begins_with(const std::string& text, const std::string& beginning) {
@@ -100,7 +134,7 @@ KeyParts parts_of(const std::string& key) {
 
 std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names) {
   std::string nearest;
-  std::size_t fewest = wanted.size() / 3 + 1;  // As many edits would turn it into anything.
+  std::size_t fewest = most_edits(wanted);
   for (const std::string& name : names) {
     const std::size_t edits = edits_between(wanted, name);
     if (edits < fewest || (edits == fewest && nearest.empty())) {
@@ -116,14 +150,18 @@ std::string suggest_key(const std::string& unknown, const std::vector<std::strin
     return unit;
   }
   // The right name under the wrong section comes before a similar name.
-  for (const std::string& key : known) {
-    if (after_dot(key) == after_dot(unknown)) {
-      return "did you mean " + key + "?";
-    }
+  std::vector<std::string> elsewhere;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(elsewhere),
+               [&unknown](const std::string& key) { return after_dot(key) == after_dot(unknown); });
+  std::string near = nearest_name(unknown, elsewhere);
+  if (near.empty() && !elsewhere.empty()) {
+    near = elsewhere.front();
   }
-  std::string near = abbreviated(unknown, known);
   if (near.empty()) {
-    near = nearest_name(unknown, known);
+    near = abbreviated(unknown, known);
+  }
+  if (near.empty()) {
+    near = nearest_key(unknown, known);
   }
   return near.empty() ? std::string{} : "did you mean " + near + "?";
 }

@@ -22,8 +22,7 @@ struct KeyParts {
 [[nodiscard]] std::string suggest_key(const std::string& unknown,
                                       const std::vector<std::string>& known);
 
-/// The name with the fewest edits (Levenshtein); empty when every name differs by more than a
-/// third.
+/// The name with the fewest edits; empty when every name differs by more than a third.
 [[nodiscard]] std::string nearest_name(const std::string& wanted,
                                        const std::vector<std::string>& names);
 

@@ -124,6 +124,10 @@ ScenarioText read_scenario_file(const std::string& path) {
          file + ":" + std::to_string(line) + ": this is not TOML: " + std::string{what}});
   };
   std::ifstream in{path};
+  if (!in) {  // An empty text would be a scenario of defaults.
+    read.errors.push_back({ErrorCode::unavailable, "cannot read \"" + path + "\""});
+    return read;
+  }
   const std::string content{std::istreambuf_iterator<char>{in}, {}};
   if (const auto fault = fault_of_toml(content)) {
     complain(static_cast<std::uint64_t>(fault->line), fault->what);

@@ -86,7 +86,7 @@ std::optional<Error> set_seed(std::uint64_t& place,
                               const GivenValue& given) {
   const std::optional<std::int64_t> number = as_integer(given);
   if (!number || *number < 0) {
-    return wrong(field, given, "must be a whole number, 0 or more");
+    return wrong(field, given, "must be a whole number from 0 to 2^63 - 1");
   }
   place = static_cast<std::uint64_t>(*number);
   return std::nullopt;

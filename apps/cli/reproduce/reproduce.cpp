@@ -7,6 +7,7 @@
 #include "cli/reproduce/experiment_flights.h"
 #include "cli/sweep/on_slurm.h"
 #include "cli/sweep/stored_study.h"
+#include "scenario/scenario_keys.h"
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -27,12 +28,18 @@ struct ReproduceOptions {
 std::variant<std::vector<NamedExperiment>, std::vector<Error>> chosen(
     const std::vector<std::string>& names) {
   const std::vector<NamedExperiment> all = all_experiments();
+  std::vector<std::string> known;
+  for (const NamedExperiment& each : all) {
+    known.push_back(each.name);
+  }
   std::vector<Error> errors;
   for (const std::string& name : names) {
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const NamedExperiment& each) { return each.name == name; })) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string near = nearest_name(name, known);
       errors.push_back(
-          {ErrorCode::not_found, "no experiment \"" + name + "\"; try: flyball list experiments"});
+          {ErrorCode::not_found, "no experiment \"" + name + "\"; " +
+                                     (near.empty() ? "" : "did you mean " + near + "? ") +
+                                     "try: flyball list experiments"});
     }
   }
   if (!errors.empty()) {

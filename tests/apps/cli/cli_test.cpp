@@ -31,7 +31,7 @@ class Cli : public testing::Test {
 };
 
 TEST_F(Cli, refuses_an_unknown_scenario) {
-  expect_refused("run delivery_moon", "no scenario \"delivery_moon\"; try: flyball list scenarios");
+  expect_refused("run delivery_moon", "no scenario \"delivery_moon\"; did you mean");
   expect_refused("run missing/file.toml", "no file \"missing/file.toml\"");
   expect_refused("compare missing/file.toml --policies fixed_fine",
                  "no file \"missing/file.toml\"");

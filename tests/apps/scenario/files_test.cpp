@@ -78,6 +78,32 @@ TEST(Files, that_cannot_be_there_are_named_with_the_folder_and_the_way_out) {
             std::string::npos);
 }
 
+TEST(Files, that_are_there_and_cannot_be_read_are_not_called_missing) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch.path("folder.toml"));
+  std::filesystem::create_symlink("loop.toml", scratch.path("loop.toml"));  // Root, too, may not.
+  for (const auto& [name, why] :
+       {std::pair{"folder.toml", "Is a directory"}, {"loop.toml", "Too many levels"}}) {
+    const std::string path = scratch.path(name);
+    for (const char* kind : {"scenarios", "presets", "platforms"}) {
+      const auto found = find_shipped(kind, path);
+      ASSERT_FALSE(found.ok());
+      EXPECT_EQ(found.error().code, ErrorCode::unavailable);
+      EXPECT_EQ(found.error().message.find("cannot read \"" + path + "\": " + why), 0U)
+          << found.error().message;
+    }
+    EXPECT_TRUE(std::holds_alternative<std::vector<Error>>(load_scenario(path, {})));
+  }
+}
+
+TEST(Files, of_nearly_that_name_are_suggested) {
+  EXPECT_EQ(
+      find_shipped("scenarios", "scaning_farm").error().message,
+      "no scenario \"scaning_farm\"; did you mean scanning_farm? try: flyball list scenarios");
+  EXPECT_NE(find_shipped("presets", "fixed_fin").error().message.find("did you mean fixed_fine?"),
+            std::string::npos);
+}
+
 TEST(Files, a_kind_that_is_not_shipped_is_empty) {
   EXPECT_TRUE(shipped("nonsense").empty());
 }

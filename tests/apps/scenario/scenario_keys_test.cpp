@@ -35,6 +35,16 @@ TEST(ScenarioKeys, a_slip_of_the_pen_or_section_finds_its_key) {
   EXPECT_EQ(suggest_key("world.densit", known), "did you mean world.density_1_m2?");
 }
 
+TEST(ScenarioKeys, the_nearest_key_of_its_section_is_meant) {
+  const std::vector<std::string> keys{"scan.length_m",   "scan.height_m",
+                                      "search.height_m", "kernels.planner_parameters.range_m",
+                                      "camera.rate_hz",  "detector.rate_hz"};
+  EXPECT_EQ(suggest_key("scan.heigth_m", keys), "did you mean scan.height_m?");
+  EXPECT_EQ(suggest_key("search.heigth_m", keys), "did you mean search.height_m?");
+  EXPECT_EQ(suggest_key("detecter.rate_hz", keys), "did you mean detector.rate_hz?");
+  EXPECT_EQ(suggest_key("kernels.mapper_parameters.finest_m", keys), "");
+}
+
 TEST(ScenarioKeys, nothing_is_suggested_for_what_is_like_nothing) {
   EXPECT_EQ(suggest_key("weather", known), "");
   EXPECT_EQ(nearest_name("xyz", {"octomap", "flyball"}), "");

@@ -61,7 +61,7 @@ slam_load = 1
 budget = 1.5
 )"));
   for (const char* sentence :
-       {"seed = -3 (mine.toml:1) must be a whole number, 0 or more",
+       {"seed = -3 (mine.toml:1) must be a whole number from 0 to 2^63 - 1",
         "vehicle.payload_kg = -0.5 (mine.toml:3) must be at least 0 kg and at most 20 kg",
         "\"map.range_cm\" (mine.toml:5); did you mean map.range_m, in m?",
         "(mine.toml:6) must be a number in Hz",
@@ -139,7 +139,9 @@ TEST(Scenario, texts_that_toml_plus_plus_must_not_see_are_named_with_their_line)
 
 TEST(Scenario, a_missing_file_is_named_with_the_way_out) {
   const auto by_name = std::get<Errors>(load_scenario("delivery_moon", {}));
-  EXPECT_EQ(joined(by_name), "no scenario \"delivery_moon\"; try: flyball list scenarios\n");
+  EXPECT_EQ(
+      joined(by_name),
+      "no scenario \"delivery_moon\"; did you mean delivery_open? try: flyball list scenarios\n");
   const auto by_path = std::get<Errors>(load_scenario("no/such.toml", {}));
   EXPECT_NE(joined(by_path).find("no file \"no/such.toml\""), std::string::npos);
 }

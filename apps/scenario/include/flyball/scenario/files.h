@@ -21,7 +21,9 @@ namespace flyball {
 [[nodiscard]] bool looks_like_path(const std::string& kind, const std::string& text);
 /// The file of a bare name, or the path itself when it has a slash or ends in .toml; of
 /// `presets` also in .lua or .so.
-/// @error `not_found`: lists the command that shows the names.
+/// @error `not_found`: lists the command that shows the names. `unavailable`: the file is there,
+/// and
+///        the system does not let it be read.
 [[nodiscard]] Result<std::string> find_shipped(const std::string& kind,
                                                const std::string& name_or_path);
 
