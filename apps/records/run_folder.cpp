@@ -13,6 +13,7 @@
 #include "records/trace_file.h"
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -147,12 +148,21 @@ std::string summary_table(const Summary& summary) {
   return html_table("<tr>" + titles + "</tr><tr>" + values + "</tr>");
 }
 
+/// What was flown then is not the policy's.
+std::string trouble_html(const Summary& summary) {
+  const std::string trouble =
+      trouble_text(summary.policy_faults, summary.decisions, summary.policy_trouble);
+  return trouble.empty() ? ""
+                         : "<p class=\"note\">" +
+                               html_text("policy " + summary.policy + " " + trouble) + "</p>";
+}
+
 std::string run_page(const Scenario& scenario,
                      const RunPicture& picture,
                      const std::string& frames_html) {
-  return report_page(
-      scenario.name, {picture},
-      summary_table(picture.summary) + figures_note + frames_html + scenario_html(scenario));
+  return report_page(scenario.name, {picture},
+                     summary_table(picture.summary) + trouble_html(picture.summary) + figures_note +
+                         frames_html + scenario_html(scenario));
 }
 
 /// One attempt at `prepare_folder`.
@@ -217,15 +227,19 @@ Status write_file(const std::string& path, const std::string& content) {
   // Of this process: two that write one file must not take each other's half.
   const std::string temporary = path + "." + std::to_string(getpid()) + ".part";
   std::error_code failed;
+  errno = 0;
   std::ofstream file{temporary, std::ios::binary | std::ios::trunc};
   file << content;
   file.close();
+  const int reason = errno;  // Of the system's call that failed, if one did.
   if (file) {
     fs::rename(temporary, path, failed);
   }
   if (!file || failed) {
-    const Error error =
-        cannot_write(path, failed ? failed.message() : "the folder or disk refuses it");
+    const std::string why = failed        ? failed.message()
+                            : reason != 0 ? std::generic_category().message(reason)
+                                          : "the folder or disk refuses it";
+    const Error error = cannot_write(path, why);
     fs::remove(temporary, failed);
     return error;
   }
@@ -246,7 +260,11 @@ Status write_run(const std::string& folder, const Scenario& scenario, const Miss
   const fs::path in{folder};
   std::error_code failed;
   fs::create_directories(in, failed);
-  fs::remove(in / "mission.toml", failed);  // Whatever stood here is incomplete from now on.
+  // Whatever stood here is incomplete from now on, and its pictures are none of this flight's.
+  bool had_record = fs::remove(in / "mission.toml", failed);
+  for (int i = 1; had_record; ++i) {
+    had_record = fs::remove(in / ("frame_" + std::to_string(i) + ".png"), failed);
+  }
   const RunPicture picture = picture_of(record);
   const auto frames_html = write_frames(folder, record.frames);
   if (!frames_html) {

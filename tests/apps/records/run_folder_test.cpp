@@ -5,12 +5,14 @@
 #include "made_flights.h"
 #include "scratch_folder.h"
 #include <atomic>
+#include <csignal>
 #include <cstring>
 #include <sstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace flyball {
 namespace {
@@ -40,6 +42,39 @@ TEST(RunFolder, the_page_has_units_as_its_other_columns_have_them) {
   EXPECT_NE(
       scratch.content("report.html").find("<th>known %</th><th>localization error max m</th></tr>"),
       std::string::npos);
+}
+
+TEST(RunFolder, says_why_the_system_does_not_let_a_file_be_written) {
+  const ScratchFolder scratch;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{100, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const Status written = write_file(scratch.path("big"), std::string(100000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, ignored);
+  ASSERT_FALSE(written.ok());
+  EXPECT_EQ(written.error().message,
+            "cannot write \"" + scratch.path("big") + "\": File too large; choose another place");
+  EXPECT_TRUE(scratch.is_empty());
+}
+
+TEST(RunFolder, pictures_of_the_flight_before_go) {
+  const ScratchFolder scratch;
+  (void)scratch.file("frame_1.png", "of somebody else");
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, made_record("a", 5)).ok());
+  EXPECT_EQ(scratch.content("frame_1.png"), "of somebody else") << "there was no record";
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, made_record("a", 5)).ok());
+  EXPECT_EQ(scratch.content("frame_1.png"), "");
+}
+
+TEST(RunFolder, the_page_says_that_a_policy_was_replaced) {
+  const ScratchFolder scratch;
+  ASSERT_TRUE(write_run(scratch.path(), Scenario{}, made_record("<a>", 5)).ok());
+  EXPECT_NE(scratch.content("report.html")
+                .find("policy &lt;a&gt; was replaced by safe settings in 10 of 400 decisions"),
+            std::string::npos);
 }
 
 TEST(RunFolder, the_page_begins_with_the_figures_by_which_a_workload_is_judged) {
