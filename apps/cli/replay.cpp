@@ -2,6 +2,7 @@
 
 #include "flyball/studies/replay.h"
 
+#include "flyball/records/summary.h"
 #include "flyball/records/text_table.h"
 
 #include "commands.h"
@@ -34,19 +35,26 @@ std::string differences_text(const ReplayResult& result) {
   return aligned(lines) + (left == 0 ? "" : "and " + std::to_string(left) + " more\n");
 }
 
+/// Empty where the policy never failed.
+std::string trouble_line(const std::string& policy, const ReplayResult& result) {
+  const std::string trouble = trouble_text(result.faults, result.decisions, result.trouble);
+  return trouble.empty() ? "" : "policy " + policy + " " + trouble + "\n";
+}
+
 int repeat(const RecordedFlight& flight) {
   const Result<ReplayResult> result = replay(flight);
   if (!result) {
     return refuse({result.error()});
   }
+  const std::string trouble = trouble_line(flight.scenario.governor.policy, *result);
   if (result->different == 0) {
     print(std::to_string(result->decisions) + " decisions of policy " +
-          flight.scenario.governor.policy + ", each the same again, bit for bit\n");
+          flight.scenario.governor.policy + ", each the same again, bit for bit\n" + trouble);
     return exit_success;
   }
   print(std::to_string(result->different) + " of " + std::to_string(result->decisions) +
         " decisions are others than the record says; it was written by version " + flight.version +
-        "\n" + differences_text(*result));
+        "\n" + trouble + differences_text(*result));
   return exit_mission_failed;
 }
 
@@ -60,7 +68,7 @@ int ask(const RecordedFlight& flight, const std::string& policy) {
                                                     static_cast<double>(result->decisions);
   print(policy + " would have set the knobs otherwise than " + flight.scenario.governor.policy +
         " at " + std::to_string(result->different) + " of " + std::to_string(result->decisions) +
-        " decisions (" + rounded(100.0 * share, 1) + " %)\n");
+        " decisions (" + rounded(100.0 * share, 1) + " %)\n" + trouble_line(policy, *result));
   if (!result->differences.empty()) {
     print(differences_text(*result));
   }

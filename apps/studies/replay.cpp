@@ -61,6 +61,13 @@ void note(ReplayResult& result, MissionTime at, const std::string& recorded, std
   }
 }
 
+/// A policy that fails leaves safe settings, which often are those of the record.
+void note_fault(const PolicyGovernor& governor, ReplayResult& result) {
+  if (governor.last_fault() != PolicyFault::none && result.faults++ == 0) {
+    result.trouble = governor.why();
+  }
+}
+
 Result<std::unique_ptr<PolicyGovernor>> governor_for(const Scenario& scenario) {
   auto setup = set_up(scenario);
   if (!setup) {
@@ -129,6 +136,7 @@ Result<ReplayResult> replay(const RecordedFlight& flight) {
   std::string now;
   for (Decisions decisions{flight}; decisions.next(); ++result.decisions) {
     const Decision answer = (*governor)->decide(decisions.seen());
+    note_fault(**governor, result);
     if (memory.is_new(**governor, answer)) {
       now = choice_text(**governor, answer);
     }
@@ -152,6 +160,7 @@ Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& pol
   InForce now = recorded;
   for (Decisions decisions{flight}; decisions.next(); ++result.decisions) {
     const Decision answer = (*governor)->decide(decisions.seen());
+    note_fault(**governor, result);
     put_in_force(decisions.recorded(), recorded);
     put_in_force(choice_text(**governor, answer), now);
     const std::string theirs = where_they_differ(recorded, now);

@@ -119,6 +119,20 @@ TEST(Replay, asks_another_policy_what_it_would_have_done) {
   EXPECT_FALSE(shadow(flight, "just_in_tme").ok());
 }
 
+TEST(Replay, says_that_the_other_policy_failed) {
+  const ScratchFolder folder;
+  const RecordedFlight flight = flown_with("fixed_fine", folder);
+  const auto failing =
+      shadow(flight, folder.file("failing.lua", "function decide(seen)\n  error('enough')\nend\n"));
+  ASSERT_TRUE(failing.ok()) << failing.error().message;
+  EXPECT_EQ(failing->faults, failing->decisions);
+  EXPECT_NE(failing->trouble.find("enough"), std::string::npos) << failing->trouble;
+  const auto sound = shadow(flight, "two_level");
+  ASSERT_TRUE(sound.ok());
+  EXPECT_EQ(sound->faults, 0U);
+  EXPECT_EQ(sound->trouble, "");
+}
+
 /// The first look in cruise above 1 m/s, where latency counts.
 MissionTime first_cruise(const RecordedFlight& flight) {
   const auto& fields = observation_fields();

@@ -48,6 +48,8 @@ struct Difference {
 struct ReplayResult {
   std::uint64_t decisions{};
   std::uint64_t different{};
+  std::uint64_t faults{};  ///< Decisions in which safe settings replaced the policy's.
+  std::string trouble{};   ///< Reason of the first of these.
   std::vector<Difference> differences{};  ///< One for each time that they became others.
 };
 
