@@ -127,14 +127,15 @@ int compare(const CompareOptions& options) {
   if (!seeds) {
     return refuse({seeds.error()});
   }
-  if (const Status distinct = check_distinct(options.policies); !distinct) {
-    return refuse({distinct.error()});
+  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
+    return refuse({contest.error()});
   }
   auto planned = plan(options, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
   Entries& entries = std::get<Entries>(planned);
+  note_overruled(entries);
   const std::string folder = comparison_folder(options.flight, entries.front().scenario);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {

@@ -4,6 +4,7 @@
 
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
+#include "flyball/studies/policy_trouble.h"
 
 #include "claimed_folder.h"
 #include "commands.h"
@@ -46,6 +47,7 @@ struct Outcome {
   std::size_t succeeded{};
   std::size_t collisions{};
   double energy_j{};  ///< Sum.
+  PolicyTrouble trouble{};
 };
 
 using DriftEntries = std::vector<DriftEntry>;
@@ -100,6 +102,7 @@ Status add(const DriftEntry& entry, double at_s, Outcome& outcome) {
   outcome.succeeded += has_succeeded(picture->summary) ? 1 : 0;
   outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
   outcome.energy_j += picture->summary.energy_total_j();
+  outcome.trouble.add(picture->summary);
   const DriftCount count =
       count_bounds(*record, MissionTime{from_seconds(at_s)}, first_bound, last_bound);
   outcome.latency_bounds.decisions += count.decisions;
@@ -138,6 +141,22 @@ std::string levels_text(const DriftOptions& options,
              : "Latency bounds of each size of cells, of whole flights:\n" + aligned(lines);
 }
 
+/// Under all events together.
+std::string troubles_text(const DriftOptions& options, const std::vector<Outcome>& outcomes) {
+  std::string text;
+  for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
+    PolicyTrouble all;
+    for (std::size_t i = policy; i < outcomes.size(); i += options.policies.size()) {
+      all.decisions += outcomes[i].trouble.decisions;
+      all.faults += outcomes[i].trouble.faults;
+      all.why = all.why.empty() ? outcomes[i].trouble.why : all.why;
+    }
+    const std::string sentence = all.text(options.policies[policy]);
+    text += sentence + (sentence.empty() ? "" : "\n");
+  }
+  return text;
+}
+
 std::string to_text(const DriftOptions& options,
                     const std::vector<DriftCase>& cases,
                     const std::vector<Outcome>& outcomes) {
@@ -155,7 +174,8 @@ std::string to_text(const DriftOptions& options,
   }
   std::string text = "Latency bounds " + std::to_string(first_bound) + " to " +
                      std::to_string(last_bound) + " after the event, over all seeds:\n" +
-                     aligned(lines) + levels_text(options, cases, outcomes);
+                     aligned(lines) + levels_text(options, cases, outcomes) +
+                     troubles_text(options, outcomes);
   for (const DriftCase& drift : cases) {
     text += drift.name + ": " + drift.description + "\n";
   }
@@ -193,9 +213,11 @@ std::string to_json(const DriftOptions& options,
                    {"flights", one.flights},
                    {"succeeded", one.succeeded},
                    {"collisions", one.collisions},
+                   {"policy_faults", one.trouble.faults},
+                   {"policy_trouble", one.trouble.why},
                    {"energy_mean_j", one.energy_j / static_cast<double>(one.flights)}});
   }
-  return all.dump(2) + "\n";
+  return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 int show(const DriftOptions& options,
@@ -218,8 +240,8 @@ int drift(const DriftOptions& options) {
   if (!seeds) {
     return refuse({seeds.error()});
   }
-  if (const Status distinct = check_distinct(options.policies); !distinct) {
-    return refuse({distinct.error()});
+  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
+    return refuse({contest.error()});
   }
   const std::vector<DriftCase> cases = drift_cases(options.at_s);
   auto planned = plan(options, cases, *seeds);
@@ -227,6 +249,7 @@ int drift(const DriftOptions& options) {
     return refuse(*errors);
   }
   const DriftEntries& entries = std::get<DriftEntries>(planned);
+  note_overruled(entries);
   const auto claimed =
       ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
   if (!claimed) {

@@ -2,6 +2,8 @@
 
 #include "flight_batch.h"
 
+#include "flyball/scenario/overruled_settings.h"
+
 #include "children.h"
 #include <algorithm>
 #include <map>
@@ -62,6 +64,7 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
                                                             const std::vector<Override>& varied) {
   std::vector<Override> overrides = of_set(options.settings);
   overrides.insert(overrides.end(), varied.begin(), varied.end());
+  const std::vector<Override> given = overrides;
   overrides.push_back({"governor.policy=" + policy, "--policies"});
   overrides.push_back({"seed=" + std::to_string(seed), "--seeds"});
   auto loaded = load_overridden_scenario(options.scenario, overrides, options.plugins);
@@ -71,6 +74,7 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
   PlannedFlight flight;
   const auto step_s = comparison_step(std::get<LoadedScenario>(loaded));
   flight.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
+  flight.overruled = overruled_settings(flight.scenario, given);
   flight.folder = run_folder(folder.empty() ? comparison_folder(options, flight.scenario) : folder,
                              policy, seed);
   flight.arguments = {
@@ -126,7 +130,23 @@ std::optional<int> unfinished(const Flown& flown) {
   return std::nullopt;
 }
 
-Status check_distinct(const std::vector<std::string>& policies) {
+Status check_settings(const FlightOptions& options, const std::string& policy_option) {
+  for (const std::string& setting : options.settings) {
+    std::string key = setting.substr(0, setting.find('='));
+    key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
+    if (key == "seed" || key == "governor.policy") {
+      return Error{ErrorCode::invalid_input, "--set " + setting +
+                                                 " has an option of its own; give " +
+                                                 (key == "seed" ? "--seeds" : policy_option)};
+    }
+  }
+  return Done{};
+}
+
+Status check_contest(const FlightOptions& options, const std::vector<std::string>& policies) {
+  if (const Status settings = check_settings(options); !settings) {
+    return settings.error();
+  }
   std::map<std::string, std::string> by_folder;
   for (const std::string& policy : policies) {
     const auto [other, is_new] = by_folder.emplace(run_folder("", policy, 0), policy);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,6 +24,7 @@ struct PlannedFlight {
   Scenario scenario{};
   std::string folder{};  ///< Its record goes there.
   std::vector<std::string> arguments{};
+  std::vector<std::string> overruled{};  ///< Settings that change nothing, each as a sentence.
 };
 
 /// Reads and checks the scenario with this policy and seed; nothing flies yet.
@@ -33,6 +35,19 @@ struct PlannedFlight {
     std::uint64_t seed,
     const std::string& folder,
     const std::vector<Override>& varied = {});
+
+/// Says once of each setting that the policy overrules that it changes nothing.
+template <class Flight>
+void note_overruled(const std::vector<Flight>& flights) {
+  std::set<std::string> told;
+  for (const PlannedFlight& flight : flights) {
+    for (const std::string& sentence : flight.overruled) {
+      if (told.insert(sentence).second) {
+        note("flyball: " + sentence);
+      }
+    }
+  }
+}
 
 /// `two_level seed 7`
 [[nodiscard]] std::string name_of(const PlannedFlight& flight);
@@ -51,7 +66,14 @@ struct Flown {
 /// Says why not all flights were flown, and with what the command then ends. Empty: all were.
 [[nodiscard]] std::optional<int> unfinished(const Flown& flown);
 
-/// Two policies of one name (files in different folders) would write over each other's flights.
-[[nodiscard]] Status check_distinct(const std::vector<std::string>& policies);
+/// Seeds and policies of many missions come from options of their own, which `--set` would lose to.
+/// @param policy_option  `--policies`, by which this command names policies.
+[[nodiscard]] Status check_settings(const FlightOptions& options,
+                                    const std::string& policy_option = "--policies");
+
+/// Also of the policies: two of one name (files in different folders) would write over each other's
+/// flights.
+[[nodiscard]] Status check_contest(const FlightOptions& options,
+                                   const std::vector<std::string>& policies);
 
 }  // namespace flyball

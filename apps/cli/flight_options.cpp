@@ -58,6 +58,20 @@ void refuse_nan(CLI::Option& option) {
                               ""});
 }
 
+CLI::Option& add_names(CLI::App& command,
+                       const std::string& option,
+                       std::vector<std::string>& names,
+                       const std::string& description) {
+  CLI::Option& added = *command.add_option(option, names, description)->delimiter(',');
+  added.type_name("A,B,C");
+  refuse_empty(added);
+  return *added.transform(CLI::Validator{[](std::string& value) {  // Comes before the other check.
+                                           CLI::detail::trim(value);
+                                           return std::string{};
+                                         },
+                                         ""});
+}
+
 void add_output(CLI::App& command, FlightOptions& options) {
   refuse_empty(
       *command.add_option("--out", options.out, "folder for the record (default: under flights/)")
@@ -66,14 +80,10 @@ void add_output(CLI::App& command, FlightOptions& options) {
 }
 
 void add_contest(CLI::App& command, std::vector<std::string>& policies, std::string& seeds) {
-  refuse_empty(
-      *command
-           .add_option("--policies", policies,
-                       "names from `flyball list policies`, or files; the others are compared with "
-                       "the first one")
-           ->delimiter(',')
-           ->required()
-           ->type_name("A,B,C"));
+  add_names(command, "--policies", policies,
+            "names from `flyball list policies`, or files; the others are compared with the first "
+            "one")
+      .required();
   command
       .add_option("--seeds", seeds,
                   "as 1..10, 3 or 1,4,9; one flight of each policy for each; a seed draws world, "

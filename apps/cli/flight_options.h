@@ -33,6 +33,12 @@ void add_scenario(CLI::App& command, FlightOptions& options);
 void refuse_empty(CLI::Option& option);
 /// `nan`, which CLI11's ranges let through.
 void refuse_nan(CLI::Option& option);
+/// An option that takes names with commas between them. Spaces around a name are
+/// no part of it, and no name is empty.
+CLI::Option& add_names(CLI::App& command,
+                       const std::string& option,
+                       std::vector<std::string>& names,
+                       const std::string& description);
 /// Adds `--out` and `--json`.
 void add_output(CLI::App& command, FlightOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "claimed_folder.h"
 #include "commands.h"
+#include "flight_batch.h"
 #include "race.h"
 #include "seed_list.h"
 #include <algorithm>
@@ -63,13 +64,22 @@ int show(const TuneOptions& options, const Race& race, const std::vector<Candida
     print(to_json(stem, options.policy, ranked) + "\n");
     note("preset: " + path);
   } else {
-    print(to_text(ranked) + "preset: " + path + "\n");
+    print(to_text(options.policy, ranked) + "preset: " + path + "\n");
   }
   const bool flies = ranked.front().failures() == 0;
   if (!flies) {
     note("no setting flew every seed; the best one is written all the same");
   }
   return flies ? exit_success : exit_mission_failed;
+}
+
+/// A preset is found by its ending: under another one, no command would take it.
+Status check_preset(const std::string& path) {
+  if (std::filesystem::path{path}.extension() != ".toml") {
+    return Error{ErrorCode::invalid_input,
+                 "--preset " + path + " must end in .toml, or no policy can be read from it"};
+  }
+  return check_place(path);
 }
 
 /// A setting that was tuned on the seeds that it is tested with proves nothing.
@@ -86,23 +96,31 @@ std::optional<Error> find_shared_seed(const std::vector<std::uint64_t>& training
   return std::nullopt;
 }
 
-int tune(const TuneOptions& options) {
-  const auto seeds = read_seeds(options.seeds);
+/// The seeds to train on, where all options but `--try` and `--policy` are sound.
+Result<std::vector<std::uint64_t>> training_seeds(const TuneOptions& options) {
+  auto seeds = read_seeds(options.seeds);
   const auto test_seeds = read_seeds(options.test_seeds, "--test-seeds");
   if (!seeds || !test_seeds) {
-    return refuse({seeds ? test_seeds.error() : seeds.error()});
+    return seeds ? test_seeds.error() : seeds.error();
   }
   if (const auto shared = find_shared_seed(*seeds, *test_seeds)) {
-    return refuse({*shared});
+    return *shared;
+  }
+  if (const Status settings = check_settings(options.flight, "--policy"); !settings) {
+    return settings.error();
+  }
+  const Status preset = options.preset.empty() ? Status{Done{}} : check_preset(options.preset);
+  return preset ? std::move(seeds) : Result<std::vector<std::uint64_t>>{preset.error()};
+}
+
+int tune(const TuneOptions& options) {
+  const auto seeds = training_seeds(options);
+  if (!seeds) {
+    return refuse({seeds.error()});
   }
   const auto tried = read_all_tried(options.tried);
   if (!tried) {
     return refuse({tried.error()});
-  }
-  if (!options.preset.empty()) {
-    if (const Status place = check_place(options.preset); !place) {
-      return refuse({place.error()});
-    }
   }
   auto policy = raced_policy(options.policy);
   if (!policy) {

@@ -32,9 +32,7 @@ ComparisonRow counted(const Flights& flights) {
   row.policy = flights.front()->policy;
   row.n = static_cast<int>(flights.size());
   for (const Summary* flight : flights) {
-    row.decisions += flight->decisions;
-    row.policy_faults += flight->policy_faults;
-    row.policy_trouble = row.policy_trouble.empty() ? flight->policy_trouble : row.policy_trouble;
+    row.trouble.add(*flight);
     if (has_succeeded(*flight)) {
       ++row.succeeded;
       continue;
@@ -91,13 +89,16 @@ Json to_json(const ComparisonRow& row) {
           {"succeeded", row.succeeded},
           {"collisions", row.collisions},
           {"failures", Json(row.failures)},
-          {"policy_faults", row.policy_faults},
-          {"policy_trouble", row.policy_trouble},
+          {"policy_faults", row.trouble.faults},
+          {"policy_trouble", row.trouble.why},
           {"mission_time_s", to_json(row.mission_time_s)},
           {"energy_total_j", to_json(row.energy_total_j)},
           {"battery_used_percent", to_json(row.battery_used_percent)},
           {"mean_speed_m_s", to_json(row.mean_speed_m_s)},
-          {"latency_p50_s", to_json(row.latency_p50_s)}};
+          {"latency_p50_s", to_json(row.latency_p50_s)},
+          {"pairs", row.pairs},
+          {"battery_ratio", to_json(row.battery_ratio)},
+          {"time_ratio", to_json(row.time_ratio)}};
 }
 
 }  // namespace

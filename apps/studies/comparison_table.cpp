@@ -77,11 +77,6 @@ std::string failures_text(const ComparisonRow& row) {
   });
 }
 
-std::string trouble_of(const ComparisonRow& row) {
-  const std::string text = trouble_text(row.policy_faults, row.decisions, row.policy_trouble);
-  return text.empty() ? "" : "policy " + row.policy + " " + text;
-}
-
 std::string meaning(const Comparison& comparison) {
   return "Median [95 % bootstrap interval] over succeeded flights only, seeds " +
          seeds_text(comparison.seeds) + "; failed flights are listed by failure. Ratios are to " +
@@ -98,7 +93,7 @@ std::string to_text(const Comparison& comparison) {
     if (!row.failures.empty()) {
       failed += row.policy + " failed: " + failures_text(row) + "\n";
     }
-    if (const std::string trouble = trouble_of(row); !trouble.empty()) {
+    if (const std::string trouble = row.trouble.text(row.policy); !trouble.empty()) {
       failed += trouble + "\n";
     }
   }
@@ -118,7 +113,7 @@ std::string to_html(const Comparison& comparison) {
       const Figure shown = figure(row, column);
       rows += "<td>" + shown.median + "<small>" + shown.interval + "</small></td>";
     }
-    if (const std::string trouble = trouble_of(row); !trouble.empty()) {
+    if (const std::string trouble = row.trouble.text(row.policy); !trouble.empty()) {
       troubles += "<p class=\"note\">" + html_text(trouble) + "</p>\n";
     }
   }

@@ -3,6 +3,7 @@
 #include "flyball/studies/tuning.h"
 
 #include "flyball/records/text_table.h"
+#include "flyball/studies/policy_trouble.h"
 #include "flyball/studies/statistics.h"
 
 #include <algorithm>
@@ -35,6 +36,21 @@ std::string quoted(const std::string& text) {
     safe += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
   }
   return '"' + safe + '"';
+}
+
+/// Whether the policy itself brought the vehicle to its goal.
+bool counts(const Summary& flight) {
+  return has_succeeded(flight) && flight.policy_faults == 0;
+}
+
+PolicyTrouble trouble_of(const std::vector<Candidate>& candidates) {
+  PolicyTrouble trouble;
+  for (const Candidate& candidate : candidates) {
+    for (const Summary& flight : candidate.flights) {
+      trouble.add(flight);
+    }
+  }
+  return trouble;
 }
 
 }  // namespace
@@ -80,14 +96,14 @@ Result<std::vector<TriedParameter>> read_all_tried(const std::vector<std::string
 }
 
 int Candidate::failures() const {
-  return static_cast<int>(flights.size() - static_cast<std::size_t>(std::count_if(
-                                               flights.begin(), flights.end(), has_succeeded)));
+  return static_cast<int>(flights.size()) -
+         static_cast<int>(std::count_if(flights.begin(), flights.end(), counts));
 }
 
 double Candidate::median_energy_j() const {
   std::vector<double> energies_j;
   for (const Summary& flight : flights) {
-    if (has_succeeded(flight)) {
+    if (counts(flight)) {
       energies_j.push_back(flight.energy_total_j());
     }
   }
@@ -98,7 +114,7 @@ double Candidate::mean_energy_j() const {
   double sum_j = 0.0;
   double count = 0.0;
   for (const Summary& flight : flights) {
-    if (has_succeeded(flight)) {
+    if (counts(flight)) {
       sum_j += flight.energy_total_j();
       count += 1.0;
     }
@@ -170,7 +186,7 @@ std::string parameters_text(const Candidate& candidate) {
   return text;
 }
 
-std::string to_text(const std::vector<Candidate>& ranked) {
+std::string to_text(const std::string& policy, const std::vector<Candidate>& ranked) {
   std::vector<std::vector<std::string>> lines{{"success", "energy kJ", "parameters"}};
   for (const Candidate& candidate : ranked) {
     const auto flown = static_cast<int>(candidate.flights.size());
@@ -179,7 +195,9 @@ std::string to_text(const std::vector<Candidate>& ranked) {
          candidate.failures() == flown ? "-" : rounded(candidate.mean_energy_j() * 1e-3, 2),
          parameters_text(candidate)});
   }
-  return aligned(lines);
+  const std::string trouble = trouble_of(ranked).text(policy);
+  return aligned(lines) +
+         (trouble.empty() ? "" : trouble + "\nSuch flights count as failed, whoever ended them.\n");
 }
 
 std::string to_json(const std::string& scenario,
@@ -193,6 +211,7 @@ std::string to_json(const std::string& scenario,
         {{"parameters", candidate.parameters},
          {"n", flown},
          {"succeeded", flown - candidate.failures()},
+         {"policy_faults", trouble_of({candidate}).faults},
          {"mean_energy_j",
           candidate.failures() == flown ? Json{nullptr} : Json(candidate.mean_energy_j())}});
   }

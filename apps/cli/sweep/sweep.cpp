@@ -68,8 +68,8 @@ std::variant<SweepRequest, std::vector<Error>> request_of(const SweepOptions& op
   if (!seeds) {
     errors.push_back(seeds.error());
   }
-  if (const Status distinct = check_distinct(options.policies); !distinct) {
-    errors.push_back(distinct.error());
+  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
+    errors.push_back(contest.error());
   }
   auto loaded =
       load_scenario(options.flight.scenario, options.flight.settings, options.flight.plugins);
@@ -144,6 +144,7 @@ int sweep(const SweepOptions& options) {
     return refuse(*errors);
   }
   auto& flights = std::get<std::vector<StoredFlight>>(planned);
+  note_overruled(flights);
   const Study study{request.batch, "sweep.db", task_command(request), pointers_to(flights)};
   const auto code = fly_study(study, options.study);
   return code ? *code : show(request, flights);

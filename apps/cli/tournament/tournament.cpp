@@ -194,6 +194,7 @@ int hold(const TournamentOptions& options,
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
+  note_overruled(std::get<TournamentFlights>(planned));
   const auto claimed = ClaimedFolder::claim(out_folder(options));
   if (!claimed) {
     return refuse({claimed.error()});
@@ -237,8 +238,8 @@ int hold_tournament(TournamentOptions options) {
     return refuse(
         {{ErrorCode::invalid_input, "no policy flies; give --policies A,B,C, or --ablate"}});
   }
-  if (const Status distinct = check_distinct(options.policies); !distinct) {
-    return refuse({distinct.error()});
+  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
+    return refuse({contest.error()});
   }
   Result<std::vector<PolicyPair>> pairs = read_pairs(options, *ablations);
   if (!pairs) {
@@ -254,17 +255,12 @@ void add_tournament(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "tournament", "flies policies over several worlds and seeds; continues where it was stopped");
   const auto options = std::make_shared<TournamentOptions>();  // Owners: the parser's callbacks.
-  refuse_empty(*command->add_option("--worlds", options->worlds, "scenarios, by name or file")
-                    ->delimiter(',')
-                    ->required()
-                    ->type_name("A,B,C"));
+  add_names(*command, "--worlds", options->worlds, "scenarios, by name or file").required();
   add_contest(*command, options->policies, options->seeds);
   add_jobs(*command, options->jobs);
-  refuse_empty(*command
-                    ->add_option("--pairs", options->pair_texts,
-                                 "pairs of policies to compare beside those with the first one")
-                    ->delimiter(',')
-                    ->type_name("A:B,C:D"));
+  add_names(*command, "--pairs", options->pair_texts,
+            "pairs of policies to compare beside those with the first one")
+      .type_name("A:B,C:D");
   command->add_option("--set", options->flight.settings, "changes one setting in every world")
       ->type_name("KEY=VALUE")
       ->expected(1)

@@ -9,7 +9,7 @@ namespace flyball {
 
 std::vector<std::pair<std::string, double>> figures_of(const Summary& s) {
   const auto share = [](std::uint64_t part, std::uint64_t all) {
-    return all == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all);
+    return 100.0 * static_cast<double>(part) / static_cast<double>(all);
   };
   std::vector<std::pair<std::string, double>> figures{
       {"mission_time_s", s.mission_time_s},
@@ -21,13 +21,16 @@ std::vector<std::pair<std::string, double>> figures_of(const Summary& s) {
       {"distance_m", s.distance_m},
       {"hover_time_s", s.hover_time_s},
       {"replans", static_cast<double>(s.replans)},
-      {"latency_p50_s", s.latency_p50_s},
-      {"latency_p95_s", s.latency_p95_s},
-      {"late_maps_percent", share(s.bound_overruns, s.maps)},
       {"deadline_misses", static_cast<double>(s.deadline_misses)},
       {"knob_changes", static_cast<double>(s.knob_changes)},
       {"throttle_events", static_cast<double>(s.throttle_events)},
-      {"min_clearance_m", s.min_clearance_m}};
+      {"min_clearance_m", s.min_clearance_m},
+      {"policy_faults", static_cast<double>(s.policy_faults)}};
+  if (s.maps > 0) {  // A flight without any map has no latency from sensor to command.
+    figures.emplace_back("latency_p50_s", s.latency_p50_s);
+    figures.emplace_back("latency_p95_s", s.latency_p95_s);
+    figures.emplace_back("late_maps_percent", share(s.bound_overruns, s.maps));
+  }
   for (const auto& [name, kernel] : s.kernels) {
     figures.emplace_back("kernel." + name + ".calls", static_cast<double>(kernel.calls));
     figures.emplace_back("kernel." + name + ".mean_ms", kernel.mission_ms_mean);

@@ -2,8 +2,12 @@
 
 #include "flyball/studies/sweep.h"
 
+#include "flyball/studies/policy_trouble.h"
+
+#include "scenario/scenario_fields.h"
 #include "studies/sweep/flight_figures.h"
 #include <algorithm>
+#include <charconv>
 #include <set>
 #include <utility>
 
@@ -35,6 +39,13 @@ class Nesting {
   char quote_{'\0'};
 };
 
+/// As a setting is read: spaces around a value are no part of it.
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 std::vector<std::string> split_values(const std::string& text) {
   std::vector<std::string> values(1);
   Nesting nesting;
@@ -46,7 +57,18 @@ std::vector<std::string> split_values(const std::string& text) {
       values.back().push_back(c);
     }
   }
+  for (std::string& value : values) {
+    value = trimmed(value);
+  }
   return values;
+}
+
+/// Two numbers may be one value in two spellings: 15 and 15.0.
+std::string spelled_alike(const std::string& value) {
+  double number = 0.0;
+  const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool is_number = failed == std::errc{} && end == value.data() + value.size();
+  return is_number ? toml_number(number) : value;
 }
 
 /// Each point once with each of the axis's values.
@@ -93,16 +115,17 @@ SweepCell cell_of(const Sweep& sweep,
 
 Result<SweepAxis> read_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  const std::string key = equals == std::string::npos ? "" : trimmed(text.substr(0, equals));
+  if (key.empty()) {
     return wrong(text, "names no setting");
   }
-  SweepAxis axis{text.substr(0, equals), split_values(text.substr(equals + 1))};
+  SweepAxis axis{key, split_values(text.substr(equals + 1))};
   std::set<std::string> seen;
   for (const std::string& value : axis.values) {
     if (value.empty()) {
       return wrong(text, "has an empty value");
     }
-    if (!seen.insert(value).second) {
+    if (!seen.insert(spelled_alike(value)).second) {
       return wrong(text, "has the value " + value + " twice");
     }
   }
@@ -128,6 +151,22 @@ std::vector<SweepPoint> points_of(const std::vector<SweepAxis>& axes,
     points.insert(points.end(), of_policy.begin(), of_policy.end());
   }
   return points;
+}
+
+std::vector<std::string> troubles_of(const Sweep& sweep) {
+  std::vector<std::string> sentences;
+  for (const std::string& policy : sweep.plan.policies) {
+    PolicyTrouble trouble;
+    for (const SweepFlight& flight : sweep.flights) {
+      if (sweep.cells[flight.point].point.policy == policy) {
+        trouble.add(flight.summary);
+      }
+    }
+    if (std::string sentence = trouble.text(policy); !sentence.empty()) {
+      sentences.push_back(std::move(sentence));
+    }
+  }
+  return sentences;
 }
 
 Sweep sweep_of(const SweepPlan& plan,

@@ -17,7 +17,7 @@ namespace {
 /// What a plot shows of a cell.
 struct Shown {
   std::string title;
-  bool is_percentage{};                               ///< Then the colours reach from 0 to 100.
+  bool is_percentage{};                               ///< Then colours, axes reach from 0 to 100.
   std::vector<std::optional<MedianInterval>> values;  ///< One for each cell of the sweep.
 };
 
@@ -75,7 +75,7 @@ std::string group_name(const Sweep& sweep, const SweepPoint& point) {
 
 std::string lines_of(const Sweep& sweep, const Shown& shown) {
   const SweepAxis& axis = sweep.plan.axes.front();
-  LinePlot plot{shown.title, axis.key, axis.values, {}};
+  LinePlot plot{shown.title, axis.key, axis.values, {}, shown.is_percentage};
   for (std::size_t from = 0; from < sweep.cells.size(); from += axis.values.size()) {
     const auto first = shown.values.begin() + static_cast<std::ptrdiff_t>(from);
     plot.lines.push_back({sweep.cells[from].point.policy,
@@ -165,6 +165,9 @@ std::string sweep_page(const Sweep& sweep) {
   if (!same.empty()) {
     page +=
         "<p class=\"note\">Medians that are the same in every cell: " + html_text(same) + ".</p>\n";
+  }
+  for (const std::string& sentence : troubles_of(sweep)) {
+    page += "<p class=\"note\">" + html_text(sentence) + "</p>\n";
   }
   return page + commands_html(sweep) +
          page_end(

@@ -73,8 +73,12 @@ std::string to_text(const Sweep& sweep) {
     line.push_back(failures_text(cell));
     lines.push_back(std::move(line));
   }
+  std::string troubles;
+  for (const std::string& sentence : troubles_of(sweep)) {
+    troubles += sentence + "\n";
+  }
   return sweep.plan.scenario + ", seeds " + seeds_text(sweep.plan.seeds) + "\n" + aligned(lines) +
-         "Medians with 95 % bootstrap intervals over succeeded flights.\n";
+         troubles + "Medians with 95 % bootstrap intervals over succeeded flights.\n";
 }
 
 std::string to_json(const Sweep& sweep) {

@@ -80,7 +80,10 @@ TEST(Comparison, json_has_exactly_the_documented_keys) {
   EXPECT_EQ(keys(json), "scenario seeds rows ");
   EXPECT_EQ(keys(json["rows"][0]),
             "policy n succeeded collisions failures policy_faults policy_trouble mission_time_s "
-            "energy_total_j battery_used_percent mean_speed_m_s latency_p50_s ");
+            "energy_total_j battery_used_percent mean_speed_m_s latency_p50_s pairs battery_ratio "
+            "time_ratio ");
+  EXPECT_EQ(json["rows"][1]["pairs"], made_comparison().rows[1].pairs);
+  EXPECT_EQ(json["rows"][1]["time_ratio"]["median"], made_comparison().rows[1].time_ratio->median);
   EXPECT_EQ(keys(json["rows"][0]["latency_p50_s"]), "median lo hi ");
   EXPECT_EQ(json["rows"][1]["failures"]["no_plan"], 1);
 }

@@ -31,6 +31,7 @@ Candidate flown(std::initializer_list<double> energies_j) {
     candidate.flights.push_back(made_summary("a", candidate.flights.size()));
     candidate.flights.back().energy_rotor_j = energy_j;
     candidate.flights.back().energy_computer_j = 0.0;
+    candidate.flights.back().policy_faults = 0;
     if (energy_j == 0.0) {
       candidate.flights.back().status = MissionStatus::failed;
     }

@@ -28,11 +28,16 @@ TEST(Sweep, reads_a_setting_and_its_values) {
   EXPECT_EQ(axis_of(R"(name="a,b",'c,"d')").values,
             (std::vector<std::string>{R"("a,b")", R"('c,"d')"}));
   EXPECT_EQ(axis_of("kernels.mapper=octomap").values.size(), 1U);
+  const SweepAxis spaced = axis_of(" map.range_m = 5, 10.5 ");
+  EXPECT_EQ(spaced.key, "map.range_m");
+  EXPECT_EQ(spaced.values, (std::vector<std::string>{"5", "10.5"}));
 }
 
 TEST(Sweep, refuses_what_names_no_values) {
-  for (const char* text : {"", "=1,2", "map.range_m", "map.range_m=", "map.range_m=1,,2",
-                           "map.range_m=1,2,", "map.range_m=1,2,1"}) {
+  for (const char* text :
+       {"", "=1,2", "map.range_m", "map.range_m=", "map.range_m=1,,2", "map.range_m=1,2,",
+        "map.range_m=1,2,1", "map.range_m=1, 1", "map.range_m=15,15.0", "map.range_m=0.5,5e-1",
+        "map.range_m=1, ", " =1"}) {
     const auto axis = read_axis(text);
     ASSERT_FALSE(axis) << text;
     EXPECT_EQ(axis.error().code, ErrorCode::invalid_input);
@@ -72,6 +77,17 @@ Sweep made_sweep(std::vector<SweepAxis> axes = {{"a", {"1", "2"}}, {"b,c", {"\"x
     }
   }
   return sweep_of(plan, commands, flights);
+}
+
+TEST(Sweep, names_a_policy_that_was_replaced) {
+  const std::string sentence = "policy fixed was replaced by safe settings in 80 of 3200 decisions";
+  EXPECT_NE(to_text(made_sweep()).find(sentence), std::string::npos) << to_text(made_sweep());
+  EXPECT_NE(sweep_page(made_sweep()).find(sentence), std::string::npos);
+  Sweep sound = made_sweep();
+  for (SweepFlight& flight : sound.flights) {
+    flight.summary.policy_faults = 0;
+  }
+  EXPECT_TRUE(troubles_of(sound).empty());
 }
 
 TEST(Sweep, a_cell_has_the_medians_of_the_flights_that_succeed) {

@@ -18,10 +18,12 @@ Candidate flown(std::initializer_list<double> energies_j, int failures = 0) {
     candidate.flights.push_back(made_summary("a", candidate.flights.size()));
     candidate.flights.back().energy_rotor_j = energy_j;
     candidate.flights.back().energy_computer_j = 0.0;
+    candidate.flights.back().policy_faults = 0;
   }
   for (int i = 0; i < failures; ++i) {
     candidate.flights.push_back(made_summary("a", candidate.flights.size()));
     candidate.flights.back().status = MissionStatus::failed;
+    candidate.flights.back().policy_faults = 0;
   }
   return candidate;
 }
@@ -62,6 +64,23 @@ TEST(Tuning, success_comes_before_energy) {
   EXPECT_FALSE(is_better(flown({2e3}), flown({2e3})));
 }
 
+TEST(Tuning, a_policy_that_was_replaced_has_failed) {
+  Candidate replaced = flown({1e3, 1e3});
+  replaced.flights[1].policy_faults = 400;
+  EXPECT_EQ(replaced.failures(), 1);
+  EXPECT_TRUE(is_better(flown({9e3, 9e3}), replaced));
+  replaced.flights[1].energy_rotor_j = 5e3;
+  EXPECT_EQ(replaced.mean_energy_j(), 1e3) << "what safe settings took says nothing";
+  EXPECT_EQ(replaced.median_energy_j(), 1e3);
+  const std::string text = to_text("bad", {flown({9e3, 9e3}), replaced});
+  EXPECT_NE(text.find("1/2"), std::string::npos) << text;
+  EXPECT_NE(text.find("policy bad was replaced by safe settings in 400 of 1600 decisions"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(to_json("s", "bad", {replaced}).find("\"policy_faults\": 400"), std::string::npos);
+  EXPECT_EQ(to_text("good", {flown({9e3})}).find("policy"), std::string::npos);
+}
+
 TEST(Tuning, halves_the_candidates_while_the_seeds_double) {
   const auto rounds = tuning_rounds(12, 8);
   ASSERT_EQ(rounds.size(), 3U);
@@ -90,7 +109,7 @@ TEST(Tuning, writes_a_preset_that_reads_back) {
 }
 
 TEST(Tuning, shows_what_never_succeeded_without_a_figure) {
-  const std::string text = to_text({flown({2e3, 4e3}), flown({}, 2)});
+  const std::string text = to_text("fixed", {flown({2e3, 4e3}), flown({}, 2)});
   EXPECT_NE(text.find("3.00"), std::string::npos) << text;
   EXPECT_NE(text.find("0/2"), std::string::npos) << text;
   EXPECT_NE(to_json("s", "fixed", {flown({}, 2)}).find("null"), std::string::npos);

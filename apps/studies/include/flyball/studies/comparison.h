@@ -5,6 +5,7 @@
 /// Policies side by side over the same seeds.
 
 #include "flyball/records/summary.h"
+#include "flyball/studies/policy_trouble.h"
 #include "flyball/studies/statistics.h"
 
 #include <cstdint>
@@ -22,9 +23,7 @@ struct ComparisonRow {
   int succeeded{};
   int collisions{};
   std::map<std::string, int> failures{};
-  std::uint64_t decisions{};      ///< In all its flights.
-  std::uint64_t policy_faults{};  ///< Decisions in which safe settings replaced the policy's.
-  std::string policy_trouble{};   ///< Reason of the first of these.
+  PolicyTrouble trouble{};
   std::optional<MedianInterval> mission_time_s{};
   std::optional<MedianInterval> energy_total_j{};
   std::optional<MedianInterval> battery_used_percent{};

@@ -75,6 +75,8 @@ struct Sweep {
                              const std::vector<std::string>& commands,
                              std::vector<SweepFlight> flights);
 
+/// One sentence for each policy that failed in flight and was replaced by safe settings.
+[[nodiscard]] std::vector<std::string> troubles_of(const Sweep& sweep);
 /// A table for a terminal: a row for each point, with the figures that people ask for first.
 [[nodiscard]] std::string to_text(const Sweep& sweep);
 [[nodiscard]] std::string to_json(const Sweep& sweep);

@@ -35,8 +35,10 @@ struct Candidate {
   std::map<std::string, double> parameters{};
   std::vector<Summary> flights{};
 
+  /// Also flights that safe settings brought home, because the policy had failed: they say nothing
+  /// of the parameters.
   [[nodiscard]] int failures() const;
-  /// Over succeeded flights; 0 without one.
+  /// Over the other flights; 0 without one.
   [[nodiscard]] double mean_energy_j() const;
   /// The same.
   [[nodiscard]] double median_energy_j() const;
@@ -68,8 +70,8 @@ struct TuningRound {
 /// `range_m=7 resolution_m=0.15`
 [[nodiscard]] std::string parameters_text(const Candidate& candidate);
 
-/// The candidates, best first, as a table for a terminal.
-[[nodiscard]] std::string to_text(const std::vector<Candidate>& ranked);
+/// The candidates, best first, as a table for a terminal; below it whether the policy failed.
+[[nodiscard]] std::string to_text(const std::string& policy, const std::vector<Candidate>& ranked);
 [[nodiscard]] std::string to_json(const std::string& scenario,
                                   const std::string& policy,
                                   const std::vector<Candidate>& ranked);

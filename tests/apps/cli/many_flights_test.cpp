@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// test-label: closed_loop
+
+#include "flyball_program.h"
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+/// Flights of a few seconds that the host flies in less than one.
+constexpr const char* few_metres =
+    " --set world.generator=empty --set name=short --set world.goal_distance_m=5 --set "
+    "camera.width_px=32 --set camera.height_px=18 --out o ";
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(ManyFlights, take_seeds_and_policies_from_their_own_options_only) {
+  const FlyballProgram flyball;
+  const std::string fixed = " delivery_forest --policies fixed_fine";
+  for (const std::string& command :
+       {"compare" + fixed, "sweep" + fixed + " --over map.range_m=5,7", "drift" + fixed,
+        std::string{"tournament --worlds delivery_forest --policies fixed_fine"},
+        std::string{"tune delivery_forest --try resolution_m=0.3"}}) {
+    const auto seed = flyball.run(command + " --set seed=7");
+    EXPECT_EQ(seed.exit_code, 2) << command;
+    EXPECT_TRUE(has(seed.errors, "--set seed=7 has an option of its own; give --seeds"))
+        << seed.errors;
+    const auto policy = flyball.run(command + " --set governor.policy=two_level");
+    EXPECT_EQ(policy.exit_code, 2) << command;
+    EXPECT_TRUE(has(policy.errors, "give --polic")) << policy.errors;
+    EXPECT_TRUE(flyball.place.is_empty()) << command;
+  }
+}
+
+TEST(ManyFlights, know_a_name_by_itself_without_the_space_before_it) {
+  const FlyballProgram flyball;
+  for (const char* arguments :
+       {"compare delivery_forest --policies 'two_level, two_level'",
+        "tournament --worlds delivery_forest --policies 'two_level, two_level '"}) {
+    const auto twice = flyball.run(arguments);
+    EXPECT_EQ(twice.exit_code, 2);
+    EXPECT_TRUE(has(twice.errors, "--policies has \"two_level\" twice")) << twice.errors;
+  }
+  const auto worlds =
+      flyball.run("tournament --worlds 'delivery_forest, delivery_forest' --policies two_level");
+  EXPECT_TRUE(has(worlds.errors, "--worlds has two whose name is")) << worlds.errors;
+  const auto pairs = flyball.run(
+      "tournament --worlds delivery_forest --policies 'fixed_fine, two_level, fixed_coarse' "
+      "--pairs 'two_level:fixed_fine, two_level:nosuch'");
+  EXPECT_TRUE(has(pairs.errors, "--pairs has \"two_level:nosuch\"")) << pairs.errors;
+  const auto blank = flyball.run("compare delivery_forest --policies 'two_level, '");
+  EXPECT_TRUE(has(blank.errors, "--policies: is empty")) << blank.errors;
+}
+
+TEST(ManyFlights, say_which_setting_their_policy_overrules) {
+  const FlyballProgram flyball;
+  const std::string sentence =
+      "policy fixed_fine sets map.resolution_m itself, so --over map.resolution_m changes nothing; "
+      "policy fixed leaves it to the scenario\n";
+  const auto swept =
+      flyball.run("sweep delivery_forest" + std::string{few_metres} +
+                  "--seeds 1 --over map.resolution_m=0.15,0.3 --policies fixed_fine,fixed");
+  ASSERT_EQ(swept.exit_code, 0) << swept.errors;
+  EXPECT_TRUE(has(swept.errors, sentence)) << swept.errors;
+  EXPECT_FALSE(has(swept.errors, "policy fixed sets"));
+  const auto same = flyball.run("compare delivery_forest" + std::string{few_metres} +
+                                "--set map.resolution_m=0.15 --policies fixed_fine");
+  EXPECT_FALSE(has(same.errors, "changes nothing")) << "it is the policy's own";
+}
+
+TEST(ManyFlights, say_that_a_policy_failed_and_do_not_choose_it) {
+  const FlyballProgram flyball;
+  (void)flyball.place.file("bad.lua", "function decide(seen)\n  error('enough')\nend\n");
+  const std::string sentence = "policy ./bad.lua was replaced by safe settings in ";
+  const auto swept = flyball.run("sweep delivery_forest" + std::string{few_metres} +
+                                 "--seeds 1 --over vehicle.payload_kg=0.2 --policies ./bad.lua");
+  EXPECT_TRUE(has(swept.output, sentence)) << swept.output << swept.errors;
+  const auto drifted = flyball.run("drift delivery_forest" + std::string{few_metres} +
+                                   "--at 1 --policies ./bad.lua");
+  EXPECT_TRUE(has(drifted.output, sentence)) << drifted.output << drifted.errors;
+  const auto run = flyball.run(
+      "run delivery_forest --policy ./bad.lua --set "
+      "world.generator=empty --set world.goal_distance_m=5 --out r");
+  EXPECT_TRUE(has(flyball.place.content("r/report.html"), sentence)) << run.errors;
+  const auto asked = flyball.run("replay r --policy ./bad.lua");
+  EXPECT_TRUE(has(asked.output, sentence)) << asked.output << asked.errors;
+}
+
+TEST(ManyFlights, are_tuned_for_a_policy_that_flew_them_itself) {
+  const FlyballProgram flyball;
+  (void)flyball.place.file("some.lua", R"(
+    parameters = {
+      {name = "n", default = 1, min = 0, max = 9, description = "Fails at 2."},
+    }
+    local n
+    function start(given)
+      n = given.n
+    end
+    function decide(seen)
+      if n == 2 then
+        error("enough")
+      end
+      return {["map.resolution_m"] = 0.15}
+    end
+  )");
+  const auto tuned = flyball.run("tune delivery_forest" + std::string{few_metres} +
+                                 "--seeds 1001 --policy ./some.lua --try n=2,1");
+  EXPECT_EQ(tuned.exit_code, 0) << tuned.errors;
+  EXPECT_TRUE(has(tuned.output, "0/1      -          n=2")) << tuned.output;
+  EXPECT_TRUE(has(tuned.output, "policy ./some.lua was replaced by safe settings in "));
+  EXPECT_TRUE(has(flyball.place.content("o/tuned.toml"), "n = 1")) << "which is not the first";
+}
+
+}  // namespace
