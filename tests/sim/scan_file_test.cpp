@@ -127,5 +127,12 @@ TEST_F(ScanFile, that_is_a_folder_is_not_found) {
   EXPECT_EQ(read_scan(scratch.path()).error().code, ErrorCode::not_found);
 }
 
+TEST_F(ScanFile, that_the_system_does_not_open_is_not_called_missing) {
+  const std::string loop = scratch.path("loop.bt");
+  std::filesystem::create_symlink("loop.bt", loop);  // Root, too, may not read it.
+  EXPECT_EQ(read_scan(loop).error().message,
+            "cannot read map file \"" + loop + "\": Too many levels of symbolic links");
+}
+
 }  // namespace
 }  // namespace flyball

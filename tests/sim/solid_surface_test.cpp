@@ -114,6 +114,10 @@ TEST_F(MeshText, refuses_what_is_no_mesh) {
   const auto missing = read_mesh(scratch.path("none.obj"), {});
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+  std::filesystem::create_symlink("loop.obj", scratch.path("loop.obj"));
+  const auto barred = read_mesh(scratch.path("loop.obj"), {});
+  ASSERT_FALSE(barred);
+  EXPECT_EQ(barred.error().code, ErrorCode::unavailable) << barred.error().message;
   const auto text = read_mesh(write("text.obj", "hello\n"), {});
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().code, ErrorCode::invalid_input);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/scan_file.h"
 
+#include "world/missing_file.h"
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -167,7 +168,7 @@ Result<ScanGrid> read_scan(const std::string& path) {
   std::error_code failed;
   std::ifstream stream{path, std::ios::binary};
   if (!stream || !std::filesystem::is_regular_file(path, failed)) {
-    return Error{ErrorCode::not_found, "no map file \"" + path + "\""};
+    return missing_file("map file", path);
   }
   const ScanHeader header = read_header(stream);
   if (!header.is_octree) {

@@ -2,6 +2,7 @@
 #include "world/solid_surface.h"
 
 #include "world/import_process.h"
+#include "world/missing_file.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -88,7 +89,7 @@ Vec3 placed(const aiVector3D& v, double metres_per_unit, bool y_is_up) {
 Result<std::vector<Triangle>> read_triangles(const std::string& path, const MeshReading& reading) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed) || !std::ifstream{path}) {
-    return Error{ErrorCode::not_found, "no mesh file \"" + path + "\""};
+    return missing_file("mesh file", path);
   }
   const auto bytes =
       read_in_process(import_limits(std::filesystem::file_size(path, failed), reading.processor_s),
