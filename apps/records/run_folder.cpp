@@ -134,7 +134,7 @@ std::string summary_table(const Summary& summary) {
                            {"battery %", rounded(summary.battery_used_percent(), 1)},
                            {"speed m/s", rounded(summary.mean_speed_m_s, 2)},
                            {"latency ms", rounded(summary.latency_p50_s * 1e3, 0)},
-                           {"nearest obstacle m", rounded(summary.min_clearance_m, 2)}};
+                           {"nearest obstacle m", clearance_text(summary)}};
   cells.insert(cells.end(), flight.begin(), flight.end());
   for (const auto& [name, value] : quality) {
     cells.emplace_back(html_text(title_of(name)), rounded(value, 1));

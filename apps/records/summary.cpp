@@ -2,8 +2,11 @@
 
 #include "flyball/records/summary.h"
 
+#include "flyball/records/text_table.h"
+
 #include "records/json_counts.h"
 #include "records/summary_reader.h"
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -137,6 +140,11 @@ void read_computing(const Json& json, Summary& summary) {
 }
 
 }  // namespace
+
+std::string clearance_text(const Summary& summary) {
+  const double least_m = std::min(summary.min_clearance_m, farthest_clearance_m);
+  return rounded(least_m, 2) + (least_m < farthest_clearance_m ? "" : " or more");
+}
 
 std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {
   return faults == 0 ? ""

@@ -2,6 +2,7 @@
 #include "simulation/judging/referee.h"
 
 #include "flyball/flight/exploration/exploration_flight.h"
+#include "flyball/records/summary.h"
 
 #include "simulation/judging/map_judge.h"
 #include "simulation/judging/picture_judge.h"
@@ -16,7 +17,6 @@ using namespace std::chrono_literals;
 constexpr auto check_period = 10ms;  // At 15 m/s, the vehicle flies 15 cm between two checks.
 constexpr auto look_period = 1s;
 constexpr auto first_look = 100ms;  // A map that is being made is looked at a little later.
-constexpr double clearance_limit_m = 5.0;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Referee::Referee(MissionLink& link, const RefereedFlight& flight)
       queue_{flight.queue},
       loop_{flight.loop},
       clearance_{flight.things.world},
-      min_clearance_m_{clearance_limit_m} {
+      min_clearance_m_{farthest_clearance_m} {
   appoint(flight.graph, flight.executor, flight.mapper);
 }
 
@@ -82,7 +82,7 @@ void Referee::check() {
   const Vec3& p_WB = loop_.vehicle().state().X_WB.translation();
   const Cylinder body = things_.airframe.body();
   const double still_m =
-      clearance_.distance_m(p_WB, body, clearance_limit_m, loop_.may_touch_ground());
+      clearance_.distance_m(p_WB, body, farthest_clearance_m, loop_.may_touch_ground());
   const double moving_m = clearance_m(things_.world.movers, now, p_WB, body, still_m);
   const double distance_m = distance_to_people_m(things_.world.people, now, p_WB, body, moving_m);
   if (loop_.is_airborne()) {

@@ -151,5 +151,12 @@ TEST(Summary, a_count_that_is_none_is_named) {
   EXPECT_EQ(kept.policy, "kept");
 }
 
+TEST(Summary, says_that_no_obstacle_was_near) {
+  Summary summary = made_summary("a", 1);
+  EXPECT_EQ(clearance_text(summary), "0.44");
+  summary.min_clearance_m = farthest_clearance_m;
+  EXPECT_EQ(clearance_text(summary), "5.00 or more");
+}
+
 }  // namespace
 }  // namespace flyball

@@ -15,6 +15,9 @@
 
 namespace flyball {
 
+/// Obstacles are looked for up to here: a clearance of so much means so much or more.
+constexpr double farthest_clearance_m = 5.0;
+
 struct KernelStatistics {
   std::uint64_t calls{};
   double mission_ms_mean{};
@@ -55,7 +58,7 @@ struct Summary {
   double decision_host_us_p99{};
   std::uint64_t throttle_events{};    ///< How often heat lowered the granted clock.
   std::optional<double> hottest_c{};  ///< Of the computer; empty without a thermal model.
-  double min_clearance_m{};
+  double min_clearance_m{};           ///< Up to `farthest_clearance_m`.
   std::map<std::string, KernelStatistics> kernels{};
   /// The workload's own quality of flight; the unit is the name's ending.
   std::map<std::string, double> quality{};
@@ -78,6 +81,8 @@ struct Summary {
 /// Flat, but for `energy_j {rotor, computer, total}`, `latency_s {p50, p95, max}` and `kernels
 /// {name: {...}}`, `quality {name: number}` and `latency_bounds`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
+/// With two digits, `5.00 or more` where no obstacle was nearer.
+[[nodiscard]] std::string clearance_text(const Summary& summary);
 /// `was replaced by safe settings in 3 of 400 decisions (after some faults in a row it is not asked
 /// again): threw: no more`; empty where it never failed.
 [[nodiscard]] std::string trouble_text(std::uint64_t faults,
