@@ -29,6 +29,7 @@ std::variant<std::vector<NamedExperiment>, std::vector<Error>> chosen(
     const std::vector<std::string>& names) {
   const std::vector<NamedExperiment> all = all_experiments();
   std::vector<std::string> known;
+  known.reserve(all.size());
   for (const NamedExperiment& each : all) {
     known.push_back(each.name);
   }
