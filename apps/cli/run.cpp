@@ -5,6 +5,7 @@
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/scenario/override.h"
+#include "flyball/scenario/overruled_settings.h"
 #include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
 
@@ -15,6 +16,7 @@
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -58,7 +60,8 @@ std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
                         ? "-, it made no map"
                         : with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
                               with_unit(s.latency_p95_s * 1e3, 0, "ms")},
-      {"  nearest obstacle", with_unit(s.min_clearance_m, 2, "m")}};
+      {"  nearest obstacle", with_unit(std::min(s.min_clearance_m, farthest_clearance_m), 2, "m") +
+                                 (s.min_clearance_m < farthest_clearance_m ? "" : " or more")}};
   if (const std::string trouble = trouble_text(s.policy_faults, s.decisions, s.policy_trouble);
       !trouble.empty()) {
     lines.push_back({"  policy", trouble});
@@ -74,6 +77,7 @@ std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
   return lines;
 }
 
+/// @param folder  Of the record; empty: there is none.
 std::string result_text(const Summary& s, const std::string& folder) {
   const std::string end = s.failure == MissionFailure::none
                               ? to_string(s.status)
@@ -82,7 +86,9 @@ std::string result_text(const Summary& s, const std::string& folder) {
   lines.push_back({"  host time", with_unit(s.host_s, 1, "s") + ", " +
                                       with_unit(s.real_time_factor, 1, "times real time")});
   lines.push_back({"  trace hash", s.trace_hash + " (numerics " + s.numeric_fingerprint + ")"});
-  lines.push_back({"  record", folder});
+  if (!folder.empty()) {
+    lines.push_back({"  record", folder});
+  }
   return s.scenario + ", " + s.policy + ", seed " + std::to_string(s.seed) + ": " + end + "\n" +
          aligned(lines);
 }
@@ -192,6 +198,38 @@ Status keep_inputs(const RunOptions& options, const std::string& folder) {
   return Done{};
 }
 
+/// Nor may one thing that is written be another one.
+Status keep_outputs_apart(const RunOptions& options, const std::string& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> written;
+  for (const char* of_record : {"mission.toml", "summary.json", "trace.jsonl", "report.html"}) {
+    written.push_back(fs::weakly_canonical(fs::absolute(fs::path{folder} / of_record), ignored));
+  }
+  for (const std::string& output : {options.mcap, options.timeline, options.final_map}) {
+    const bool is_device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+    if (output.empty() || is_device) {
+      continue;
+    }
+    const fs::path place = fs::weakly_canonical(fs::absolute(output), ignored);
+    if (std::find(written.begin(), written.end(), place) != written.end()) {
+      return Error{ErrorCode::invalid_input,
+                   "\"" + output + "\" would be written twice; choose another place for it"};
+    }
+    written.push_back(place);
+  }
+  return Done{};
+}
+
+/// Of all that the flight reads and writes.
+Status check_places(const RunOptions& options, const std::string& folder) {
+  for (const Status& kept : {keep_inputs(options, folder), keep_outputs_apart(options, folder)}) {
+    if (!kept) {
+      return kept;
+    }
+  }
+  return options.timeline.empty() ? Done{} : check_place(options.timeline);
+}
+
 /// Ends the record, and says in the summary what is in it.
 Status close_record(OnboardRecord* record, Summary& summary) {
   if (record == nullptr) {
@@ -259,7 +297,7 @@ int fly_into(const std::string& folder,
   const Status recorded = close_record(onboard_record->get(), record->summary);
   const Status written = write_all(options, folder, scenario, *record, timeline);
   print(options.flight.json ? to_json(record->summary) + "\n"
-                            : result_text(record->summary, folder));
+                            : result_text(record->summary, written ? folder : ""));
   if (was_interrupted()) {
     note("interrupted; the record ends early: " + folder);
   }
@@ -283,13 +321,11 @@ int run(const RunOptions& options) {
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)
                                  : options.flight.out;
-  if (const Status kept = keep_inputs(options, folder); !kept) {
-    return refuse({kept.error()});
+  if (const Status possible = check_places(options, folder); !possible) {
+    return refuse({possible.error()});
   }
-  if (!options.timeline.empty()) {
-    if (const Status place = check_place(options.timeline); !place) {
-      return refuse({place.error()});
-    }
+  for (const std::string& sentence : overruled_settings(scenario, overrides_of(options))) {
+    note(sentence);
   }
   const auto platform = find_platform(scenario.platform.name);
   if (!platform) {

@@ -99,6 +99,18 @@ void run(SimulatedFlight& flight, const MissionHooks& hooks) {
   flight.loop->await_landing(hooks.stop);
 }
 
+/// What is known at take-off, and where what is forgotten goes.
+Status begin_map(Mapper& mapper, const MissionHooks& hooks) {
+  Status done = check_map_name(hooks.final_map);
+  if (done && !hooks.start_map.empty()) {
+    done = mapper.read(hooks.start_map);
+  }
+  if (done && !hooks.final_map.empty()) {
+    done = mapper.keep_forgotten(hooks.final_map + ".forgotten");
+  }
+  return done;
+}
+
 Result<std::unique_ptr<Workload>> named_workload(const Scenario& scenario) {
   auto workload = scenario.plugins.make<Workload>(scenario.mission.workload);
   if (!workload) {
@@ -166,17 +178,9 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (const Status real = check_depth_camera(scenario, *setup, hooks); !real) {
     return real.error();
   }
-  if (const Status named = check_map_name(hooks.final_map); !named) {
-    return named.error();
-  }
   Mapper& mapper = *setup->equipment.kernels.mapper;  // Stays where it is when it is handed on.
-  if (const Status read = hooks.start_map.empty() ? Done{} : mapper.read(hooks.start_map); !read) {
-    return read.error();
-  }
-  if (const Status kept =
-          hooks.final_map.empty() ? Done{} : mapper.keep_forgotten(hooks.final_map + ".forgotten");
-      !kept) {
-    return kept.error();
+  if (const Status begun_map = begin_map(mapper, hooks); !begun_map) {
+    return begun_map.error();
   }
   MissionRecord record;
   record.trace = std::make_shared<MemoryRecorder>();

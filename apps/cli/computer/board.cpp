@@ -40,6 +40,12 @@ int report(const BoardArguments& given) {
 
 int restore(const BoardArguments& given) {
   const auto system = linux_system(given.root);
+  std::error_code ignored;
+  if (given.run_folder != KeeperOptions{}.run_folder &&
+      !std::filesystem::exists(given.run_folder, ignored)) {
+    return refuse({{ErrorCode::not_found, "no session has left anything in \"" + given.run_folder +
+                                              "\"; leave out --run-folder for the usual place"}});
+  }
   const auto keeper = SettingsKeeper::open(*system, {given.run_folder, true});
   if (!keeper) {
     return refuse({keeper.error()});

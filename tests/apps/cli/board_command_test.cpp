@@ -57,6 +57,16 @@ TEST(BoardCommand, prints_the_setup_and_does_nothing) {
   EXPECT_NE(bare.errors.find("try: flyball board setup --print"), std::string::npos);
 }
 
+TEST(BoardCommand, refuses_to_restore_from_a_folder_in_which_nothing_was_left) {
+  const FlyballProgram flyball;
+  const std::string folder = flyball.place.path("typo");
+  const auto refused = flyball.run("board restore --run-folder '" + folder + "'");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("no session has left anything in"), std::string::npos)
+      << refused.errors;
+  EXPECT_TRUE(flyball.place.is_empty());
+}
+
 TEST(BoardCommand, restores_what_was_left) {
   const fake::Tree tree;
   fake::plant_pi5(tree);

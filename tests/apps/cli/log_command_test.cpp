@@ -48,6 +48,12 @@ TEST_F(LogCommand, refuses_a_place_where_no_record_can_be_made_before_it_flies) 
   EXPECT_TRUE(flyball.place.is_empty());
 }
 
+TEST_F(LogCommand, refuses_to_write_two_things_into_one_file) {
+  expect_refused(short_flight + "--timeline run/../run/summary.json", "would be written twice");
+  expect_refused(short_flight + "--timeline a --mcap ./a", "would be written twice");
+  EXPECT_TRUE(flyball.place.is_empty());
+}
+
 TEST_F(LogCommand, keeps_the_record_before_when_a_flight_is_refused) {
   (void)flyball.place.file("a.mcap", "of another flight");
   expect_refused(short_flight + "--mcap a.mcap --start-map missing.bt", "missing.bt");
