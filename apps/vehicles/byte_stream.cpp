@@ -7,6 +7,12 @@
 namespace flyball {
 
 Result<std::unique_ptr<ByteStream>> open_byte_stream(const std::string& address) {
+  const std::size_t slashes = address.find("://");
+  if (slashes != std::string::npos) {  // As others write it: udp://127.0.0.1:14540.
+    return Error{ErrorCode::invalid_input, "\"" + address + "\" is written with \"://\"; write \"" +
+                                               address.substr(0, slashes + 1) +
+                                               address.substr(slashes + 3) + "\""};
+  }
   const std::size_t first = address.find(':');
   const std::size_t last = address.rfind(':');
   if (first != std::string::npos && last > first + 1 && last + 1 < address.size()) {

@@ -68,7 +68,10 @@ void OffboardControl::listen(Duration now) {
   } else if (heard) {
     enter(Leg::requesting, now);
   } else if (waited(heard_within, now)) {
-    fail("no autopilot was heard within 15 s");
+    fail(std::string{"no autopilot was heard within 15 s: "} +
+         (has_heard_bytes_ ? "what came holds no HEARTBEAT of one; is it an autopilot's line, at "
+                             "its speed?"
+                           : "nothing came; does the autopilot send to this address?"));
   }
 }
 

@@ -60,6 +60,7 @@ void OffboardControl::ask(MavCommandLong command, std::string what, Duration now
 }
 
 void OffboardControl::hear(const std::uint8_t* bytes, std::size_t count, Duration now) {
+  has_heard_bytes_ = has_heard_bytes_ || count > 0;
   for (const MavlinkFrame& frame : reader_.read(bytes, count)) {
     telemetry_.hear(frame, now);
     if (!telemetry_.is_from_autopilot(frame)) {

@@ -123,6 +123,7 @@ class OffboardControl {
   Leg leg_{Leg::listening};
   Duration since_{};  ///< When the leg began.
   bool is_connected_{};
+  bool has_heard_bytes_{};
   bool has_refused_setpoint_{};
   bool is_landing_granted_{};
   std::size_t requested_{};  ///< How many of the messages.

@@ -132,6 +132,11 @@ TEST(ByteStream, refuses_hosts_that_are_not_this_computer_and_names_the_way_out)
   }
 }
 
+TEST(ByteStream, says_how_to_write_what_others_write_with_slashes) {
+  EXPECT_EQ(refusal("udp://127.0.0.1:14540"),
+            "\"udp://127.0.0.1:14540\" is written with \"://\"; write \"udp:127.0.0.1:14540\"");
+}
+
 TEST(ByteStream, says_what_is_wrong_with_an_address) {
   for (const char* address : {"", "udp", "udp:", "udp::14540", "udp:127.0.0.1:",
                               "tcp:127.0.0.1:5760", "/dev/ttyACM0", "serial:/dev/ttyACM0"}) {

@@ -21,7 +21,21 @@ TEST(OffboardConnection, says_that_nobody_was_heard) {
   kit::OffboardRig rig;
   rig.autopilot.be_silent(true);
   EXPECT_FALSE(rig.connect());
-  EXPECT_EQ(rig.control.failure(), "no autopilot was heard within 15 s");
+  EXPECT_EQ(rig.control.failure(),
+            "no autopilot was heard within 15 s: nothing came; does the autopilot send to this "
+            "address?");
+}
+
+TEST(OffboardConnection, says_that_what_came_was_no_autopilots) {
+  kit::OffboardRig rig;
+  rig.autopilot.be_silent(true);
+  rig.each_turn = [&rig] {
+    const std::uint8_t noise[] = {0xfd, 0x55, 0x00};
+    rig.control.hear(noise, sizeof noise, rig.now);
+  };
+  EXPECT_FALSE(rig.connect());
+  EXPECT_NE(rig.control.failure().find("holds no HEARTBEAT"), std::string::npos)
+      << rig.control.failure();
 }
 
 TEST(OffboardConnection, connects_through_a_late_first_answer_and_a_line_that_loses_and_doubles) {
