@@ -148,8 +148,7 @@ std::vector<ObservationField> flight_fields() {
       seconds<&O::latency>("latency_s", "From sensor to published map, of the newest map"),
       seconds<&O::latency_bound>(
           "latency_bound_s",
-          "Upper bound on a map's age (in the C library on a frame's latency), from which "
-          "the speed limit follows"),
+          "Upper bound on a map's age (in the C library: a frame's latency) for the safe speed"),
       field<&O::deadline_misses>("deadline_misses", "1",
                                  "Deadlines missed since the last decision"),
       field<&O::queue_drops>("queue_drops", "1", "Messages dropped since the last decision"),

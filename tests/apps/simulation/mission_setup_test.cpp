@@ -122,6 +122,23 @@ TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {
   EXPECT_TRUE(set_up(scenario).ok());
 }
 
+TEST(MissionSetup, refuses_a_place_that_is_larger_than_the_map_can_be) {
+  Scenario scenario;
+  scenario.world.generator = "empty";
+  scenario.world.parameters["goal_distance_m"] = 1000.0;
+  scenario.kernels.mapper = "flyball";
+  scenario.kernels.mapper_parameters["cost_of"] = std::string{"octomap"};
+  scenario.kernels.mapper_parameters["finest_m"] = 0.03;
+  scenario.map.resolution_m = 0.24;
+  const auto setup = set_up(scenario);
+  ASSERT_FALSE(setup);
+  EXPECT_EQ(setup.error().message.rfind("world \"empty\" reaches to (1020, 40) m, and", 0), 0U)
+      << setup.error().message;
+  EXPECT_NE(setup.error().message.find("larger cells"), std::string::npos);
+  scenario.world.parameters["goal_distance_m"] = 900.0;
+  EXPECT_TRUE(set_up(scenario));
+}
+
 TEST(MissionSetup, is_not_flown_with_a_planner_that_the_platform_has_no_price_for) {
   const ScratchFolder folder;
   Scenario scenario = kit::short_delivery();
