@@ -88,19 +88,19 @@ struct MavHeartbeat {
   }
 };
 
+/// Newer ones carry more sensors behind this, which nobody here looks at.
 struct MavSystemStatus {
-  static constexpr MavlinkKind kind{1, 43, 124};
+  static constexpr MavlinkKind kind{1, 31, 124};
   std::array<std::uint32_t, 3> unused_sensors{};
   std::uint16_t unused_load{};
   std::uint16_t battery_mv{mav_unknown_voltage};
   std::int16_t battery_ca{-1};  ///< Hundredths of amperes; -1: not measured.
   std::array<std::uint16_t, 6> unused_errors{};
   std::int8_t battery_percent{-1};  ///< -1: not known.
-  std::array<std::uint32_t, 3> unused_more_sensors{};
   template <class Fields>
   void visit(Fields&& field) {
     field(unused_sensors), field(unused_load), field(battery_mv), field(battery_ca);
-    field(unused_errors), field(battery_percent), field(unused_more_sensors);
+    field(unused_errors), field(battery_percent);
   }
 };
 
