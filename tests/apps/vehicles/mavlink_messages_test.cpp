@@ -22,6 +22,7 @@ void has_the_length_of_its_kind() {
 
 TEST(MavlinkMessages, have_the_lengths_that_they_say) {
   has_the_length_of_its_kind<MavHeartbeat>();
+  has_the_length_of_its_kind<MavSystemStatus>();
   has_the_length_of_its_kind<MavParamRequestRead>();
   has_the_length_of_its_kind<MavParamValue>();
   has_the_length_of_its_kind<MavAttitudeQuaternion>();
@@ -65,6 +66,22 @@ TEST(MavlinkMessages, results_have_names) {
   EXPECT_EQ(mavlink_result_name(2), "DENIED");
   EXPECT_EQ(mavlink_result_name(5), "IN_PROGRESS");
   EXPECT_EQ(mavlink_result_name(77), "result 77");
+}
+
+TEST(MavlinkMessages, reads_a_message_that_has_grown_since) {
+  MavSystemStatus status;
+  status.battery_mv = 22200;
+  status.battery_percent = 83;
+  std::vector<std::uint8_t> payload = mavlink_payload(status);
+  payload.insert(payload.end(), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});  // Three more fields.
+  const MavlinkKind grown{1, 43, 124};
+  const auto bytes = mavlink_bytes(grown, payload, 1, 1, 0);
+  MavlinkReader reader{kinds_from_autopilot()};
+  const auto frames = reader.read(bytes.data(), bytes.size());
+  ASSERT_EQ(frames.size(), 1U);
+  const auto heard = mavlink_message<MavSystemStatus>(frames.front());
+  EXPECT_EQ(heard.battery_mv, 22200);
+  EXPECT_EQ(heard.battery_percent, 83);
 }
 
 }  // namespace
