@@ -147,9 +147,7 @@ std::string troubles_text(const DriftOptions& options, const std::vector<Outcome
   for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
     PolicyTrouble all;
     for (std::size_t i = policy; i < outcomes.size(); i += options.policies.size()) {
-      all.decisions += outcomes[i].trouble.decisions;
-      all.faults += outcomes[i].trouble.faults;
-      all.why = all.why.empty() ? outcomes[i].trouble.why : all.why;
+      all.add(outcomes[i].trouble);
     }
     const std::string sentence = all.text(options.policies[policy]);
     text += sentence + (sentence.empty() ? "" : "\n");

@@ -24,9 +24,8 @@ struct GraphOptions {
 int graph(const GraphOptions& options) {
   const std::vector<std::string> known = workload_names(options.plugins);
   if (std::find(known.begin(), known.end(), options.workload) == known.end()) {
-    const std::string near = nearest_name(options.workload, known);
     return refuse({{ErrorCode::not_found, "no workload \"" + options.workload + "\"; " +
-                                              (near.empty() ? "" : "did you mean " + near + "? ") +
+                                              name_meant(options.workload, known) +
                                               "try: flyball list workloads"}});
   }
   if (options.format != "text" && options.format != "dot") {

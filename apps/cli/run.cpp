@@ -60,8 +60,7 @@ std::vector<std::vector<std::string>> flight_lines(const Summary& s) {
                         ? "-, it made no map"
                         : with_unit(s.latency_p50_s * 1e3, 0, "ms") + " median, 95 % within " +
                               with_unit(s.latency_p95_s * 1e3, 0, "ms")},
-      {"  nearest obstacle", with_unit(std::min(s.min_clearance_m, farthest_clearance_m), 2, "m") +
-                                 (s.min_clearance_m < farthest_clearance_m ? "" : " or more")}};
+      {"  nearest obstacle", clearance_text(s, " m")}};
   if (const std::string trouble = trouble_text(s.policy_faults, s.decisions, s.policy_trouble);
       !trouble.empty()) {
     lines.push_back({"  policy", trouble});

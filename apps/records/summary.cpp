@@ -141,9 +141,9 @@ void read_computing(const Json& json, Summary& summary) {
 
 }  // namespace
 
-std::string clearance_text(const Summary& summary) {
+std::string clearance_text(const Summary& summary, const std::string& unit) {
   const double least_m = std::min(summary.min_clearance_m, farthest_clearance_m);
-  return rounded(least_m, 2) + (least_m < farthest_clearance_m ? "" : " or more");
+  return rounded(least_m, 2) + unit + (least_m < farthest_clearance_m ? "" : " or more");
 }
 
 std::string trouble_text(std::uint64_t faults, std::uint64_t decisions, const std::string& why) {

@@ -54,12 +54,6 @@ std::optional<Error> unreadable(const std::string& file) {
                                            "; give a file that you may read"};
 }
 
-/// Among what is shipped.
-std::string suggestion(const std::string& kind, const std::string& name) {
-  const std::string near = nearest_name(name, shipped(kind));
-  return near.empty() ? "" : "did you mean " + near + "? ";
-}
-
 }  // namespace
 
 std::string share_folder(const std::string& kind) {
@@ -117,7 +111,7 @@ Result<std::string> find_shipped(const std::string& kind, const std::string& nam
                                                    thing + " from; give a path to a " + endings +
                                                    " file, or a name from: flyball list " + list
                                              : "no " + thing + " \"" + name_or_path + "\"; " +
-                                                   suggestion(kind, name_or_path) +
+                                                   name_meant(name_or_path, shipped(kind)) +
                                                    "try: flyball list " + list};
 }
 

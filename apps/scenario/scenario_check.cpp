@@ -34,11 +34,9 @@ bool is_known(const NamedThing& wanted) {
 }
 
 Error unknown(const NamedThing& wanted, const GivenValues& given) {
-  const std::string near = nearest_name(wanted.name, wanted.known);
-  return {ErrorCode::not_found, "no " + wanted.thing + " \"" + wanted.name + "\"" +
-                                    place_of(wanted.key, given) + "; " +
-                                    (near.empty() ? "" : "did you mean " + near + "? ") +
-                                    "try: flyball list " + wanted.list};
+  return {ErrorCode::not_found,
+          "no " + wanted.thing + " \"" + wanted.name + "\"" + place_of(wanted.key, given) + "; " +
+              name_meant(wanted.name, wanted.known) + "try: flyball list " + wanted.list};
 }
 
 std::vector<NamedThing> plug_ins_of(const Scenario& scenario) {

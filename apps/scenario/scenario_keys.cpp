@@ -166,4 +166,9 @@ std::string suggest_key(const std::string& unknown, const std::vector<std::strin
   return near.empty() ? std::string{} : "did you mean " + near + "?";
 }
 
+std::string name_meant(const std::string& wanted, const std::vector<std::string>& names) {
+  const std::string near = nearest_name(wanted, names);
+  return near.empty() ? "" : "did you mean " + near + "? ";
+}
+
 }  // namespace flyball

@@ -26,4 +26,8 @@ struct KeyParts {
 [[nodiscard]] std::string nearest_name(const std::string& wanted,
                                        const std::vector<std::string>& names);
 
+/// `did you mean NAME? `, to begin what follows with; empty when no name is near.
+[[nodiscard]] std::string name_meant(const std::string& wanted,
+                                     const std::vector<std::string>& names);
+
 }  // namespace flyball

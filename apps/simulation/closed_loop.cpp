@@ -145,8 +145,8 @@ void ClosedLoop::watch_pilot() {
   }
 }
 
-double ClosedLoop::rotor_power_w(double dt_s) {
-  if (const auto battery = pilot_->battery()) {
+double ClosedLoop::rotor_power_w(const std::optional<ReportedBattery>& battery, double dt_s) {
+  if (battery) {
     log_.reported_battery = battery;
     return std::max(0.0, battery->power.value() - log_.computer_w);
   }
@@ -165,7 +165,8 @@ void ClosedLoop::energy_step() {
   const double busy = (busy_core_s - last_busy_core_s_) / dt_s;
   last_busy_core_s_ = busy_core_s;
   log_.computer_w = (computer_power(busy) + device_power(dt_s)).value();
-  log_.rotor_w = rotor_power_w(dt_s);
+  const auto measured = pilot_->battery();
+  log_.rotor_w = rotor_power_w(measured, dt_s);
   log_.energy_rotor_j += log_.rotor_w * dt_s;
   log_.energy_computer_j += log_.computer_w * dt_s;
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);
@@ -175,7 +176,7 @@ void ClosedLoop::energy_step() {
   if (is_airborne()) {
     log_.airborne_s += dt_s;
     log_.hover_time_s += speed < hover_below_m_s ? dt_s : 0.0;
-    log_.measured_s += pilot_->battery() ? dt_s : 0.0;
+    log_.measured_s += measured ? dt_s : 0.0;
   }
   if (on_energy_) {
     on_energy_();

@@ -91,7 +91,7 @@ class ClosedLoop {
   /// Of the GPU and of the link to an edge computer, on average since the last call `dt_s` ago.
   [[nodiscard]] Watts device_power(double dt_s);
   /// Of the rotors now, and on from `dt_s` ago.
-  [[nodiscard]] double rotor_power_w(double dt_s);
+  [[nodiscard]] double rotor_power_w(const std::optional<ReportedBattery>& battery, double dt_s);
   void physics_step();
   void watch_pilot();
   void energy_step();

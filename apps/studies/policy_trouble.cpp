@@ -5,9 +5,13 @@
 namespace flyball {
 
 void PolicyTrouble::add(const Summary& flight) {
-  decisions += flight.decisions;
-  faults += flight.policy_faults;
-  why = why.empty() ? flight.policy_trouble : why;
+  add(PolicyTrouble{flight.decisions, flight.policy_faults, flight.policy_trouble});
+}
+
+void PolicyTrouble::add(const PolicyTrouble& others) {
+  decisions += others.decisions;
+  faults += others.faults;
+  why = why.empty() ? others.why : why;
 }
 
 std::string PolicyTrouble::text(const std::string& policy) const {

@@ -36,11 +36,9 @@ std::variant<std::vector<NamedExperiment>, std::vector<Error>> chosen(
   std::vector<Error> errors;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      const std::string near = nearest_name(name, known);
-      errors.push_back(
-          {ErrorCode::not_found, "no experiment \"" + name + "\"; " +
-                                     (near.empty() ? "" : "did you mean " + near + "? ") +
-                                     "try: flyball list experiments"});
+      errors.push_back({ErrorCode::not_found, "no experiment \"" + name + "\"; " +
+                                                  name_meant(name, known) +
+                                                  "try: flyball list experiments"});
     }
   }
   if (!errors.empty()) {

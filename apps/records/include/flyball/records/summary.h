@@ -82,7 +82,8 @@ struct Summary {
 /// {name: {...}}`, `quality {name: number}` and `latency_bounds`, one object for each level.
 [[nodiscard]] std::string to_json(const Summary& summary, int indent = 2);
 /// With two digits, `5.00 or more` where no obstacle was nearer.
-[[nodiscard]] std::string clearance_text(const Summary& summary);
+/// @param unit  Behind the number: " m", or nothing where the unit stands elsewhere.
+[[nodiscard]] std::string clearance_text(const Summary& summary, const std::string& unit = "");
 /// `was replaced by safe settings in 3 of 400 decisions (after some faults in a row it is not asked
 /// again): threw: no more`; empty where it never failed.
 [[nodiscard]] std::string trouble_text(std::uint64_t faults,

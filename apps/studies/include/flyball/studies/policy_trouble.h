@@ -19,6 +19,7 @@ struct PolicyTrouble {
   std::string why{};       ///< Reason of the first of these.
 
   void add(const Summary& flight);
+  void add(const PolicyTrouble& others);
   /// `policy bad was replaced by safe settings in 3 of 400 decisions ...`; empty where it never
   /// failed.
   [[nodiscard]] std::string text(const std::string& policy) const;
