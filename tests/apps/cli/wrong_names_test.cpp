@@ -16,6 +16,7 @@ TEST(WrongNames, are_answered_with_what_was_meant) {
       {"run scaning_farm", "did you mean scanning_farm? try: flyball list scenarios"},
       {"config scanning_farm --set scan.heigth_m=1", "did you mean scan.height_m?"},
       {"fit jetson_tx", "did you mean jetson_tx2? try: flyball list platforms"},
+      {"board --board jetson_tx", "did you mean jetson_tx2? try: flyball list boards"},
       {"graph package_delivry", "did you mean package_delivery? try: flyball list workloads"},
       {"reproduce resolution_enrgy", "did you mean resolution_energy? try: flyball list"},
       {"tune delivery_forest --try range_m=7 --preset x.txt", "--preset x.txt must end in .toml"},
