@@ -47,6 +47,11 @@ TEST(LuaSandbox, runs_what_a_policy_needs) {
                                       "print(math.max(3, 12), ('ABC'):lower(), #t, math.sqrt(4))"));
 }
 
+TEST(LuaSandbox, reads_a_script_that_an_editor_began_with_a_byte_order_mark) {
+  EXPECT_EQ("7", logged_by("\xef\xbb\xbfprint(7)"));
+  EXPECT_TRUE(contains(error_of("\xef\xbb\xbf\nerror('no')"), "mine.lua:2:"));
+}
+
 TEST(LuaSandbox, has_no_way_out) {
   for (const char* name : {"os",           "io",          "debug",          "load",
                            "loadfile",     "dofile",      "require",        "package",

@@ -28,6 +28,12 @@ TEST(LuaSource, leaves_texts_and_comments_alone) {
   EXPECT_EQ("s = '\n  false^t", prepared("s = '\n #t")) << "nor a text that does not end";
 }
 
+TEST(LuaSource, leaves_out_a_byte_order_mark_at_the_beginning_only) {
+  EXPECT_EQ("x =  false^t", prepared("\xef\xbb\xbfx = #t"));
+  EXPECT_EQ("", prepared("\xef\xbb\xbf"));
+  EXPECT_EQ("x = 1 \xef\xbb\xbf", prepared("x = 1 \xef\xbb\xbf"));
+}
+
 TEST(LuaSource, refuses_zero_bytes_by_their_line) {
   using namespace std::string_literals;
   for (const std::string& text : {"s = '\0'"s, "s = '\\0'"s, "s = '\\0a'"s, "s = '\\00x'"s,

@@ -13,7 +13,11 @@ namespace {
 /// manual's section 3.1).
 class ScriptReader {
  public:
-  explicit ScriptReader(const std::string& text) : text_{text} {}
+  explicit ScriptReader(const std::string& text) : text_{text} {
+    if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; starts_with(byte_order_mark)) {
+      at_ = byte_order_mark.size();
+    }
+  }
 
   Result<std::string> prepared() {
     if (const std::size_t zero = text_.find('\0'); zero != std::string::npos) {
