@@ -73,9 +73,9 @@ int exit_code_with_output(int exit_code) {
   if (output_error == 0) {
     return exit_code;
   }
-  note(std::string{"flyball: cannot write the result to standard output: "} +
-       std::strerror(output_error) +  // NOLINT(concurrency-mt-unsafe): one thread prints
-       "; send it to another place");
+  remark(std::string{"cannot write the result to standard output: "} +
+         std::strerror(output_error) +  // NOLINT(concurrency-mt-unsafe): one thread prints
+         "; send it to another place");
   return std::max(exit_code, exit_bad_input);
 }
 
@@ -96,9 +96,13 @@ void note(const std::string& line) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+void remark(const std::string& sentence) {
+  note("flyball: " + sentence);
+}
+
 int refuse(const std::vector<Error>& errors) {
   for (const Error& error : errors) {
-    note("flyball: " + error.message);
+    remark(error.message);
   }
   return exit_bad_input;
 }

@@ -26,7 +26,10 @@ void print(const std::string& text);
 void open_standard_files();
 /// Prints one line to standard error.
 void note(const std::string& line);
-/// Prints each error as one line; returns `exit_bad_input`.
+/// Prints one line that begins with the program's name: what whoever gave the command has to know.
+/// Lines about progress have no name before them.
+void remark(const std::string& sentence);
+/// Prints each error as such a line; returns `exit_bad_input`.
 [[nodiscard]] int refuse(const std::vector<Error>& errors);
 
 /// Whether somebody watches standard error: only then progress is shown.

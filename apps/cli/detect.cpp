@@ -62,7 +62,7 @@ std::string line_of(const DetectionTotals& totals) {
 /// What cannot be read is told on standard error too, where it is seen beside many results.
 void show(const DetectedFrame& frame, bool json) {
   if (!frame.trouble.empty()) {
-    note("flyball: " + frame.trouble);
+    remark(frame.trouble);
   }
   if (json) {
     print(to_json(frame) + "\n");

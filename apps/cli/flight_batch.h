@@ -43,7 +43,7 @@ void note_overruled(const std::vector<Flight>& flights) {
   for (const PlannedFlight& flight : flights) {
     for (const std::string& sentence : flight.overruled) {
       if (told.insert(sentence).second) {
-        note("flyball: " + sentence);
+        remark(sentence);
       }
     }
   }

@@ -56,7 +56,7 @@ int parse_and_run(int argc, char** argv) {
   flyball::add_version(program, exit_code);
   program.footer("`flyball SUBCOMMAND --help` explains the options of one sub-command.");
   if (argc > 1 && names_unknown_command(program, argv[1])) {
-    flyball::note(std::string{"flyball: no sub-command \""} + argv[1] + "\"; try: flyball --help");
+    flyball::remark(std::string{"no sub-command \""} + argv[1] + "\"; try: flyball --help");
     return flyball::exit_bad_input;
   }
   try {
@@ -71,7 +71,7 @@ int parse_and_run(int argc, char** argv) {
       flyball::print(help.str());
       return flyball::exit_success;
     }
-    flyball::note(std::string{"flyball: "} + error.what() + "; try: " + nearest_help(program));
+    flyball::remark(std::string{error.what()} + "; try: " + nearest_help(program));
     return flyball::exit_bad_input;
   }
   return exit_code;
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   try {
     return flyball::exit_code_with_output(parse_and_run(argc, argv));
   } catch (const std::exception& error) {  // Out of memory, or a third-party library's surprise.
-    flyball::note(std::string{"flyball: "} + error.what());
+    flyball::remark(error.what());
     return flyball::exit_mission_failed;
   }
 }

@@ -93,10 +93,10 @@ int import_map(const MapOptions& options) {
   const MapLevel arrived = (*bricks)->contents().levels.front();
   const MapLevel sent = (*stock)->contents().levels.front();
   if (arrived.known_cells != sent.known_cells || arrived.occupied_cells != sent.occupied_cells) {
-    note("flyball: of " + std::to_string(sent.known_cells) + " cells in \"" + options.file +
-         "\", " + std::to_string(sent.occupied_cells) + " occupied, the map has " +
-         std::to_string(arrived.known_cells) + ", " + std::to_string(arrived.occupied_cells) +
-         " occupied");
+    remark("of " + std::to_string(sent.known_cells) + " cells in \"" + options.file + "\", " +
+           std::to_string(sent.occupied_cells) + " occupied, the map has " +
+           std::to_string(arrived.known_cells) + ", " + std::to_string(arrived.occupied_cells) +
+           " occupied");
     return exit_mission_failed;
   }
   print(std::to_string(arrived.known_cells) + " cells of " + rounded(arrived.cell_m, 3) + " m, " +

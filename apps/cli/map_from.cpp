@@ -167,7 +167,7 @@ int map_from(MapFromOptions& options) {
     return refuse({run.error()});
   }
   if (was_interrupted()) {
-    note("flyball: interrupted; no map is written");
+    remark("interrupted; no map is written");
     return interrupted_exit_code();
   }
   if (const Status written = (*mapper)->write(options.out, std::nullopt); !written) {

@@ -61,7 +61,7 @@ int check_one(const std::string& file, const CheckOptions& options, const Place&
     return refuse({choice.error()});
   }
   if (!choice->caution.empty()) {
-    note("flyball: " + choice->caution);
+    remark(choice->caution);
   }
   std::string why;
   PolicyConformance conformance{{[&choice, &why]() -> std::unique_ptr<Policy> {

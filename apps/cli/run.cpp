@@ -324,7 +324,7 @@ int run(const RunOptions& options) {
     return refuse({possible.error()});
   }
   for (const std::string& sentence : overruled_settings(scenario, overrides_of(options))) {
-    note(sentence);
+    remark(sentence);
   }
   const auto platform = find_platform(scenario.platform.name);
   if (!platform) {

@@ -66,6 +66,11 @@ TEST(ManyFlights, say_which_setting_their_policy_overrules) {
   ASSERT_EQ(swept.exit_code, 0) << swept.errors;
   EXPECT_TRUE(has(swept.errors, sentence)) << swept.errors;
   EXPECT_FALSE(has(swept.errors, "policy fixed sets"));
+  const auto flown = flyball.run("run delivery_forest" + std::string{few_metres} +
+                                 "--set map.resolution_m=0.3 --policy fixed_fine");
+  EXPECT_EQ(flown.errors.rfind("flyball: policy fixed_fine sets map.resolution_m itself, so ", 0),
+            0U)
+      << flown.errors;
   const auto same = flyball.run("compare delivery_forest" + std::string{few_metres} +
                                 "--set map.resolution_m=0.15 --policies fixed_fine");
   EXPECT_FALSE(has(same.errors, "changes nothing")) << "it is the policy's own";
