@@ -135,7 +135,7 @@ int compare(const CompareOptions& options) {
     return refuse(*errors);
   }
   Entries& entries = std::get<Entries>(planned);
-  note_overruled(entries);
+  remark_overruled(entries);
   const std::string folder = comparison_folder(options.flight, entries.front().scenario);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {

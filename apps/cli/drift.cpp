@@ -247,7 +247,7 @@ int drift(const DriftOptions& options) {
     return refuse(*errors);
   }
   const DriftEntries& entries = std::get<DriftEntries>(planned);
-  note_overruled(entries);
+  remark_overruled(entries);
   const auto claimed =
       ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
   if (!claimed) {

@@ -62,19 +62,18 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
                                                             std::uint64_t seed,
                                                             const std::string& folder,
                                                             const std::vector<Override>& varied) {
-  std::vector<Override> overrides = of_set(options.settings);
-  overrides.insert(overrides.end(), varied.begin(), varied.end());
-  const std::vector<Override> given = overrides;
+  PlannedFlight flight;
+  flight.given = of_set(options.settings);
+  flight.given.insert(flight.given.end(), varied.begin(), varied.end());
+  std::vector<Override> overrides = flight.given;
   overrides.push_back({"governor.policy=" + policy, "--policies"});
   overrides.push_back({"seed=" + std::to_string(seed), "--seeds"});
   auto loaded = load_overridden_scenario(options.scenario, overrides, options.plugins);
   if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return std::move(*errors);
   }
-  PlannedFlight flight;
   const auto step_s = comparison_step(std::get<LoadedScenario>(loaded));
   flight.scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
-  flight.overruled = overruled_settings(flight.scenario, given);
   flight.folder = run_folder(folder.empty() ? comparison_folder(options, flight.scenario) : folder,
                              policy, seed);
   flight.arguments = {
@@ -95,6 +94,21 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
     flight.arguments.insert(flight.arguments.end(), {"--set", "vehicle.physics_step_s=" + *step_s});
   }
   return flight;
+}
+
+void OverruledRemarks::add(const Scenario& scenario, const std::vector<Override>& given) {
+  std::string all = scenario.name + "\n" + scenario.governor.policy;
+  for (const auto& [key_and_value, option] : given) {
+    all.append("\n").append(option).append(" ").append(key_and_value);
+  }
+  if (!seen_.insert(std::move(all)).second) {
+    return;
+  }
+  for (const std::string& sentence : overruled_settings(scenario, given)) {
+    if (told_.insert(sentence).second) {
+      remark(sentence);
+    }
+  }
 }
 
 std::string name_of(const PlannedFlight& flight) {

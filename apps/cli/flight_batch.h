@@ -24,7 +24,7 @@ struct PlannedFlight {
   Scenario scenario{};
   std::string folder{};  ///< Its record goes there.
   std::vector<std::string> arguments{};
-  std::vector<std::string> overruled{};  ///< Settings that change nothing, each as a sentence.
+  std::vector<Override> given{};  ///< The settings that were asked for, without policy and seed.
 };
 
 /// Reads and checks the scenario with this policy and seed; nothing flies yet.
@@ -36,16 +36,22 @@ struct PlannedFlight {
     const std::string& folder,
     const std::vector<Override>& varied = {});
 
-/// Says once of each setting that the policy overrules that it changes nothing.
+/// Says of settings that the policy overrules that they change nothing.
+class OverruledRemarks {
+ public:
+  /// Looks once at a policy with the same settings, whatever the seed, and says no sentence twice.
+  void add(const Scenario& scenario, const std::vector<Override>& given);
+
+ private:
+  std::set<std::string> seen_{};
+  std::set<std::string> told_{};
+};
+
 template <class Flight>
-void note_overruled(const std::vector<Flight>& flights) {
-  std::set<std::string> told;
+void remark_overruled(const std::vector<Flight>& flights) {
+  OverruledRemarks remarks;
   for (const PlannedFlight& flight : flights) {
-    for (const std::string& sentence : flight.overruled) {
-      if (told.insert(sentence).second) {
-        remark(sentence);
-      }
-    }
+    remarks.add(flight.scenario, flight.given);
   }
 }
 

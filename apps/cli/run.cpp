@@ -5,7 +5,6 @@
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/scenario/override.h"
-#include "flyball/scenario/overruled_settings.h"
 #include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
 
@@ -15,7 +14,7 @@
 #include "cli/computer/service_notice.h"
 #include "commands.h"
 #include "console.h"
-#include "flight_options.h"
+#include "flight_batch.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -323,9 +322,7 @@ int run(const RunOptions& options) {
   if (const Status possible = check_places(options, folder); !possible) {
     return refuse({possible.error()});
   }
-  for (const std::string& sentence : overruled_settings(scenario, overrides_of(options))) {
-    remark(sentence);
-  }
+  OverruledRemarks{}.add(scenario, overrides_of(options));
   const auto platform = find_platform(scenario.platform.name);
   if (!platform) {
     return refuse({platform.error()});
