@@ -34,13 +34,18 @@ using Entries = std::vector<Entry>;
 std::variant<Entries, std::vector<Error>> plan(const CompareOptions& options,
                                                const std::vector<std::uint64_t>& seeds) {
   Entries entries;
+  std::vector<Error> all;
   for (std::size_t i = 0; i < options.policies.size() * seeds.size(); ++i) {
     auto planned = plan_flight(options.flight, options.policies[i / seeds.size()],
                                seeds[i % seeds.size()], "");
-    if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-      return std::move(*errors);
+    if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      add_new(*errors, all);
+    } else {
+      entries.push_back({std::move(std::get<PlannedFlight>(planned)), std::nullopt});
     }
-    entries.push_back({std::move(std::get<PlannedFlight>(planned)), std::nullopt});
+  }
+  if (!all.empty()) {
+    return all;
   }
   return entries;
 }

@@ -12,6 +12,7 @@
 #include "seed_list.h"
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <thread>
@@ -52,20 +53,22 @@ struct Outcome {
 
 using DriftEntries = std::vector<DriftEntry>;
 
-/// Adds the flights of one event, which is `cases[drift]`. Returns why one cannot be flown.
-std::vector<Error> add_event(const DriftOptions& options,
-                             const std::vector<DriftCase>& cases,
-                             std::size_t drift,
-                             const std::vector<std::uint64_t>& seeds,
-                             DriftEntries& entries) {
+/// The flights of one event, which is `cases[drift]`, or why some cannot be flown.
+std::variant<DriftEntries, std::vector<Error>> plan_event(const DriftOptions& options,
+                                                          const std::vector<DriftCase>& cases,
+                                                          std::size_t drift,
+                                                          const std::vector<std::uint64_t>& seeds) {
+  DriftEntries entries;
+  std::vector<Error> all;
   FlightOptions flight = options.flight;
   flight.settings.insert(flight.settings.end(), cases[drift].settings.begin(),
                          cases[drift].settings.end());
   for (std::size_t policy = 0; policy < options.policies.size(); ++policy) {
     for (const std::uint64_t seed : seeds) {
       auto planned = plan_flight(flight, options.policies[policy], seed, "");
-      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-        return std::move(*errors);
+      if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+        add_new(*errors, all);
+        continue;
       }
       auto& one = std::get<PlannedFlight>(planned);
       const std::string folder =
@@ -75,18 +78,28 @@ std::vector<Error> add_event(const DriftOptions& options,
       entries.push_back({std::move(one), drift, policy});
     }
   }
-  return {};
+  if (!all.empty()) {
+    return all;
+  }
+  return entries;
 }
 
 std::variant<DriftEntries, std::vector<Error>> plan(const DriftOptions& options,
                                                     const std::vector<DriftCase>& cases,
                                                     const std::vector<std::uint64_t>& seeds) {
   DriftEntries entries;
+  std::vector<Error> all;
   for (std::size_t drift = 0; drift < cases.size(); ++drift) {
-    auto errors = add_event(options, cases, drift, seeds, entries);
-    if (!errors.empty()) {
-      return errors;
+    auto planned = plan_event(options, cases, drift, seeds);
+    if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+      add_new(*errors, all);
+    } else {
+      auto& more = std::get<DriftEntries>(planned);
+      std::move(more.begin(), more.end(), std::back_inserter(entries));
     }
+  }
+  if (!all.empty()) {
+    return all;
   }
   return entries;
 }

@@ -34,10 +34,7 @@ void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown)
     error.message = end.errors.substr(std::min(program.size(), end.errors.size()),
                                       last == std::string::npos ? 0 : last + 1 - program.size());
   }
-  const auto is_same = [&error](const Error& other) { return other.message == error.message; };
-  if (std::none_of(flown.errors.begin(), flown.errors.end(), is_same)) {
-    flown.errors.push_back(std::move(error));
-  }
+  add_new({error}, flown.errors);
   flown.exit_code = end.exit_code == exit_bad_input
                         ? exit_bad_input
                         : std::max(flown.exit_code, exit_mission_failed);
@@ -94,6 +91,17 @@ std::variant<PlannedFlight, std::vector<Error>> plan_flight(const FlightOptions&
     flight.arguments.insert(flight.arguments.end(), {"--set", "vehicle.physics_step_s=" + *step_s});
   }
   return flight;
+}
+
+void add_new(const std::vector<Error>& errors, std::vector<Error>& all) {
+  for (const Error& error : errors) {
+    const bool is_known = std::any_of(all.begin(), all.end(), [&error](const Error& other) {
+      return other.message == error.message;
+    });
+    if (!is_known) {
+      all.push_back(error);
+    }
+  }
 }
 
 void OverruledRemarks::add(const Scenario& scenario, const std::vector<Override>& given) {

@@ -36,6 +36,9 @@ struct PlannedFlight {
     const std::string& folder,
     const std::vector<Override>& varied = {});
 
+/// Adds the errors that say something new to `all`: most mistakes concern many flights.
+void add_new(const std::vector<Error>& errors, std::vector<Error>& all);
+
 /// Says of settings that the policy overrules that they change nothing.
 class OverruledRemarks {
  public:

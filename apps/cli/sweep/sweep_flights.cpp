@@ -35,18 +35,6 @@ std::string folder_name(const std::string& settings) {
   return name.substr(0, longest) + "-" + hash.hex().substr(0, 8);
 }
 
-/// Those that say something new: most mistakes concern many flights.
-void add_new(const std::vector<Error>& errors, std::vector<Error>& all) {
-  for (const Error& error : errors) {
-    const bool is_known = std::any_of(all.begin(), all.end(), [&error](const Error& other) {
-      return other.message == error.message;
-    });
-    if (!is_known) {
-      all.push_back(error);
-    }
-  }
-}
-
 /// `1..3` or `1,4,9`, as `--seeds` reads it.
 std::string seeds_word(const SweepRequest& request) {
   std::string seeds = seeds_text(request.plan.seeds);

@@ -28,23 +28,30 @@ std::variant<TournamentFlights, std::vector<Error>> plan_flights(
     const std::vector<Flier>& fliers,
     const std::vector<std::uint64_t>& seeds) {
   TournamentFlights entries;
+  std::vector<Error> all;
   std::set<std::string> names;
   for (const std::string& world : options.worlds) {
     const FlightOptions flight = flight_in(options, world);
+    const std::size_t before = entries.size();
     for (std::size_t i = 0; i < fliers.size() * seeds.size(); ++i) {
       const Flier& flier = fliers[i / seeds.size()];
       auto planned =
           plan_flight(flight, flier.policy, seeds[i % seeds.size()], folder_of(options, world));
-      if (auto* errors = std::get_if<std::vector<Error>>(&planned)) {
-        return std::move(*errors);
+      if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
+        add_new(*errors, all);
+      } else {
+        entries.push_back({{std::move(std::get<PlannedFlight>(planned)), "", {}}, flier.row});
       }
-      entries.push_back({{std::move(std::get<PlannedFlight>(planned)), "", {}}, flier.row});
     }
-    if (!names.insert(entries.back().scenario.name).second) {
-      return std::vector{Error{ErrorCode::invalid_input,
-                               "--worlds has two whose name is \"" + entries.back().scenario.name +
-                                   "\"; give each scenario a name of its own"}};
+    if (entries.size() > before && !names.insert(entries.back().scenario.name).second) {
+      add_new({{ErrorCode::invalid_input, "--worlds has two whose name is \"" +
+                                              entries.back().scenario.name +
+                                              "\"; give each scenario a name of its own"}},
+              all);
     }
+  }
+  if (!all.empty()) {
+    return all;
   }
   return entries;
 }

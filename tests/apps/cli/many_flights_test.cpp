@@ -2,6 +2,7 @@
 // test-label: closed_loop
 
 #include "flyball_program.h"
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,26 @@ TEST(ManyFlights, know_a_name_by_itself_without_the_space_before_it) {
   EXPECT_TRUE(has(pairs.errors, "--pairs has \"two_level:nosuch\"")) << pairs.errors;
   const auto blank = flyball.run("compare delivery_forest --policies 'two_level, '");
   EXPECT_TRUE(has(blank.errors, "--policies: is empty")) << blank.errors;
+}
+
+TEST(ManyFlights, name_every_mistake_once_before_they_fly) {
+  const FlyballProgram flyball;
+  const std::string policies = " --policies two_levl,fixed_fin --seeds 1..3";
+  for (const std::string& command :
+       {"compare delivery_forest" + policies, "drift delivery_forest" + policies,
+        "sweep delivery_forest --over map.range_m=5,7" + policies,
+        "tournament --worlds delivery_forest,scanning_farm" + policies}) {
+    const auto refused = flyball.run(command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    EXPECT_TRUE(has(refused.errors, "did you mean two_level?")) << refused.errors;
+    EXPECT_TRUE(has(refused.errors, "did you mean fixed_fine?")) << command << refused.errors;
+    EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 2) << refused.errors;
+    EXPECT_TRUE(flyball.place.is_empty()) << command;
+  }
+  const auto worlds =
+      flyball.run("tournament --worlds delivery_forst,scaning_farm --policies two_level");
+  EXPECT_TRUE(has(worlds.errors, "did you mean delivery_forest?")) << worlds.errors;
+  EXPECT_TRUE(has(worlds.errors, "did you mean scanning_farm?")) << worlds.errors;
 }
 
 TEST(ManyFlights, say_which_setting_their_policy_overrules) {
