@@ -154,8 +154,7 @@ std::optional<int> unfinished(const Flown& flown) {
 
 Status check_settings(const FlightOptions& options, const std::string& policy_option) {
   for (const std::string& setting : options.settings) {
-    std::string key = setting.substr(0, setting.find('='));
-    key.erase(std::remove(key.begin(), key.end(), ' '), key.end());
+    const std::string key = key_of(setting);
     if (key == "seed" || key == "governor.policy") {
       return Error{ErrorCode::invalid_input, "--set " + setting +
                                                  " has an option of its own; give " +

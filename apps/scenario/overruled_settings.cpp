@@ -15,13 +15,6 @@
 namespace flyball {
 namespace {
 
-std::string key_of(const Override& setting) {
-  const std::string key = setting.key_and_value.substr(0, setting.key_and_value.find('='));
-  const std::size_t first = key.find_first_not_of(" \t");
-  return first == std::string::npos ? key
-                                    : key.substr(first, key.find_last_not_of(" \t") - first + 1);
-}
-
 /// The knob that begins with a setting's value: most have the setting's name.
 std::string knob_of(const std::string& key) {
   return key == "platform.cores"          ? "cpu.cores"
@@ -61,7 +54,9 @@ std::map<std::string, double> kept_by(const std::string& policy,
 
 /// The last one given counts; null: none sets the knob.
 const Override* find_setting(const std::string& knob, const std::vector<Override>& given) {
-  const auto sets = [&knob](const Override& one) { return knob_of(key_of(one)) == knob; };
+  const auto sets = [&knob](const Override& one) {
+    return knob_of(key_of(one.key_and_value)) == knob;
+  };
   const auto found = std::find_if(given.rbegin(), given.rend(), sets);
   return found == given.rend() ? nullptr : &*found;
 }
@@ -80,7 +75,7 @@ std::vector<std::string> overruled_settings(const Scenario& scenario,
     for (const auto& [knob, value] : kept_by(policy, scenario, knobs)) {
       const Override* const setting = find_setting(knob, given);
       if (setting != nullptr && knobs.spec(knob)->fallback != value) {
-        const std::string key = key_of(*setting);
+        const std::string key = key_of(setting->key_and_value);
         sentences.push_back("policy " + policy + " sets " + key + " itself, so " + setting->option +
                             " " + key + " changes nothing; policy fixed leaves it to the scenario");
       }

@@ -87,12 +87,6 @@ void flatten(const toml::table& table,
   }
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  const std::size_t last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
 /// One value on the right of `=`; the parser reads it as the only line of a file.
 std::optional<GivenValue> toml_scalar(const std::string& text) {
   const std::string line = "value = " + text;
@@ -109,6 +103,16 @@ std::optional<GivenValue> toml_scalar(const std::string& text) {
 }
 
 }  // namespace
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  const std::size_t last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::string key_of(const std::string& key_and_value) {
+  return trimmed(key_and_value.substr(0, key_and_value.find('=')));
+}
 
 std::string place_of(const std::string& key, const GivenValues& given) {
   const auto found = given.find(key);
@@ -144,7 +148,7 @@ ScenarioText read_scenario_file(const std::string& path) {
 void read_override(const Override& override, ScenarioText& read) {
   const auto& [key_and_value, option] = override;
   const std::size_t equals = key_and_value.find('=');
-  const std::string key = trimmed(key_and_value.substr(0, equals));
+  const std::string key = key_of(key_and_value);
   const std::string text =
       equals == std::string::npos ? "" : trimmed(key_and_value.substr(equals + 1));
   if (key.empty() || text.empty()) {

@@ -49,7 +49,7 @@ Result<std::vector<SweepAxis>> read_axes(const SweepOptions& options) {
     axes.push_back(std::move(*axis));
   }
   for (const std::string& setting : options.flight.settings) {
-    const std::string key = setting.substr(0, setting.find('='));
+    const std::string key = key_of(setting);
     if (keys.count(key) > 0) {
       return bad("--set " + setting + " is one of --over, too; leave it out");
     }

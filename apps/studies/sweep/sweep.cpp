@@ -2,6 +2,7 @@
 
 #include "flyball/studies/sweep.h"
 
+#include "flyball/scenario/override.h"
 #include "flyball/studies/policy_trouble.h"
 
 #include "scenario/scenario_fields.h"
@@ -38,13 +39,6 @@ class Nesting {
   int depth_{};
   char quote_{'\0'};
 };
-
-/// As a setting is read: spaces around a value are no part of it.
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? ""
-                                    : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::vector<std::string> split_values(const std::string& text) {
   std::vector<std::string> values(1);
@@ -115,7 +109,7 @@ SweepCell cell_of(const Sweep& sweep,
 
 Result<SweepAxis> read_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const std::string key = equals == std::string::npos ? "" : trimmed(text.substr(0, equals));
+  const std::string key = equals == std::string::npos ? "" : key_of(text);
   if (key.empty()) {
     return wrong(text, "names no setting");
   }

@@ -29,11 +29,20 @@ TEST(ManyFlights, take_seeds_and_policies_from_their_own_options_only) {
     EXPECT_EQ(seed.exit_code, 2) << command;
     EXPECT_TRUE(has(seed.errors, "--set seed=7 has an option of its own; give --seeds"))
         << seed.errors;
+    const auto spaced = flyball.run(command + " --set '\tseed =7'");
+    EXPECT_TRUE(has(spaced.errors, "has an option of its own; give --seeds")) << spaced.errors;
     const auto policy = flyball.run(command + " --set governor.policy=two_level");
     EXPECT_EQ(policy.exit_code, 2) << command;
     EXPECT_TRUE(has(policy.errors, "give --polic")) << policy.errors;
     EXPECT_TRUE(flyball.place.is_empty()) << command;
   }
+}
+
+TEST(ManyFlights, vary_no_setting_that_all_have) {
+  const auto refused = FlyballProgram{}.run(
+      "sweep delivery_forest --policies fixed --over map.range_m=5,7 --set 'map.range_m = 5'");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(has(refused.errors, "is one of --over, too; leave it out")) << refused.errors;
 }
 
 TEST(ManyFlights, know_a_name_by_itself_without_the_space_before_it) {

@@ -17,6 +17,11 @@ struct Override {
   std::string option{"--set"};  ///< Named by what is said of the value.
 };
 
+/// A key or a value without the blanks and tabs around it, which belong to neither.
+[[nodiscard]] std::string trimmed(const std::string& text);
+/// The trimmed key of `KEY=VALUE`, or the whole text where it has no `=`.
+[[nodiscard]] std::string key_of(const std::string& key_and_value);
+
 /// What `--set` gave, as overrides.
 [[nodiscard]] std::vector<Override> of_set(const std::vector<std::string>& keys_and_values);
 
