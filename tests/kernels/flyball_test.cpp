@@ -7,7 +7,6 @@
 #include "wall_scan.h"
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <set>
 
@@ -29,17 +28,7 @@ Work insert_scan(Mapper& mapper, kit::Place place, int frame, double resolution_
 }
 
 TEST(Flyball, refuses_an_image_without_a_depth_for_each_pixel) {
-  const auto mapper = kit::made_mapper("flyball");
-  DepthImage image;
-  image.camera = {640, 480, 320.0, 319.5, 239.5};
-  image.depth_m.assign(1000, 3.0F);
-  PointCloudFrame frame;
-  frame.pixels = RangeImage{Deferred<DepthImage>::of(image), 7.0};
-  const auto work = mapper->prepare_frame(frame, looking_along_x(), {0.15, 7.0});
-  ASSERT_FALSE(work);
-  EXPECT_EQ(work.error().message, "a depth image of 640 x 480 pixels has 1000 depths");
-  mapper->commit();
-  EXPECT_TRUE(mapper->occupied().empty());
+  kit::expect_image_without_all_depths_refused(*kit::made_mapper("flyball"));
 }
 
 TEST(Flyball, offers_no_range_that_it_refuses) {
@@ -87,30 +76,7 @@ TEST(Flyball, frees_returns_beyond_the_range_up_to_it_and_marks_nothing) {
 }
 
 TEST(Flyball, rejects_bad_input_and_prepares_nothing) {
-  const auto mapper = kit::made_mapper("flyball");
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  PointCloud broken = wall_scan(3.0F);
-  broken.hits_C[5].y() = nan;
-  PointCloud broken_clear;
-  broken_clear.clear_C = {{nan, 0.0F, 0.0F}};
-  Pose far = looking_along_x();
-  far.translation().x() = 1e5;
-  Pose broken_pose = looking_along_x();
-  broken_pose.translation().z() = nan;
-  const auto code = [&](const PointCloud& cloud_C, const Pose& X_WC,
-                        const MapperSettings& settings) {
-    const auto work = mapper->prepare(cloud_C, X_WC, settings);
-    return work.ok() ? ErrorCode::unavailable : work.error().code;
-  };
-  EXPECT_EQ(code(broken, looking_along_x(), {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(broken_clear, looking_along_x(), {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), far, {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), broken_pose, {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.0, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.15, -7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.001, 7.0}), ErrorCode::invalid_input);
-  mapper->commit();
-  EXPECT_EQ(mapper->view().state({1.5, 0.0, 0.0}), CellState::unknown);
+  kit::expect_bad_input_refused(*kit::made_mapper("flyball"));
 }
 
 TEST(Flyball, begins_its_lattice_with_the_first_resolution_and_keeps_to_it) {

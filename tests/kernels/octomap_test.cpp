@@ -6,7 +6,6 @@
 #include "maps/octomap_tree.h"
 #include "synthetic_scans.h"
 #include "wall_scan.h"
-#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -27,17 +26,7 @@ std::unique_ptr<Mapper> make_octomap() {
 }
 
 TEST(Octomap, refuses_an_image_without_a_depth_for_each_pixel) {
-  const auto mapper = make_octomap();
-  DepthImage image;
-  image.camera = {640, 480, 320.0, 319.5, 239.5};
-  image.depth_m.assign(1000, 3.0F);
-  PointCloudFrame frame;
-  frame.pixels = RangeImage{Deferred<DepthImage>::of(image), 7.0};
-  const auto work = mapper->prepare_frame(frame, looking_along_x(), {0.15, 7.0});
-  ASSERT_FALSE(work);
-  EXPECT_EQ(work.error().message, "a depth image of 640 x 480 pixels has 1000 depths");
-  mapper->commit();
-  EXPECT_TRUE(mapper->occupied().empty());
+  kit::expect_image_without_all_depths_refused(*make_octomap());
 }
 
 TEST(Octomap, shows_a_scan_only_after_commit) {
@@ -95,32 +84,7 @@ TEST(Octomap, reports_the_work_of_one_frame) {
 }
 
 TEST(Octomap, rejects_bad_input_and_prepares_nothing) {
-  const auto mapper = make_octomap();
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  PointCloud broken = wall_scan(3.0F);
-  broken.hits_C[5].y() = nan;
-  PointCloud broken_clear;
-  broken_clear.clear_C = {{nan, 0.0F, 0.0F}};
-  Pose far = looking_along_x();
-  far.translation().x() = 1e5;
-  Pose broken_pose = looking_along_x();
-  broken_pose.translation().z() = nan;
-  ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, 7.0}).ok());
-  const auto code = [&](const PointCloud& cloud_C, const Pose& X_WC,
-                        const MapperSettings& settings) {
-    const auto work = mapper->prepare(cloud_C, X_WC, settings);
-    return work.ok() ? ErrorCode::unavailable : work.error().code;
-  };
-  EXPECT_EQ(code(broken, looking_along_x(), {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(broken_clear, looking_along_x(), {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), far, {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), broken_pose, {0.15, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.0, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.15, -7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {nan, 7.0}), ErrorCode::invalid_input);
-  EXPECT_EQ(code(wall_scan(3.0F), looking_along_x(), {0.001, 7.0}), ErrorCode::invalid_input);
-  mapper->commit();
-  EXPECT_EQ(mapper->view().state({1.5, 0.0, 0.0}), CellState::unknown);
+  kit::expect_bad_input_refused(*make_octomap());
 }
 
 TEST(Octomap, keeps_what_was_mapped_when_the_resolution_changes) {
