@@ -130,22 +130,38 @@ bool is_folder_name(const std::string& name) {
   return std::all_of(name.begin(), name.end(), is_plain);
 }
 
+Error refused_by_mapper(const Scenario& scenario, const Error& why) {
+  return {ErrorCode::invalid_input,
+          "mapper \"" + scenario.kernels.mapper + "\" refuses: " + why.message};
+}
+
+/// Whether the mapper takes scans from here. It knows best how far it reaches, and it refuses an
+/// empty scan only for its pose or settings.
+Status try_map(Mapper& mapper, const Scenario& scenario, const Vec3& camera_W) {
+  Pose X_WC = Pose::Identity();
+  X_WC.translation() = camera_W;
+  const auto tried =
+      mapper.prepare(PointCloud{}, X_WC, {scenario.map.resolution_m, scenario.map.range_m});
+  if (!tried) {
+    return refused_by_mapper(scenario, tried.error());
+  }
+  return Done{};
+}
+
 }  // namespace
 
-std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given) {
+std::vector<Error> check_map(const Scenario& scenario,
+                             const GivenValues& given,
+                             const std::vector<Vec3>& corners_W) {
   const FamilyChoice& family = family_choice(typeid(Mapper));
   const auto unconfigured = family.make(scenario.plugins, scenario.kernels.mapper);
   if (!unconfigured || !resolved(family.owner(scenario.kernels), unconfigured->parameters(),
                                  scenario.kernels.mapper_parameters)) {
     return {};  // Named elsewhere.
   }
-  const auto refused = [&scenario](const Error& error) -> std::vector<Error> {
-    return {{ErrorCode::invalid_input,
-             "mapper \"" + scenario.kernels.mapper + "\" refuses: " + error.message}};
-  };
   const auto mapper = make_kernel<Mapper>(scenario.plugins, scenario.kernels);
   if (!mapper) {
-    return refused(mapper.error());
+    return {refused_by_mapper(scenario, mapper.error())};
   }
   const std::vector<double> cells_m = (*mapper)->resolutions_m();
   const double wanted_m = scenario.map.resolution_m;
@@ -155,10 +171,18 @@ std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given)
                  " must be one of " + listed(cells_m, toml_number) + ", the cells of mapper \"" +
                  scenario.kernels.mapper + "\""}};
   }
-  // The mapper itself knows best how far it reaches: an empty scan is refused for its settings.
-  const auto tried =
-      (*mapper)->prepare(PointCloud{}, Pose::Identity(), {wanted_m, scenario.map.range_m});
-  return tried ? std::vector<Error>{} : refused(tried.error());
+  if (const Status tried = try_map(**mapper, scenario, Vec3::Zero()); !tried) {
+    return {tried.error()};
+  }
+  for (const Vec3& corner_W : corners_W) {
+    if (const Status tried = try_map(**mapper, scenario, corner_W); !tried) {
+      return {{ErrorCode::invalid_input,
+               "world \"" + scenario.world.generator + "\" reaches to (" +
+                   toml_number(corner_W.x()) + ", " + toml_number(corner_W.y()) + ") m, and " +
+                   tried.error().message + "; fly a shorter way, or with larger cells"}};
+    }
+  }
+  return {};
 }
 
 std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given) {

@@ -14,6 +14,10 @@ namespace flyball {
 [[nodiscard]] std::vector<Error> check_names(const Scenario& scenario, const GivenValues& given);
 
 /// Whether the scenario's mapper maps at the scenario's resolution and range.
-[[nodiscard]] std::vector<Error> check_map(const Scenario& scenario, const GivenValues& given);
+///
+/// @param corners_W  Of the world, where there is one: whether it maps from there, too.
+[[nodiscard]] std::vector<Error> check_map(const Scenario& scenario,
+                                           const GivenValues& given,
+                                           const std::vector<Vec3>& corners_W = {});
 
 }  // namespace flyball

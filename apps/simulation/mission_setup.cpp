@@ -93,33 +93,11 @@ Result<MissionKernels> make_kernels(const Scenario& scenario, const GeodeticOrig
   return kernels;
 }
 
-/// Whether the mapper takes scans from everywhere in the site. A mapper of its own is asked: it may
-/// prepare for them.
-Status check_reach(const Scenario& scenario, const Aabb& bounds_W) {
-  auto mapper = make_switchable<Mapper>(scenario, model_finder(scenario));
-  for (const Vec3& corner_W : {bounds_W.min, bounds_W.max}) {
-    Pose X_WC = Pose::Identity();
-    X_WC.translation() = corner_W;
-    const auto tried =
-        (*mapper)->prepare(PointCloud{}, X_WC, {scenario.map.resolution_m, scenario.map.range_m});
-    if (!tried) {
-      return Error{
-          ErrorCode::invalid_input,
-          "world \"" + scenario.world.generator + "\" reaches to (" + toml_number(corner_W.x()) +
-              ", " + toml_number(corner_W.y()) + ") m, and mapper \"" + scenario.kernels.mapper +
-              "\" refuses: " + tried.error().message + "; fly a shorter way, or with larger cells"};
-    }
-  }
-  return Done{};
-}
-
 /// Whether the mission's map can be made, and what its jobs cost is known.
 Status check_mapping(const Scenario& scenario, const MissionSetup& setup) {
-  if (const auto errors = check_map(scenario, {}); !errors.empty()) {
+  const Aabb& bounds_W = setup.things.world.bounds_W;
+  if (const auto errors = check_map(scenario, {}, {bounds_W.min, bounds_W.max}); !errors.empty()) {
     return joined(errors);
-  }
-  if (Status reached = check_reach(scenario, setup.things.world.bounds_W); !reached) {
-    return reached;
   }
   const std::string priced_as = mapper_cost(scenario.kernels);
   return check_price(scenario, *setup.platform,
