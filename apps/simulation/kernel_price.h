@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// That no kernel flies without a price in the platform file, because it would take no time.
+/// That no kernel flies without a price in the platform file, because it would take no time, on
+/// board or on the edge computer.
 
 #include "flyball/runtime/graph.h"
 #include "flyball/runtime/platform.h"
@@ -31,5 +32,12 @@ struct PricedKernel {
 [[nodiscard]] Status check_prices_of_nodes(const Scenario& scenario,
                                            const Platform& platform,
                                            const Graph& graph);
+
+/// The same of the edge computer, for the nodes that may move there in flight and for the kernels
+/// that a knob chooses among.
+/// @error As `check_prices_of_nodes`, and the platform has no price for a switch.
+[[nodiscard]] Status check_prices_on_edge(const Scenario& scenario,
+                                          const Platform& edge,
+                                          const Graph& graph);
 
 }  // namespace flyball

@@ -138,12 +138,17 @@ PolicyGovernor::HostClock watchdog_clock(const MissionHooks& hooks) {
 }
 
 Status check_graph(const Scenario& scenario,
+                   const MissionSetup& setup,
                    const SimulatedFlight& flight,
                    const MissionHooks& hooks) {
-  const Status priced = hooks.executor  // Which measures what jobs take, or need not know it.
-                            ? Done{}
-                            : check_prices_of_nodes(scenario, flight.computer, flight.graph);
-  return priced ? flight.soft_errors->check() : priced;
+  Status possible{Done{}};
+  if (!hooks.executor) {  // One that is given measures what jobs take, or need not know it.
+    possible = check_prices_of_nodes(scenario, flight.computer, flight.graph);
+    if (possible && setup.edge) {
+      possible = check_prices_on_edge(scenario, *setup.edge->platform, flight.graph);
+    }
+  }
+  return possible ? flight.soft_errors->check() : possible;
 }
 
 }  // namespace
@@ -190,7 +195,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
                          *record.trace,
                          std::move(*workload),
                          {hooks.executor, hooks.computer, hooks.autopilot}};
-  if (const Status possible = check_graph(scenario, flight, hooks); !possible) {
+  if (const Status possible = check_graph(scenario, *setup, flight, hooks); !possible) {
     return possible.error();
   }
   if (const Status ready = make_ready(flight, hooks); !ready) {

@@ -152,6 +152,12 @@ TEST(MissionSetup, is_not_flown_with_a_planner_that_the_platform_has_no_price_fo
   EXPECT_NE(refused.error().message.find("of node \"plan\", so its jobs would cost no time"),
             std::string::npos)
       << refused.error().message;
+  scenario.edge.platform = scenario.platform.name;
+  scenario.platform.name = Scenario{}.platform.name;
+  const auto refused_afar = fly(scenario, {});
+  ASSERT_FALSE(refused_afar.ok());
+  EXPECT_EQ(refused_afar.error().message.rfind("edge platform \"" + scenario.edge.platform, 0), 0U)
+      << refused_afar.error().message;
 }
 
 TEST(MissionSetup, gives_the_governor_a_watchdog_where_it_is_given_a_clock) {
