@@ -75,14 +75,8 @@ std::string to_text(const LocalizationRun& run, double uncertain_above_m) {
 }
 
 /// The path must not take the place of what it was found from.
-Status check_out(const std::string& folder, const Recording& recording, const std::string& out) {
-  std::vector<std::string> own;
-  for (const char* name :
-       {"associations.txt", "rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt",
-        "gyroscope.txt", "mav0/cam0/data.csv", "mav0/cam0/sensor.yaml", "mav0/imu0/data.csv",
-        "mav0/imu0/sensor.yaml", "mav0/state_groundtruth_estimate0/data.csv"}) {
-    own.push_back((std::filesystem::path{folder} / name).string());
-  }
+Status check_out(const Recording& recording, const std::string& out) {
+  std::vector<std::string> own = recording.text_files;
   for (const RecordedFrame& frame : recording.frames) {
     own.insert(own.end(), {frame.grey_file, frame.depth_file});
   }
@@ -108,7 +102,7 @@ int localize(const LocalizeOptions& options) {
     return refuse({recording.error()});
   }
   if (!options.out.empty()) {  // Checked first, because a wrong folder would waste the work.
-    const Status place = check_out(options.recording.folder, *recording, options.out);
+    const Status place = check_out(*recording, options.out);
     if (!place) {
       return refuse({place.error()});
     }

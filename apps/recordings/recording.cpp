@@ -22,6 +22,11 @@ constexpr double tum_focal_px = 525.0;
 constexpr double tum_centre_x_px = 319.5;
 constexpr double tum_centre_y_px = 239.5;
 
+constexpr const char* associations_file = "associations.txt";
+constexpr const char* images_file = "rgb.txt";
+constexpr const char* depths_file = "depth.txt";
+constexpr const char* truth_file = "groundtruth.txt";
+
 struct NamedImage {
   MissionTime stamp{};
   std::string file{};
@@ -71,7 +76,7 @@ std::vector<RecordedFrame> paired(const std::vector<NamedImage>& images,
 }
 
 Result<std::vector<RecordedFrame>> read_associations(const std::string& folder) {
-  const std::string file = in(folder, "associations.txt");
+  const std::string file = in(folder, associations_file);
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -92,11 +97,11 @@ Result<std::vector<RecordedFrame>> read_associations(const std::string& folder) 
 }
 
 Result<std::vector<RecordedFrame>> read_frames(const std::string& folder) {
-  if (std::error_code failed; fs::exists(in(folder, "associations.txt"), failed)) {
+  if (std::error_code failed; fs::exists(in(folder, associations_file), failed)) {
     return read_associations(folder);
   }
-  const auto images = read_list(folder, "rgb.txt");
-  const auto depths = images ? read_list(folder, "depth.txt") : images;
+  const auto images = read_list(folder, images_file);
+  const auto depths = images ? read_list(folder, depths_file) : images;
   if (!depths && depths.error().code == ErrorCode::invalid_input) {
     return depths.error();
   }
@@ -151,9 +156,12 @@ Result<Recording> read_tum(const std::string& folder, const RecordingSettings& s
                  "\"" + folder + "\" has no image with depth within .02 s of it"};
   }
   recording.frames = std::move(*frames);
-  const std::string truth_file = in(folder, "groundtruth.txt");
-  if (std::error_code failed; fs::exists(truth_file, failed)) {
-    auto truth = read_tum_trajectory(truth_file);
+  for (const char* name : {associations_file, images_file, depths_file, truth_file,
+                           accelerometer_file, gyroscope_file}) {
+    recording.text_files.push_back(in(folder, name));
+  }
+  if (std::error_code failed; fs::exists(in(folder, truth_file), failed)) {
+    auto truth = read_tum_trajectory(in(folder, truth_file));
     if (!truth) {
       return truth.error();
     }

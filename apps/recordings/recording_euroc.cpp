@@ -16,6 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* images_of_euroc = "cam0/data.csv";
+constexpr const char* camera_of_euroc = "cam0/sensor.yaml";
+constexpr const char* imu_of_euroc = "imu0/data.csv";
+constexpr const char* imu_calibration_of_euroc = "imu0/sensor.yaml";  // Other tools read it.
+constexpr const char* truth_of_euroc = "state_groundtruth_estimate0/data.csv";
+
 std::string in_mav0(const std::string& folder, const std::string& name) {
   return (fs::path{folder} / "mav0" / name).string();
 }
@@ -122,7 +128,7 @@ Status read_camera(const std::string& file, Recording& recording) {
 }
 
 Status read_images(const std::string& folder, Recording& recording) {
-  const std::string file = in_mav0(folder, "cam0/data.csv");
+  const std::string file = in_mav0(folder, images_of_euroc);
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -145,7 +151,7 @@ Status read_images(const std::string& folder, Recording& recording) {
 }
 
 Status read_imu(const std::string& folder, Recording& recording) {
-  const std::string file = in_mav0(folder, "imu0/data.csv");
+  const std::string file = in_mav0(folder, imu_of_euroc);
   const auto lines = read_lines(file);
   if (!lines) {
     return lines.error();
@@ -167,7 +173,7 @@ Status read_imu(const std::string& folder, Recording& recording) {
 }
 
 Status read_truth(const std::string& folder, Recording& recording) {
-  const std::string file = in_mav0(folder, "state_groundtruth_estimate0/data.csv");
+  const std::string file = in_mav0(folder, truth_of_euroc);
   if (std::error_code failed; !fs::exists(file, failed)) {
     return Done{};
   }
@@ -205,7 +211,7 @@ bool is_euroc(const std::string& folder) {
 
 Result<Recording> read_euroc(const std::string& folder, const RecordingSettings& settings) {
   Recording recording;
-  if (const Status read = read_camera(in_mav0(folder, "cam0/sensor.yaml"), recording); !read) {
+  if (const Status read = read_camera(in_mav0(folder, camera_of_euroc), recording); !read) {
     return read.error();
   }
   if (settings.intrinsics.size() == 4) {
@@ -213,6 +219,10 @@ Result<Recording> read_euroc(const std::string& folder, const RecordingSettings&
     recording.camera.focal_y_px = settings.intrinsics[1];
     recording.camera.centre_x_px = settings.intrinsics[2];
     recording.camera.centre_y_px = settings.intrinsics[3];
+  }
+  for (const char* name :
+       {images_of_euroc, camera_of_euroc, imu_of_euroc, imu_calibration_of_euroc, truth_of_euroc}) {
+    recording.text_files.push_back(in_mav0(folder, name));
   }
   for (const auto& read : {read_images, read_imu, read_truth}) {
     if (const Status done = read(folder, recording); !done) {

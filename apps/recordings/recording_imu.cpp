@@ -59,8 +59,8 @@ std::optional<Vec3> value_at(const std::vector<Felt>& felt, MissionTime t) {
 }  // namespace
 
 Status read_tum_imu(const std::string& folder, Recording& recording) {
-  const std::string accel_file = (fs::path{folder} / "accelerometer.txt").string();
-  const std::string gyro_file = (fs::path{folder} / "gyroscope.txt").string();
+  const std::string accel_file = (fs::path{folder} / accelerometer_file).string();
+  const std::string gyro_file = (fs::path{folder} / gyroscope_file).string();
   std::error_code failed;
   if (!fs::exists(accel_file, failed)) {
     return Done{};

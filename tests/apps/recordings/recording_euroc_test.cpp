@@ -52,6 +52,8 @@ TEST(EurocRecording, has_camera_inertial_measurements_and_truth) {
   EXPECT_EQ(recording->camera.distortion[3], 1.76187114e-05);
   EXPECT_TRUE(recording->X_BC.translation().isApprox(Vec3(-0.02, -0.06, 0.01)));
   EXPECT_NEAR(recording->X_BC.linear()(1, 0), 1.0, 1e-9);
+  EXPECT_EQ(recording->text_files.size(), 5U);
+  EXPECT_EQ(recording->text_files.front(), written.place.path("mav0/cam0/data.csv"));
   ASSERT_EQ(recording->imu.size(), 1U);
   EXPECT_EQ(recording->imu[0].w_WB_B, (Vec3{-0.1, 0.15, 0.08}));
   EXPECT_EQ(recording->imu[0].f_B, (Vec3{8.18, -0.38, -3.1}));

@@ -57,6 +57,8 @@ TEST(TumRecording, gives_back_what_was_written) {
   ASSERT_TRUE(recording) << recording.error().message;
   ASSERT_EQ(recording->frames.size(), 3U);
   ASSERT_EQ(recording->truth.size(), 3U);
+  EXPECT_EQ(recording->text_files.size(), 6U);
+  EXPECT_EQ(recording->text_files.front(), written.place.path("associations.txt"));
   EXPECT_EQ(recording->camera.width_px, 8);
   EXPECT_EQ(recording->camera.focal_x_px, 525.0);
   EXPECT_TRUE(recording->truth[1].X_WB.isApprox(pose_at(1.1), 1e-6));

@@ -32,6 +32,8 @@ struct Recording {
   std::vector<ImuSample> imu{};
   bool lacks_gyro{};               ///< There is an accelerometer, but no gyro beside it.
   std::vector<TimedPose> truth{};  ///< Of the body; empty when the folder does not say.
+  /// Those that its layout has beside the images, whether or not they are there.
+  std::vector<std::string> text_files{};
 };
 
 struct RecordingSettings {
