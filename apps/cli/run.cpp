@@ -296,6 +296,9 @@ int fly_into(const std::string& folder,
   const Status written = write_all(options, folder, scenario, *record, timeline);
   print(options.flight.json ? to_json(record->summary) + "\n"
                             : result_text(record->summary, written ? folder : ""));
+  if (const std::string tracking = tracking_remark(record->summary, scenario); !tracking.empty()) {
+    remark(tracking);
+  }
   if (was_interrupted()) {
     note("interrupted; the record ends early: " + folder);
   }

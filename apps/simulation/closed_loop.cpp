@@ -32,11 +32,14 @@ std::optional<GimbalSpec> gimbal_of(const ColourCameras& cameras) {
 
 std::unique_ptr<Pilot> make_pilot(Vehicle& vehicle,
                                   const SimulatedThings& things,
+                                  double max_acceleration_m_s2,
                                   const EventQueue& queue,
                                   AutopilotLink* autopilot) {
   const double ground_z_m = things.world.ground_z_m;
   return autopilot != nullptr
-             ? make_offboard_pilot(vehicle, things.airframe, ground_z_m, queue, *autopilot)
+             ? make_offboard_pilot(vehicle, things.airframe,
+                                   {Vec3::Zero(), ground_z_m, max_acceleration_m_s2}, queue,
+                                   *autopilot)
              : make_simulated_pilot(vehicle, things.airframe, ground_z_m, queue);
 }
 
@@ -66,7 +69,8 @@ ClosedLoop::ClosedLoop(MissionLink& link,
                {start_position(things.world, things.airframe), start_yaw(things.world),
                 things.world.ground_z_m},
                gimbal_of(things.cameras)},
-      pilot_{make_pilot(vehicle_, things, queue, autopilot)},
+      pilot_{
+          make_pilot(vehicle_, things, scenario.mission.max_acceleration_m_s2, queue, autopilot)},
       regression_{things.airframe},
       battery_{things.airframe.battery_cells, things.airframe.battery_ah,
                scenario.vehicle.battery_charge},

@@ -40,6 +40,9 @@ void FlightRecorder::record_state() {
     row.push_back({"tracking_error_m", error.size_m});
     row.push_back({"across_error_m", error.across_m});
     row.push_back({"height_error_m", error.height_m});
+    if (link_.phase() == MissionPhase::cruise) {
+      off_path_m_.push_back(std::hypot(error.across_m, error.height_m));
+    }
   }
   link_.log("state", std::move(row));
 }

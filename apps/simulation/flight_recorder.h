@@ -23,6 +23,8 @@ class FlightRecorder {
   /// Statistics of every job; a row of channel `job` for all but the two most frequent nodes.
   void record_job(const JobRecord& job);
   [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
+  /// How far the vehicle was from its path [m], at each recorded state in cruise.
+  [[nodiscard]] const std::vector<double>& off_path_m() const { return off_path_m_; }
 
  private:
   struct Calls {
@@ -33,6 +35,7 @@ class FlightRecorder {
   const Graph& graph_;
   const ClosedLoop& loop_;
   std::map<std::string, Calls> calls_;
+  std::vector<double> off_path_m_;
 };
 
 }  // namespace flyball

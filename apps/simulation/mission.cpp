@@ -141,8 +141,9 @@ Status check_graph(const Scenario& scenario,
                    const MissionSetup& setup,
                    const SimulatedFlight& flight,
                    const MissionHooks& hooks) {
-  Status possible{Done{}};
-  if (!hooks.executor) {  // One that is given measures what jobs take, or need not know it.
+  Status possible = check_start(*flight.parts.brief);
+  if (possible &&
+      !hooks.executor) {  // One that is given measures what jobs take, or need not know it.
     possible = check_prices_of_nodes(scenario, flight.computer, flight.graph);
     if (possible && setup.edge) {
       possible = check_prices_on_edge(scenario, *setup.edge->platform, flight.graph);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: mission
 #include "simulation/mission_checks.h"
 
 #include "flyball/records/report.h"
+#include "flyball/records/text_table.h"
 
+#include "scenario/scenario_fields.h"
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace flyball {
@@ -60,6 +63,38 @@ Status check_depth_camera(const Scenario& scenario,
   return why.empty() ? Status{Done{}}
                      : Status{Error{ErrorCode::invalid_input,
                                     "a real depth camera cannot be flown with: " + why}};
+}
+
+Status check_start(const Brief& brief) {
+  if (!brief.maps_obstacles) {
+    return Done{};
+  }
+  const DepthCameraSpec& camera = brief.settings.camera;
+  const Intrinsics image = camera.intrinsics();
+  const double half_field_rad = std::atan(0.5 * image.height_px / image.focal_px);
+  const double above = std::tan(half_field_rad - camera.pitch_down_rad);
+  const double below = std::tan(half_field_rad + camera.pitch_down_rad);
+  const Cylinder body = brief.narrow_body();
+  const bool looks_ahead = std::abs(camera.pitch_down_rad) < half_field_rad;
+  const double seen_from_m =
+      looks_ahead ? camera.forward_m + std::max((body.half_height_m - camera.up_m) / above,
+                                                (body.half_height_m + camera.up_m) / below)
+                  : 0.0;
+  const double radius_m = std::max(body.radius_m, seen_from_m);
+  const Site& site = brief.site;
+  const double top_m =
+      std::min(site.cruise_height_m + body.half_height_m, site.bounds_W.max.z() - site.ground_z_m);
+  if (radius_m <= site.start_clear_m && top_m <= site.clear_height_m) {
+    return Done{};
+  }
+  return Error{ErrorCode::invalid_input,
+               "the vehicle cannot leave its start, which is declared clear to " +
+                   rounded(site.start_clear_m, 2) + " m around it and to " +
+                   rounded(site.clear_height_m, 2) + " m above the ground: with " +
+                   "vehicle.tracking_error_m = " + toml_number(brief.tube.at_rest_m) +
+                   " and its camera's field it needs " + rounded(radius_m, 2) + " m and " +
+                   rounded(top_m, 2) + " m; choose a smaller error, a larger field, or a world " +
+                   "that declares more"};
 }
 
 }  // namespace flyball

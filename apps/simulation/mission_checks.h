@@ -4,6 +4,7 @@
 /// @file
 /// What is wrong with the hooks of a flight, said before it begins.
 
+#include "flyball/flight/brief.h"
 #include "flyball/simulation/mission.h"
 
 #include "simulation/mission_setup.h"
@@ -19,5 +20,10 @@ namespace flyball {
 [[nodiscard]] Status check_depth_camera(const Scenario& scenario,
                                         const MissionSetup& setup,
                                         const MissionHooks& hooks);
+
+/// A vehicle leaves the space that is declared clear around its start into space that its camera
+/// has seen, so that has to begin where the clear space ends, over the whole height of the body
+/// with its tube. A camera that looks up or down by half its field or more is left out.
+[[nodiscard]] Status check_start(const Brief& brief);
 
 }  // namespace flyball

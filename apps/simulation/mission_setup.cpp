@@ -137,6 +137,7 @@ Site site_of(const World& world, const std::string& name) {
           world.goal_W,
           world.start_clear_m,
           world.goal_clear_m,
+          world.clear_height_m,
           world.cruise_height_m,
           world.ground_z_m,
           world.open_above_m,
@@ -149,6 +150,7 @@ Brief brief_of(const Scenario& scenario, const MissionSetup& setup) {
   brief.site = site_of(setup.things.world, scenario.world.generator);
   brief.platform = setup.platform;
   brief.body = setup.equipment.body;
+  brief.tube.at_rest_m = scenario.vehicle.tracking_error_m;
   brief.sees_its_place = setup.equipment.kernels.localizer->inputs().images;
   return brief;
 }

@@ -53,6 +53,10 @@ void fill_computing(Summary& summary, const SimulatedFlight& flight) {
   if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
     summary.quality["simulator_late_s_max"] = to_seconds(late);
   }
+  if (const auto& off_path_m = flight.recorder->off_path_m();
+      flight.has_autopilot && !off_path_m.empty()) {
+    summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);
+  }
   if (const FlightLog& log = flight.loop->log(); log.measured_s > 0.0) {
     summary.quality["rotor_power_measured_percent"] = 100.0 * log.measured_s / log.airborne_s;
     if (log.reported_battery->percent) {

@@ -11,18 +11,18 @@ class OffboardPilot final : public Pilot {
  public:
   OffboardPilot(Vehicle& vehicle,
                 const Airframe& airframe,
-                double ground_z_m,
+                const FlightStart& start,
                 const EventQueue& queue,
                 AutopilotLink& autopilot)
       : vehicle_{vehicle},
         airframe_{airframe},
-        ground_z_m_{ground_z_m},
+        start_{start},
         queue_{queue},
         autopilot_{autopilot} {}
 
   Status prepare(const std::function<bool()>& stop) override {
-    const FlightStart start{vehicle_.state().X_WB.translation(), ground_z_m_};
-    if (Status connected = autopilot_.connect(start, stop); !connected) {
+    start_.p_WB = vehicle_.state().X_WB.translation();
+    if (Status connected = autopilot_.connect(start_, stop); !connected) {
       return connected;
     }
     place(0.0);
@@ -68,7 +68,7 @@ class OffboardPilot final : public Pilot {
 
   Vehicle& vehicle_;
   const Airframe& airframe_;
-  double ground_z_m_;
+  FlightStart start_;
   const EventQueue& queue_;
   AutopilotLink& autopilot_;
 };
@@ -77,10 +77,10 @@ class OffboardPilot final : public Pilot {
 
 std::unique_ptr<Pilot> make_offboard_pilot(Vehicle& vehicle,
                                            const Airframe& airframe,
-                                           double ground_z_m,
+                                           const FlightStart& start,
                                            const EventQueue& queue,
                                            AutopilotLink& autopilot) {
-  return std::make_unique<OffboardPilot>(vehicle, airframe, ground_z_m, queue, autopilot);
+  return std::make_unique<OffboardPilot>(vehicle, airframe, start, queue, autopilot);
 }
 
 }  // namespace flyball

@@ -55,9 +55,10 @@ class Pilot {
                                                           const Airframe& airframe,
                                                           double ground_z_m,
                                                           const EventQueue& queue);
+/// @param start  But for where the vehicle stands.
 [[nodiscard]] std::unique_ptr<Pilot> make_offboard_pilot(Vehicle& vehicle,
                                                          const Airframe& airframe,
-                                                         double ground_z_m,
+                                                         const FlightStart& start,
                                                          const EventQueue& queue,
                                                          AutopilotLink& autopilot);
 

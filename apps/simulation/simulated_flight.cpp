@@ -45,8 +45,9 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
     : workload{std::move(made)},
       graph{scenario.mission.workload},
       computer{setup.platform->model()},
-      board{start_point(scenario)} {
-  parts.brief = adapted_brief(scenario, setup);
+      board{start_point(scenario)},
+      has_autopilot{on.autopilot != nullptr} {
+  parts.brief = adapted_brief(scenario, setup, on);
   parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
   parts.mission = add_mission_topics(graph);
   parts.kernels = setup.equipment.kernels;
@@ -69,8 +70,11 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
 }
 
 std::shared_ptr<const Brief> SimulatedFlight::adapted_brief(const Scenario& scenario,
-                                                            const MissionSetup& setup) const {
+                                                            const MissionSetup& setup,
+                                                            const FlightHardware& on) const {
   Brief brief = brief_of(scenario, setup);
+  brief.shares_pose_with_autopilot =
+      on.autopilot != nullptr && setup.equipment.kernels.localizer->inputs().truth;
   workload->adapt(brief);
   return std::make_shared<const Brief>(std::move(brief));
 }

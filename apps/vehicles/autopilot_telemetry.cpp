@@ -175,8 +175,20 @@ void AutopilotTelemetry::look(Duration now) {
   }
   if (is_blind_ == is_fresh(now)) {
     is_blind_ = !is_blind_;
-    tell(is_blind_ ? "the autopilot has not said for .25 s where it is"
-                   : "the autopilot says again where it is");
+    tell_of_sight(is_blind_, now);
+  }
+}
+
+/// A line that drops out again and again would bury every other sentence.
+void AutopilotTelemetry::tell_of_sight(bool is_blind, Duration now) {
+  constexpr auto pause = 10s;
+  if (is_blind && now >= next_blind_news_) {
+    next_blind_news_ = now + pause;
+    has_told_blind_ = true;
+    tell("the autopilot has not said for .25 s where it is");
+  } else if (!is_blind && has_told_blind_) {
+    has_told_blind_ = false;
+    tell("the autopilot says again where it is");
   }
 }
 

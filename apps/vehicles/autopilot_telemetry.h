@@ -74,6 +74,7 @@ class AutopilotTelemetry {
   void hear_battery(const MavSystemStatus& status, Duration now);
   void hear_attitude(const MavAttitudeQuaternion& attitude, Duration now);
   void hear_text(const MavStatusText& text);
+  void tell_of_sight(bool is_blind, Duration now);
 
   std::uint8_t system_{};
   std::optional<Result<AutopilotKind>> kind_{};
@@ -94,7 +95,9 @@ class AutopilotTelemetry {
   std::optional<Duration> position_made_{};
   std::optional<Duration> attitude_made_{};
   bool is_silent_{};
-  bool is_blind_{};  ///< No position comes.
+  bool is_blind_{};             ///< No position comes,
+  bool has_told_blind_{};       ///< and who flies has been told so,
+  Duration next_blind_news_{};  ///< which is not told again before then.
   bool has_told_of_signature_{};
   std::string text_{};  ///< Pieces of a longer STATUSTEXT.
   std::uint16_t text_id_{};

@@ -5,6 +5,7 @@
 #include "vehicles/offboard_control.h"
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace flyball {
 namespace {
@@ -12,12 +13,11 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto heard_within = 15s;  // Chosen: an autopilot boots in about 10 s.
-constexpr auto located_within =
-    30s;  // Chosen: a GPS receiver that was on lately has a fix by then.
+// An ArduCopter in simulation took 31 s from its start until its estimate used GPS.
+constexpr auto located_within = 90s;
+constexpr auto told_to_wait_after = 5s;
 constexpr auto limit_answer_within = 500ms;
 constexpr int most_limit_tries = 5;
-constexpr double longest_guided_timeout_s = 0.5;  // As long as a set-point counts here.
-constexpr const char* guided_timeout = "GUID_TIMEOUT";
 
 struct WantedMessage {
   std::uint32_t id;
@@ -33,6 +33,30 @@ constexpr std::array<WantedMessage, 4> wanted_messages{{
     {MavExtendedState::kind.id, 200e3F, "to send EXTENDED_SYS_STATE", nullptr},
     {MavSystemStatus::kind.id, 200e3F, "to send SYS_STATUS", "power is estimated"},
 }};
+
+/// A parameter of ArduPilot that decides whether it flies what it is told.
+struct WantedLimit {
+  const char* name;
+  const char* unit;
+  double least;
+  double most;
+  const char* otherwise;  ///< What happens beyond it.
+};
+
+using WantedLimits = std::array<WantedLimit, 3>;
+
+WantedLimits wanted_limits(const FlightStart& start) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  constexpr double longest_s = 0.5;  // As long as a set-point counts here.
+  constexpr double least_m_s3 = 20.0;
+  const double least_cm_s2 = 100.0 * start.max_acceleration_m_s2;
+  return {{{"GUID_TIMEOUT", "s", 0.0, longest_s,
+            "so long the vehicle flies on when Flyball falls silent"},
+           {"WPNAV_ACCEL", "cm/s^2", least_cm_s2, any,
+            "it brakes by no more, and the flight by up to mission.max_acceleration_m_s2"},
+           {"PSC_JERK_XY", "m/s^3", least_m_s3, any,
+            "it begins to brake so slowly that it flies past where it is to stop"}}};
+}
 
 }  // namespace
 
@@ -53,7 +77,7 @@ void OffboardControl::step_connection(Duration now) {
     case Leg::requesting:
       return request(now);
     case Leg::limits:
-      return ask_limits(now);
+      return ask_limit(now);
     case Leg::locating:
       return locate(now);
     default:
@@ -93,14 +117,15 @@ void OffboardControl::request(Duration now) {
 }
 
 /// Parameters have a protocol of their own, without refusals.
-void OffboardControl::ask_limits(Duration now) {
+void OffboardControl::ask_limit(Duration now) {
   if (now < next_limit_try_) {
     return;
   }
+  const WantedLimit wanted = wanted_limits(start_).at(limit_);
   if (limit_tries_ == most_limit_tries) {
-    telemetry_.tell(std::string{"the autopilot does not say its "} + guided_timeout +
-                    ": how long it goes on flying when Flyball falls silent");
-    enter(Leg::locating, now);
+    telemetry_.tell(std::string{"the autopilot does not say its "} + wanted.name +
+                    "; set beyond its limit, " + wanted.otherwise);
+    next_limit(now);
     return;
   }
   ++limit_tries_;
@@ -108,24 +133,35 @@ void OffboardControl::ask_limits(Duration now) {
   MavParamRequestRead request;
   request.target_system = telemetry_.system();
   request.target_component = mav::component_autopilot;
-  const std::string name = guided_timeout;
+  const std::string name = wanted.name;
   std::copy(name.begin(), name.end(), request.name.begin());
   send(request);
 }
 
-void OffboardControl::hear_limits(const MavParamValue& value, Duration now) {
-  if (leg_ != Leg::limits || mavlink_text(value.name) != guided_timeout) {
+void OffboardControl::hear_limit(const MavParamValue& value, Duration now) {
+  if (leg_ != Leg::limits) {
     return;
   }
-  if (value.value > longest_guided_timeout_s) {
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "%s is %.1f s: so long the vehicle flies on when Flyball falls silent; set it to "
-                  "%.1f s",
-                  guided_timeout, static_cast<double>(value.value), longest_guided_timeout_s);
+  const WantedLimit wanted = wanted_limits(start_).at(limit_);
+  if (mavlink_text(value.name) != wanted.name) {
+    return;
+  }
+  const double is = value.value;
+  if (is < wanted.least || is > wanted.most) {
+    std::array<char, 240> text{};
+    std::snprintf(text.data(), text.size(), "%s is %.1f %s: %s; set it to %.1f", wanted.name, is,
+                  wanted.unit, wanted.otherwise, is > wanted.most ? wanted.most : wanted.least);
     telemetry_.tell(text.data());
   }
-  enter(Leg::locating, now);
+  next_limit(now);
+}
+
+void OffboardControl::next_limit(Duration now) {
+  limit_tries_ = 0;
+  next_limit_try_ = now;
+  if (++limit_ == WantedLimits{}.size()) {
+    enter(Leg::locating, now);
+  }
 }
 
 void OffboardControl::locate(Duration now) {
@@ -140,14 +176,20 @@ void OffboardControl::locate(Duration now) {
     enter(Leg::standing, now);
     return;
   }
+  std::string missing;
+  const auto lack = [&missing](bool is_said, const char* what) {
+    missing += is_said ? "" : (missing.empty() ? " " : ", ") + std::string{what};
+  };
+  lack(telemetry_.has_position(), "where it is");
+  lack(telemetry_.has_attitude(), "how it is turned");
+  lack(on_ground.has_value(), "whether it is on the ground");
+  const std::string sentence =
+      "the autopilot does not yet say" + (missing.empty() ? " often enough where it is" : missing);
   if (waited(located_within, now)) {
-    std::string missing;
-    missing += telemetry_.has_position() ? "" : ", where it is";
-    missing += telemetry_.has_attitude() ? "" : ", how it is turned";
-    missing += on_ground ? "" : ", whether it is on the ground";
-    fail("the autopilot does not say" +
-         (missing.empty() ? ", often enough, where it is" : missing) +
-         "; wait until it is ready to arm");
+    fail(sentence + "; wait until it is ready to arm");
+  } else if (waited(told_to_wait_after, now) && !has_told_to_wait_) {
+    has_told_to_wait_ = true;
+    telemetry_.tell(sentence + "; it is waited for, 90 s at most");
   }
 }
 

@@ -74,7 +74,7 @@ void OffboardControl::hear(const std::uint8_t* bytes, std::size_t count, Duratio
         commands_.hear(answer, now);
       }
     } else if (frame.id == MavParamValue::kind.id) {
-      hear_limits(mavlink_message<MavParamValue>(frame), now);
+      hear_limit(mavlink_message<MavParamValue>(frame), now);
     }
   }
 }

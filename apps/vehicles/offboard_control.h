@@ -65,7 +65,7 @@ class OffboardControl {
   enum class Leg : std::uint8_t {
     listening,   ///< For the first heartbeat.
     requesting,  ///< The messages that are needed.
-    limits,      ///< Asks ArduPilot how long it believes a set-point.
+    limits,      ///< Asks ArduPilot for parameters that a flight depends on.
     locating,    ///< Until position, attitude and landed state are there.
     standing,    ///< On the ground, disarmed.
     streaming,   ///< Before PX4 takes the mode.
@@ -76,8 +76,8 @@ class OffboardControl {
     landing,
     out_of_hand,  ///< Somebody else flies.
   };
-  /// Chosen: a vehicle that hovers by GPS wanders so fast.
-  static constexpr double hovering_m_s = 0.3;
+  /// PX4 that hovers by GPS in its own simulation is up to .45 m/s fast.
+  static constexpr double hovering_m_s = 0.6;
 
   [[nodiscard]] AutopilotKind kind() const { return **telemetry_.kind(); }
   void enter(Leg leg, Duration now);
@@ -99,8 +99,9 @@ class OffboardControl {
   void step_connection(Duration now);
   void listen(Duration now);
   void request(Duration now);
-  void ask_limits(Duration now);
-  void hear_limits(const MavParamValue& value, Duration now);
+  void ask_limit(Duration now);
+  void hear_limit(const MavParamValue& value, Duration now);
+  void next_limit(Duration now);
   void locate(Duration now);
   void step_flight(Duration now);
   void prepare(Duration now);
@@ -127,7 +128,9 @@ class OffboardControl {
   bool has_refused_setpoint_{};
   bool is_landing_granted_{};
   std::size_t requested_{};  ///< How many of the messages.
+  std::size_t limit_{};      ///< The parameter that is asked for.
   int limit_tries_{};
+  bool has_told_to_wait_{};
   Duration next_limit_try_{};
   std::optional<Duration> next_beat_{};
   double goal_height_m_{};  ///< Of the take-off, in W.

@@ -11,9 +11,8 @@ namespace {
 using namespace std::chrono_literals;
 
 // Chosen by hand.
-constexpr double there_m = 0.3;        // Near enough to a view, ...
-constexpr double there_error_m = 0.1;  // ... with the vehicle this near to its reference, ...
-constexpr double facing_rad = 0.05;    // ... and turned this near to its heading.
+constexpr double there_m = 0.3;      // Near enough to a view, ...
+constexpr double facing_rad = 0.05;  // ... and turned this near to its heading.
 constexpr double moving_m_s = 0.05;
 constexpr int most_failures = 3;     // After so many failed plans in a row a view is given up, ...
 constexpr double patience_s = 40.0;  // ... or after standing for so long before it is reached.
@@ -137,7 +136,8 @@ void ExplorationFlight::advance(JobContext& job, const PoseEstimate& pose) {
 
 void ExplorationFlight::take_off(JobContext& job, const PoseEstimate& pose) {
   const Site& site = parts_.brief->site;
-  job.publish(perception_.map_hints, MapHint{clear_over(site.start_W, site.start_clear_m)});
+  job.publish(perception_.map_hints,
+              MapHint{clear_over(site.start_W, site.start_clear_m, site.clear_height_m)});
   guidance_.hover_at(job, above_start_W(), yaw_of(pose.X_WB.linear().col(0)));
   legs_.take_off(job, parts_.brief->site.cruise_height_m);
   stage_ = Stage::climbing;
@@ -197,7 +197,7 @@ void ExplorationFlight::watch_flight(JobContext& job) {
   }
   const bool is_there =
       (navigator->position_W - navigator->goal_W).norm() < there_m && navigator->stands_still;
-  if (is_there && navigator->tracking_error.size_m < there_error_m) {
+  if (is_there && navigator->tracking_error.size_m < parts_.brief->arrival_error_m()) {
     guidance_.give_up_goal(job);
     if (state_ == State::homing) {
       land(job);

@@ -210,7 +210,16 @@ Setpoint Navigator::tick(MissionTime now,
     hover.yaw_rad = follower_.yaw_rad();
     return hover;
   }
-  return path_tracker_->track(follower_.path(), reference, here, now);
+  return path_tracker_->track(follower_.path(), reference, to_correct(here), now);
+}
+
+/// An autopilot that flies by the same pose leaves no error to correct.
+PoseEstimate Navigator::to_correct(const PoseEstimate& here) const {
+  PoseEstimate there = here;
+  if (brief_->shares_pose_with_autopilot) {
+    there.X_WB.translation() = follower_.position_W();
+  }
+  return there;
 }
 
 NavigatorState Navigator::state() const {

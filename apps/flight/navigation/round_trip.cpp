@@ -57,7 +57,8 @@ double RoundTrip::nearer_m(const Vec3& p_W) {
 
 bool RoundTrip::has_arrived(JobContext& job) const {
   const auto navigator = guidance_.state(job);
-  return navigator && navigator->has_arrived && navigator->tracking_error.size_m < 0.1;
+  return navigator && navigator->has_arrived &&
+         navigator->tracking_error.size_m < brief_->arrival_error_m();
 }
 
 Vec3 RoundTrip::above(const Vec3& ground_W) const {
@@ -80,8 +81,10 @@ const Vec3& RoundTrip::end_W() const {
 
 void RoundTrip::take_off(JobContext& job, const PoseEstimate& pose) {
   const Site& places = brief_->site;
-  job.publish(perception_.map_hints, MapHint{clear_over(places.start_W, places.start_clear_m)});
-  job.publish(perception_.map_hints, MapHint{clear_over(places.goal_W, places.goal_clear_m)});
+  job.publish(perception_.map_hints,
+              MapHint{clear_over(places.start_W, places.start_clear_m, places.clear_height_m)});
+  job.publish(perception_.map_hints,
+              MapHint{clear_over(places.goal_W, places.goal_clear_m, places.clear_height_m)});
   guidance_.hover_at(job, above(begin_W()), yaw_of(pose.X_WB.linear().col(0)));
   legs_.take_off(job, places.cruise_height_m);
   stage_ = Stage::climbing;

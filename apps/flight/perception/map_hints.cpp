@@ -4,8 +4,7 @@
 
 namespace flyball {
 
-ClearSpace clear_over(const Vec3& ground_W, double radius_m) {
-  constexpr double height_m = 2.5;
+ClearSpace clear_over(const Vec3& ground_W, double radius_m, double height_m) {
   return {ground_W + Vec3::UnitZ() * (0.5 * height_m), {radius_m, 0.5 * height_m}};
 }
 

@@ -16,6 +16,13 @@ TEST(Brief, body_grows_with_speed_by_the_tracking_tube) {
   EXPECT_DOUBLE_EQ(rig.brief->body_at(5.0).radius_m, at_rest_m + 5.0 * rig.brief->tube.per_m_s);
 }
 
+TEST(Brief, has_arrived_as_near_as_the_vehicle_is_kept_to_its_reference) {
+  Brief brief;
+  EXPECT_DOUBLE_EQ(brief.arrival_error_m(), 0.1);
+  brief.tube.at_rest_m = 0.5;
+  EXPECT_DOUBLE_EQ(brief.arrival_error_m(), 0.5);
+}
+
 TEST(VehicleTopics, are_as_many_as_the_vehicle_serves) {
   Graph bare{"bare"};
   EXPECT_FALSE(add_vehicle_topics(bare).view.has_value());

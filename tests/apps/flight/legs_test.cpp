@@ -73,7 +73,7 @@ TEST_F(Legged, do_not_believe_a_status_from_before_the_command) {
 }
 
 TEST(ClearOver, is_the_cylinder_over_the_place) {
-  const ClearSpace clear = clear_over({1.0, 2.0, 0.0}, 0.8);
+  const ClearSpace clear = clear_over({1.0, 2.0, 0.0}, 0.8, 2.5);
   EXPECT_EQ(clear.centre_W, (Vec3{1.0, 2.0, 1.25}));
   EXPECT_EQ(clear.space.radius_m, 0.8);
   EXPECT_EQ(clear.space.half_height_m, 1.25);

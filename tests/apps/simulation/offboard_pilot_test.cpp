@@ -123,6 +123,26 @@ TEST(OffboardPilot, a_jump_of_the_autopilots_estimate_does_not_throw_the_vehicle
   EXPECT_LT(fastest_m_s, 1.1 * record->summary.max_speed_m_s);
 }
 
+/// Outside the declared error the reference waits for the vehicle.
+TEST(OffboardPilot, flies_at_speed_with_the_tracking_error_that_its_autopilot_keeps) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::px4);
+  rules.swing_m = 0.4;
+  const auto flown_with = [&rules](double tracking_error_m) {
+    FlownByAutopilot flown{rules};
+    Scenario scenario = kit::short_delivery(60.0);
+    scenario.vehicle.tracking_error_m = tracking_error_m;
+    const auto record = flown.fly(scenario);
+    EXPECT_TRUE(record);
+    return record->summary;
+  };
+  const Summary trusted = flown_with(0.02);
+  const Summary declared = flown_with(0.3);
+  EXPECT_GT(trusted.quality.at("off_path_m_p95"), 0.1);
+  EXPECT_LT(declared.quality.at("off_path_m_p95"), 0.3);
+  EXPECT_EQ(declared.status, MissionStatus::succeeded) << to_string(declared.failure);
+  EXPECT_LT(declared.mission_time_s, 0.8 * trusted.mission_time_s);
+}
+
 TEST(OffboardPilot, rotor_power_is_what_the_autopilot_measures) {
   kit::StandInRules rules = kit::safe_rules(AutopilotKind::px4);
   rules.battery_a = 20.0F;  // 400 W with the computer.

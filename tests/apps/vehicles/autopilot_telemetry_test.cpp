@@ -183,6 +183,22 @@ TEST(AutopilotTelemetry, tells_of_silence_once_and_of_its_end) {
             std::vector<std::string>{"the autopilot is heard again, after 5 s"});
 }
 
+TEST(AutopilotTelemetry, tells_of_a_line_that_drops_out_again_and_again_once_in_10_s) {
+  AutopilotTelemetry telemetry = heard_px4();
+  std::size_t sentences = 0;
+  for (int second = 1; second <= 15; ++second) {
+    const Duration now = std::chrono::seconds{second};
+    telemetry.hear(framed(local_position(1000U * static_cast<std::uint32_t>(second), 0.0F, 0.0F)),
+                   now);
+    telemetry.hear(framed(level(1000U * static_cast<std::uint32_t>(second))), now);
+    telemetry.hear(framed(px4_heartbeat()), now);
+    telemetry.look(now);
+    telemetry.look(now + 500ms);
+    sentences += telemetry.take_news().size();
+  }
+  EXPECT_EQ(sentences, 4U);  // At 1 and 11 s that nothing came, and each time that it came again.
+}
+
 TEST(AutopilotTelemetry, says_once_that_signatures_are_not_checked) {
   AutopilotTelemetry telemetry;
   MavlinkFrame frame = framed(px4_heartbeat());

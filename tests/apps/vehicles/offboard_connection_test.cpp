@@ -81,7 +81,9 @@ TEST(OffboardConnection, says_what_the_autopilot_does_not_tell) {
   kit::OffboardRig rig{rules};
   EXPECT_FALSE(rig.connect());
   EXPECT_EQ(rig.control.failure(),
-            "the autopilot does not say, where it is; wait until it is ready to arm");
+            "the autopilot does not yet say where it is; wait until it is ready to arm");
+  EXPECT_EQ(rig.news,
+            "the autopilot does not yet say where it is; it is waited for, 90 s at most\n");
 }
 
 TEST(OffboardConnection, does_not_take_over_a_vehicle_that_is_armed) {
@@ -97,6 +99,27 @@ TEST(OffboardConnection, warns_of_an_ardupilot_that_believes_old_set_points) {
   kit::OffboardRig rig{rules};
   ASSERT_TRUE(rig.connect());
   EXPECT_NE(rig.news.find("GUID_TIMEOUT is 3.0 s"), std::string::npos) << rig.news;
+}
+
+TEST(OffboardConnection, warns_of_an_ardupilot_that_brakes_less_than_the_flight) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
+  rules.parameters["WPNAV_ACCEL"] = 250.0F;
+  rules.parameters["PSC_JERK_XY"] = 5.0F;
+  kit::OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect());
+  EXPECT_EQ(rig.news,
+            "WPNAV_ACCEL is 250.0 cm/s^2: it brakes by no more, and the flight by up to "
+            "mission.max_acceleration_m_s2; set it to 300.0\n"
+            "PSC_JERK_XY is 5.0 m/s^3: it begins to brake so slowly that it flies past where it is "
+            "to stop; set it to 20.0\n");
+}
+
+TEST(OffboardConnection, flies_an_ardupilot_that_has_no_such_parameter) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
+  rules.parameters.erase("WPNAV_ACCEL");
+  kit::OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect());
+  EXPECT_NE(rig.news.find("does not say its WPNAV_ACCEL"), std::string::npos) << rig.news;
 }
 
 }  // namespace

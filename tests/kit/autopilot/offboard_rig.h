@@ -22,7 +22,8 @@ inline StandInRules safe_rules(AutopilotKind kind) {
 
 struct OffboardRig {
   explicit OffboardRig(const StandInRules& rules = {})
-      : autopilot{rules, shipped_airframe()}, control{{start_W, ground_z_m}} {}
+      : autopilot{rules, shipped_airframe()},
+        control{{start_W, ground_z_m, max_acceleration_m_s2}} {}
 
   /// Turns of 10 ms until `done`, or for so long. Returns whether `done`.
   bool run(
@@ -51,7 +52,7 @@ struct OffboardRig {
   }
 
   bool connect() {
-    return run(std::chrono::minutes{1},
+    return run(std::chrono::minutes{2},
                [this] { return control.is_connected() || !control.failure().empty(); }) &&
            control.is_connected();
   }
@@ -80,6 +81,7 @@ struct OffboardRig {
     each_turn = {};
   }
 
+  const double max_acceleration_m_s2{3.0};
   const Vec3 start_W{100.0, 50.0, -2.9};
   const double ground_z_m{-3.0};
   StandInAutopilot autopilot;

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct StandInRules {
   Vec3 local_start_N{12.0, -7.0, 0.4};  ///< What it calls the place where it stands.
   double yaw_rad{0.3};                  ///< From east, anticlockwise.
   float guided_timeout_s{3.0F};
+  std::map<std::string, float> parameters{{"WPNAV_ACCEL", 600.0F}, {"PSC_JERK_XY", 20.0F}};
   bool denies_arming{};
   bool denies_take_off{};
   bool denies_landing{};
@@ -38,6 +40,7 @@ struct StandInRules {
   int twice_of{};                       ///< Each frame of so many comes twice; 0: none.
   std::uint32_t never_sends{0xffffff};  ///< A message, whatever is asked.
   std::uint32_t denies_message{0xffffff};  ///< It says that it does not send it.
+  double swing_m{};        ///< Its estimate swings by so much around where it is, each way, in 5 s.
   float battery_a{-1.0F};  ///< What its power module measures at 20 V; negative: it has none.
 };
 
@@ -151,12 +154,21 @@ class StandInAutopilot {
     } else if (frame.id == MavPositionTarget::kind.id) {
       hear(mavlink_message<MavPositionTarget>(frame));
     } else if (frame.id == MavParamRequestRead::kind.id && !is_px4()) {
-      MavParamValue value;
-      value.name = mavlink_message<MavParamRequestRead>(frame).name;
-      value.value = rules_.guided_timeout_s;
-      value.type = 9;
-      send(value);
+      tell_parameter(mavlink_message<MavParamRequestRead>(frame));
     }
+  }
+
+  void tell_parameter(const MavParamRequestRead& request) {
+    const std::string name = mavlink_text(request.name);
+    const auto found = rules_.parameters.find(name);
+    if (name != "GUID_TIMEOUT" && found == rules_.parameters.end()) {
+      return;
+    }
+    MavParamValue value;
+    value.name = request.name;
+    value.value = name == "GUID_TIMEOUT" ? rules_.guided_timeout_s : found->second;
+    value.type = 9;
+    send(value);
   }
 
   void hear(const MavCommandLong& command) {
@@ -240,7 +252,7 @@ class StandInAutopilot {
     const auto enu = [](const std::array<float, 3>& v) {
       return Vec3{static_cast<double>(v[1]), static_cast<double>(v[0]), -static_cast<double>(v[2])};
     };
-    wanted.p_WB = enu(target.p_m) - start_ENU() + Vec3{0.0, 0.0, stand_m_};
+    wanted.p_WB = enu(target.p_m) - start_ENU() + Vec3{0.0, 0.0, stand_m_} - swing_ENU();
     wanted.v_WB = enu(target.v_m_s);
     wanted.a_WB = enu(target.a_m_s2);
     wanted.yaw_rad = 0.5 * M_PI - static_cast<double>(target.yaw_rad);
@@ -258,6 +270,12 @@ class StandInAutopilot {
   [[nodiscard]] Vec3 start_ENU() const {
     const Vec3& n = rules_.local_start_N;
     return {n.y(), n.x(), -n.z()};
+  }
+
+  /// As estimates by GPS do, of which this is a coarse picture.
+  [[nodiscard]] Vec3 swing_ENU() const {
+    const double turned = 2.0 * M_PI / 5.0 * to_seconds(now_);
+    return rules_.swing_m * Vec3{std::sin(turned), std::cos(turned), 0.0};
   }
 
   void send_due() {
@@ -312,7 +330,7 @@ class StandInAutopilot {
   [[nodiscard]] MavLocalPosition position() const {
     MavLocalPosition said;
     said.time_boot_ms = boot_ms();
-    said.p_m = ned(moved_m() + start_ENU());
+    said.p_m = ned(moved_m() + start_ENU() + swing_ENU());
     said.v_m_s = ned(truth().v_WB);
     return said;
   }

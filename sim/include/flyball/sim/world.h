@@ -44,6 +44,7 @@ struct World {
   Vec3 goal_W{Vec3::Zero()};    ///< On the ground, where it delivers.
   double start_clear_m{1.0};    ///< No solid is closer to the vertical line over the start.
   double goal_clear_m{1.0};     ///< The same over the goal.
+  double clear_height_m{2.5};   ///< Up to which both count.
   double cruise_height_m{1.5};  ///< Above ground.
   /// Nothing reaches higher than this above the ground, and the vehicle is told so; null where
   /// that is not so.

@@ -28,10 +28,12 @@ struct Site {
   std::vector<SpeedZone> zones{};
   Vec3 start_W{Vec3::Zero()};  ///< On the ground.
   Vec3 goal_W{Vec3::Zero()};
-  /// No obstacle is closer to the vertical lines over start and goal, up to 2.5 m or to the top of
-  /// `bounds_W`. Who gives the site vouches for it: no camera looks there before take-off.
+  /// No obstacle is closer to the vertical lines over start and goal, up to `clear_height_m` or to
+  /// the top of `bounds_W`. Who gives the site vouches for it: no camera looks there before
+  /// take-off.
   double start_clear_m{1.0};
   double goal_clear_m{1.0};
+  double clear_height_m{2.5};
   double cruise_height_m{};
   double ground_z_m{};
   std::optional<double> open_above_m{};  ///< Nothing reaches higher above the ground.
@@ -52,12 +54,17 @@ struct Brief {
 
   /// Whether the localizer takes images, so that the place is known from frame to frame only.
   bool sees_its_place{};
+  /// Whether the autopilot flies by the same pose, so that its own loops correct every error. A
+  /// second correction beside them is unstable: an ArduCopter swayed by 4 m along its path.
+  bool shares_pose_with_autopilot{};
 
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;
   /// The body with its tube in a narrow passage. Nothing is planned, checked or flown with less
   /// room.
   [[nodiscard]] Cylinder narrow_body() const { return body_at(slow_m_s); }
+  /// The vehicle has come to where its reference stands when it is this near to it.
+  [[nodiscard]] double arrival_error_m() const;
 };
 
 }  // namespace flyball

@@ -91,6 +91,7 @@ class Navigator {
   [[nodiscard]] Setpoint searched(MissionTime now, const Setpoint& search);
   void resume_after_search(MissionTime now, const PoseEstimate& where);
   [[nodiscard]] PoseEstimate believed(MissionTime now, const PoseEstimate& where);
+  [[nodiscard]] PoseEstimate to_correct(const PoseEstimate& here) const;
   void trust_own_place();
   void note_stall(MissionTime now);
   void leave_blocked_place();

@@ -25,8 +25,8 @@ struct DoubtedPlace {
 
 using MapHint = std::variant<ClearSpace, DoubtedPlace>;
 
-/// The cylinder over a place on the ground where a vehicle may take off and land, 2.5 m high; see
-/// `Site::start_clear_m` for its radius.
-[[nodiscard]] ClearSpace clear_over(const Vec3& ground_W, double radius_m);
+/// The cylinder over a place on the ground where a vehicle may take off and land: see
+/// `Site::start_clear_m` and `Site::clear_height_m`.
+[[nodiscard]] ClearSpace clear_over(const Vec3& ground_W, double radius_m, double height_m);
 
 }  // namespace flyball

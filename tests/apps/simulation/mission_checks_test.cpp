@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/mission_checks.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+Brief matrice() {
+  Brief brief;
+  brief.body = {0.325, 0.1};
+  brief.site.bounds_W = {{-10.0, -10.0, 0.5}, {10.0, 10.0, 20.0}};
+  brief.site.cruise_height_m = 1.5;
+  return brief;
+}
+
+TEST(MissionChecks, a_vehicle_may_start_where_its_camera_sees_all_that_is_not_declared_clear) {
+  EXPECT_TRUE(check_start(matrice()));
+}
+
+TEST(MissionChecks, a_body_wider_than_the_clear_space_cannot_leave_its_start) {
+  Brief brief = matrice();
+  brief.tube.at_rest_m = 0.7;
+  const Status refused = check_start(brief);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("it needs 1.49 m and 2.34 m"), std::string::npos)
+      << refused.error().message;
+}
+
+TEST(MissionChecks, a_flight_above_the_clear_space_cannot_leave_its_start) {
+  Brief brief = matrice();
+  brief.site.cruise_height_m = 2.5;
+  EXPECT_FALSE(check_start(brief));
+  brief.site.clear_height_m = 3.0;
+  EXPECT_TRUE(check_start(brief));
+}
+
+TEST(MissionChecks, a_camera_that_sees_the_whole_height_too_far_ahead_cannot_leave_its_start) {
+  Brief brief = matrice();
+  brief.tube.at_rest_m = 0.5;
+  const Status refused = check_start(brief);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("it needs 1.14 m and 2.14 m"), std::string::npos)
+      << refused.error().message;
+  brief.site.start_clear_m = 1.5;
+  EXPECT_TRUE(check_start(brief));
+  brief.site.start_clear_m = 1.0;
+  brief.maps_obstacles = false;  // What is declared clear is all that counts.
+  EXPECT_TRUE(check_start(brief));
+}
+
+}  // namespace
+}  // namespace flyball
