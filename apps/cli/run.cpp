@@ -7,6 +7,7 @@
 #include "flyball/scenario/override.h"
 #include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
+#include "flyball/simulation/tracking_remarks.h"
 
 #include "cli/computer/autopilot_option.h"
 #include "cli/computer/depth_camera_option.h"
@@ -296,8 +297,8 @@ int fly_into(const std::string& folder,
   const Status written = write_all(options, folder, scenario, *record, timeline);
   print(options.flight.json ? to_json(record->summary) + "\n"
                             : result_text(record->summary, written ? folder : ""));
-  if (const std::string tracking = tracking_remark(record->summary, scenario); !tracking.empty()) {
-    remark(tracking);
+  for (const std::string& sentence : tracking_remarks(record->summary, scenario)) {
+    remark(sentence);
   }
   if (was_interrupted()) {
     note("interrupted; the record ends early: " + folder);
@@ -312,8 +313,8 @@ int fly_into(const std::string& folder,
 }
 
 int run(const RunOptions& options) {
-  const auto loaded = load_overridden_scenario(options.flight.scenario, overrides_of(options),
-                                               options.flight.plugins);
+  const auto loaded = load_to_fly(options.flight.scenario, overrides_of(options),
+                                  options.flight.plugins, options.autopilot);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }

@@ -45,6 +45,8 @@ Fields vehicle_fields() {
       {"vehicle.payload_kg", &at<in, &V::payload_kg>, 0, 20, "mass that is carried to the goal"},
       {"vehicle.tracking_error_m", &at<in, &V::tracking_error_m>, 0, 5,
        "how far it may be from its reference at rest; paths keep so much more room"},
+      {"vehicle.brake_lag_s", &at<in, &V::brake_lag_s>, 0, 2,
+       "how much later than its reference it brakes; stops are begun so much earlier"},
       {"vehicle.physics_step_s", &at<in, &V::physics_step_s>, 1e-4, 1e-2, "of the multibody model"},
       {"vehicle.comparison_step_s", &at<in, &V::comparison_step_s>, 0, 1e-2,
        "physics_step_s where several missions are flown and it is not given; 0: the same"},

@@ -40,11 +40,22 @@ void FlightRecorder::record_state() {
     row.push_back({"tracking_error_m", error.size_m});
     row.push_back({"across_error_m", error.across_m});
     row.push_back({"height_error_m", error.height_m});
-    if (link_.phase() == MissionPhase::cruise) {
-      off_path_m_.push_back(std::hypot(error.across_m, error.height_m));
-    }
+    record_tracking(error);
   }
   link_.log("state", std::move(row));
+}
+
+/// A vehicle that lags behind a reference that brakes is ahead of it.
+void FlightRecorder::record_tracking(const TrackingError& error) {
+  if (link_.phase() != MissionPhase::cruise) {
+    return;
+  }
+  off_path_m_.push_back(std::hypot(error.across_m, error.height_m));
+  constexpr double fast_m_s = 2.0;  // Below it, the estimate's noise would look like a long time.
+  const double speed_m_s = loop_.vehicle().state().v_WB.norm();
+  if (speed_m_s > fast_m_s) {
+    brake_lag_s_.push_back(error.ahead_m / speed_m_s);
+  }
 }
 
 void FlightRecorder::record_job(const JobRecord& job) {

@@ -25,8 +25,12 @@ class FlightRecorder {
   [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
   /// How far the vehicle was from its path [m], at each recorded state in cruise.
   [[nodiscard]] const std::vector<double>& off_path_m() const { return off_path_m_; }
+  /// By how much time it was ahead of its reference [s], where it flew faster than 2 m/s.
+  [[nodiscard]] const std::vector<double>& brake_lag_s() const { return brake_lag_s_; }
 
  private:
+  void record_tracking(const TrackingError& error);
+
   struct Calls {
     std::vector<double> mission_ms;
     double host_s{};
@@ -36,6 +40,7 @@ class FlightRecorder {
   const ClosedLoop& loop_;
   std::map<std::string, Calls> calls_;
   std::vector<double> off_path_m_;
+  std::vector<double> brake_lag_s_;
 };
 
 }  // namespace flyball

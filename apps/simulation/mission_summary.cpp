@@ -27,6 +27,16 @@ void fill_outcome(Summary& summary, const SimulatedFlight& flight, const Scenari
   summary.min_clearance_m = flight.referee->min_clearance_m();
 }
 
+/// How well an autopilot that is none of the simulator's followed.
+void fill_tracking(Summary& summary, const SimulatedFlight& flight) {
+  const auto& off_path_m = flight.recorder->off_path_m();
+  const auto& brake_lag_s = flight.recorder->brake_lag_s();
+  if (flight.has_autopilot && !off_path_m.empty() && !brake_lag_s.empty()) {
+    summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);
+    summary.quality["brake_lag_s_p99"] = quantile(brake_lag_s, 0.99);
+  }
+}
+
 void fill_computing(Summary& summary, const SimulatedFlight& flight) {
   const MapUses& maps = flight.link->map_uses();
   const auto& navigator = flight.link->navigator();
@@ -53,10 +63,7 @@ void fill_computing(Summary& summary, const SimulatedFlight& flight) {
   if (const Duration late = flight.executor->longest_delay(); late > Duration::zero()) {
     summary.quality["simulator_late_s_max"] = to_seconds(late);
   }
-  if (const auto& off_path_m = flight.recorder->off_path_m();
-      flight.has_autopilot && !off_path_m.empty()) {
-    summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);
-  }
+  fill_tracking(summary, flight);
   if (const FlightLog& log = flight.loop->log(); log.measured_s > 0.0) {
     summary.quality["rotor_power_measured_percent"] = 100.0 * log.measured_s / log.airborne_s;
     if (log.reported_battery->percent) {

@@ -41,6 +41,7 @@ struct WantedLimit {
   double least;
   double most;
   const char* otherwise;  ///< What happens beyond it.
+  bool is_needed{};       ///< Nobody should fly beyond it.
 };
 
 using WantedLimits = std::array<WantedLimit, 3>;
@@ -53,7 +54,7 @@ WantedLimits wanted_limits(const FlightStart& start) {
   return {{{"GUID_TIMEOUT", "s", 0.0, longest_s,
             "so long the vehicle flies on when Flyball falls silent"},
            {"WPNAV_ACCEL", "cm/s^2", least_cm_s2, any,
-            "it brakes by no more, and the flight by up to mission.max_acceleration_m_s2"},
+            "it brakes by no more, and the flight by up to mission.max_acceleration_m_s2", true},
            {"PSC_JERK_XY", "m/s^3", least_m_s3, any,
             "it begins to brake so slowly that it flies past where it is to stop"}}};
 }
@@ -151,6 +152,10 @@ void OffboardControl::hear_limit(const MavParamValue& value, Duration now) {
     std::array<char, 240> text{};
     std::snprintf(text.data(), text.size(), "%s is %.1f %s: %s; set it to %.1f", wanted.name, is,
                   wanted.unit, wanted.otherwise, is > wanted.most ? wanted.most : wanted.least);
+    if (wanted.is_needed) {
+      fail(text.data());
+      return;
+    }
     telemetry_.tell(text.data());
   }
   next_limit(now);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/computer/autopilot_option.h"
 
-#include "flyball/records/text_table.h"
+#include "flyball/simulation/tracking_remarks.h"
 
 #include "cli/computer/host_clock.h"
 #include "cli/console.h"
 #include "cli/flight_options.h"
+#include <algorithm>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,34 @@ void add_autopilot(CLI::App& command, AutopilotOption& option) {
                        "simulator draws what its cameras see: udp:127.0.0.1:PORT or "
                        "serial:DEVICE:BAUD")
            ->type_name("ADDRESS"));
+}
+
+std::variant<LoadedScenario, std::vector<Error>> load_to_fly(const std::string& name_or_path,
+                                                             const std::vector<Override>& overrides,
+                                                             const Plugins& plugins,
+                                                             const AutopilotOption& option) {
+  auto loaded = load_overridden_scenario(name_or_path, overrides, plugins);
+  const auto* flown = std::get_if<LoadedScenario>(&loaded);
+  if (flown == nullptr || option.address.empty()) {
+    return loaded;
+  }
+  std::vector<Override> all;
+  std::string told;
+  for (const std::string& setting : careful_settings(flown->scenario)) {
+    const bool is_given =
+        std::any_of(overrides.begin(), overrides.end(), [&setting](const Override& given) {
+          return key_of(given.key_and_value) == key_of(setting);
+        });
+    if (!is_given) {
+      all.push_back({setting, "--autopilot"});
+      told += (told.empty() ? "" : ", ") + setting;
+    }
+  }
+  if (!told.empty()) {
+    remark("an autopilot is flown with " + told + "; --set says otherwise");
+  }
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return load_overridden_scenario(name_or_path, all, plugins);
 }
 
 Result<std::unique_ptr<AutopilotLink>> open_autopilot(const AutopilotOption& option,
@@ -37,18 +66,6 @@ Result<std::unique_ptr<AutopilotLink>> open_autopilot(const AutopilotOption& opt
   }
   return std::make_unique<AutopilotLink>(
       std::move(*stream), [](const std::string& sentence) { note(sentence); }, host_clock);
-}
-
-std::string tracking_remark(const Summary& summary, const Scenario& scenario) {
-  const auto off_path_m = summary.quality.find("off_path_m_p95");
-  if (off_path_m == summary.quality.end() ||
-      off_path_m->second <= scenario.vehicle.tracking_error_m) {
-    return "";
-  }
-  return "5 % of the time the autopilot was more than " + rounded(off_path_m->second, 2) +
-         " m off its path, and vehicle.tracking_error_m says " +
-         rounded(scenario.vehicle.tracking_error_m, 2) +
-         " m: set it to so much, or have the autopilot hold its position better";
 }
 
 }  // namespace flyball

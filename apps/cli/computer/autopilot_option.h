@@ -4,14 +4,15 @@
 /// @file
 /// The autopilot that a command is told to fly with.
 
-#include "flyball/records/summary.h"
 #include "flyball/runtime/result.h"
-#include "flyball/scenario/scenario.h"
+#include "flyball/scenario/override.h"
 #include "flyball/vehicles/autopilot_link.h"
 
 #include "cli/computer/real_computer.h"
 #include <memory>
 #include <string>
+#include <variant>
+#include <vector>
 
 namespace flyball {
 
@@ -22,14 +23,17 @@ struct AutopilotOption {
 /// Adds `--autopilot`.
 void add_autopilot(CLI::App& command, AutopilotOption& option);
 
+/// As `load_overridden_scenario`. With an autopilot what is not overridden is as careful as
+/// `careful_settings`, and that is told.
+[[nodiscard]] std::variant<LoadedScenario, std::vector<Error>> load_to_fly(
+    const std::string& name_or_path,
+    const std::vector<Override>& overrides,
+    const Plugins& plugins,
+    const AutopilotOption& option);
+
 /// The line to it, if the options ask for one; null if they do not. Nothing is sent yet.
 /// @error `invalid_input` without the real-time executor; those of `open_byte_stream`.
 [[nodiscard]] Result<std::unique_ptr<AutopilotLink>> open_autopilot(
     const AutopilotOption& option, const ExecutorOptions& executor);
-
-/// A sentence when the autopilot did not keep to its path as the scenario says; else empty. Where
-/// it is farther off, the flight waits for it; near obstacles, room is needed for what it really
-/// keeps.
-[[nodiscard]] std::string tracking_remark(const Summary& summary, const Scenario& scenario);
 
 }  // namespace flyball

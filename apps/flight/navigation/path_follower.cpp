@@ -47,6 +47,7 @@ double eased(double value, double target, double dt_s) {
 GuardSettings guard_settings(const Brief& brief) {
   GuardSettings settings;
   settings.max_deceleration_m_s2 = brief.settings.mission.max_acceleration_m_s2;
+  settings.brake_lag = brief.brake_lag;
   return settings;
 }
 
@@ -91,6 +92,7 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
 SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) const {
   SpeedProfileLimits limits;
   limits.lateral_m_s2 = comfort_m_s2;
+  limits.lag_s = brake_lag_s();
   limits.longitudinal_m_s2 = std::min(braking_m_s2, guard_.settings().max_deceleration_m_s2);
   return {path, limits, [this](const Vec3& p_W) { return speed_limit_at(p_W); }};
 }
@@ -171,12 +173,16 @@ double PathFollower::safe_cruise() const {
   return safe;
 }
 
+double PathFollower::brake_lag_s() const {
+  return to_seconds(guard_.settings().brake_lag);
+}
+
 double PathFollower::stopping() const {
   return std::min(stopping_m_s2, guard_.settings().max_deceleration_m_s2);
 }
 
 double PathFollower::speed_limit() const {
-  const double stop = safe_speed(stopping(), SpeedProfileLimits{}.lag_s, stop_at_m_ - s_m_);
+  const double stop = safe_speed(stopping(), brake_lag_s(), stop_at_m_ - s_m_);
   return std::min(profile_.at(s_m_), stop);
 }
 
@@ -320,8 +326,9 @@ Vec3 PathFollower::position_W() const {
 
 TrackingError PathFollower::tracking_error(const Vec3& error_W) const {
   const Vec3 tangent_W = has_path() ? path_->at(s_m_).tangent_W : Vec3{Vec3::Zero()};
-  const Vec3 across_W = error_W - error_W.dot(tangent_W) * tangent_W;
-  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z()};
+  const double behind_m = error_W.dot(tangent_W);
+  const Vec3 across_W = error_W - behind_m * tangent_W;
+  return {error_W.norm(), across_W.head<2>().norm(), -error_W.z(), -behind_m};
 }
 
 double PathFollower::stop_point_m(double deceleration_m_s2) const {
@@ -333,7 +340,7 @@ double PathFollower::stop_point_m(double deceleration_m_s2) const {
 // start. It is never nearer than the vehicle can stop with full braking.
 double PathFollower::planned_stop_m() const {
   const double limit_m_s2 = guard_.settings().max_deceleration_m_s2;
-  const double wished = stop_point_m(stopping()) + speed_m_s_ * SpeedProfileLimits{}.lag_s;
+  const double wished = stop_point_m(stopping()) + speed_m_s_ * brake_lag_s();
   const double wide = free_until_m_.back() - stop_margin_m;
   const double reach = wide > s_m_ ? wide : free_until_m_.front();
   return std::max(std::min(wished, reach), stop_point_m(limit_m_s2));

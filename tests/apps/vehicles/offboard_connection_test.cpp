@@ -101,15 +101,22 @@ TEST(OffboardConnection, warns_of_an_ardupilot_that_believes_old_set_points) {
   EXPECT_NE(rig.news.find("GUID_TIMEOUT is 3.0 s"), std::string::npos) << rig.news;
 }
 
-TEST(OffboardConnection, warns_of_an_ardupilot_that_brakes_less_than_the_flight) {
+TEST(OffboardConnection, does_not_fly_an_ardupilot_that_brakes_less_than_the_flight) {
   kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
   rules.parameters["WPNAV_ACCEL"] = 250.0F;
+  kit::OffboardRig rig{rules};
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(),
+            "WPNAV_ACCEL is 250.0 cm/s^2: it brakes by no more, and the flight by up to "
+            "mission.max_acceleration_m_s2; set it to 300.0");
+}
+
+TEST(OffboardConnection, warns_of_an_ardupilot_that_begins_to_brake_slowly) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
   rules.parameters["PSC_JERK_XY"] = 5.0F;
   kit::OffboardRig rig{rules};
   ASSERT_TRUE(rig.connect());
   EXPECT_EQ(rig.news,
-            "WPNAV_ACCEL is 250.0 cm/s^2: it brakes by no more, and the flight by up to "
-            "mission.max_acceleration_m_s2; set it to 300.0\n"
             "PSC_JERK_XY is 5.0 m/s^3: it begins to brake so slowly that it flies past where it is "
             "to stop; set it to 20.0\n");
 }

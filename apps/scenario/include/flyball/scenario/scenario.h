@@ -28,6 +28,7 @@ struct VehicleSettings {
   std::string airframe{"matrice_100"};
   double payload_kg{0.5};
   double tracking_error_m{0.02};  ///< What the simulated flight controller keeps at rest.
+  double brake_lag_s{0.1};        ///< The same controller's, .069 s at most.
   double physics_step_s{0.001};
   double comparison_step_s{};  ///< Instead, where many flights are compared; 0: the same.
   double battery_charge{1.0};  ///< At the start, 0..1.

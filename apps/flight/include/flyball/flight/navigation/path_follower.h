@@ -26,6 +26,7 @@ struct TrackingError {
   double size_m{};
   double across_m{};  ///< Horizontal and perpendicular to the path.
   double height_m{};  ///< Upwards.
+  double ahead_m{};   ///< Along the path.
 };
 
 /// The tube around the path grows with speed, so a passage can be too narrow for cruise and wide
@@ -138,6 +139,7 @@ class PathFollower {
   [[nodiscard]] double safe_cruise() const;
   /// Deceleration of a planned stop, m/s^2.
   [[nodiscard]] double stopping() const;
+  [[nodiscard]] double brake_lag_s() const;
   [[nodiscard]] double speed_limit() const;
   [[nodiscard]] double next_speed(double dt_s, const Vec3& error_W);
   [[nodiscard]] double wait_for_vehicle(const Vec3& error_W) const;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/simulation/tracking_remarks.h"
+
+#include "flyball/records/text_table.h"
+
+namespace flyball {
+
+std::vector<std::string> tracking_remarks(const Summary& summary, const Scenario& scenario) {
+  std::vector<std::string> remarks;
+  const auto compare = [&](const char* measured, const char* what, const char* key, double declared,
+                           const char* unit) {
+    const auto found = summary.quality.find(measured);
+    if (found != summary.quality.end() && found->second > declared) {
+      remarks.push_back(std::string{what} + " " + rounded(found->second, 2) + " " + unit +
+                        ", and " + key + " says " + rounded(declared, 2) + " " + unit +
+                        ": set it to so much, or tune the autopilot");
+    }
+  };
+  compare("off_path_m_p95", "5 % of the time the autopilot was farther off its path than",
+          "vehicle.tracking_error_m", scenario.vehicle.tracking_error_m, "m");
+  compare("brake_lag_s_p99",
+          "1 % of the time the autopilot was ahead of its reference by more than",
+          "vehicle.brake_lag_s", scenario.vehicle.brake_lag_s, "s");
+  return remarks;
+}
+
+std::vector<std::string> careful_settings(const Scenario& scenario) {
+  constexpr double most_m_s = 5.0;
+  constexpr double most_m_s2 = 3.0;
+  constexpr double least_error_m = 0.2;
+  constexpr double least_lag_s = 0.3;
+  std::vector<std::string> settings;
+  const auto set = [&settings](bool is_looser, const char* key, double value) {
+    if (is_looser) {
+      settings.push_back(std::string{key} + "=" + rounded(value, 1));
+    }
+  };
+  const MissionSettings& mission = scenario.mission;
+  const VehicleSettings& vehicle = scenario.vehicle;
+  set(mission.max_speed_m_s > most_m_s, "mission.max_speed_m_s", most_m_s);
+  set(mission.max_acceleration_m_s2 > most_m_s2, "mission.max_acceleration_m_s2", most_m_s2);
+  set(vehicle.tracking_error_m < least_error_m, "vehicle.tracking_error_m", least_error_m);
+  set(vehicle.brake_lag_s < least_lag_s, "vehicle.brake_lag_s", least_lag_s);
+  return settings;
+}
+
+}  // namespace flyball

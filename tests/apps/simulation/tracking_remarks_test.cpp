@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/simulation/tracking_remarks.h"
+
+#include <gtest/gtest.h>
+
+namespace flyball {
+namespace {
+
+TEST(TrackingRemarks, are_made_on_an_autopilot_that_flies_worse_than_is_declared) {
+  Summary summary;
+  Scenario scenario;
+  EXPECT_TRUE(tracking_remarks(summary, scenario).empty());  // A simulated vehicle is not measured.
+  summary.quality["off_path_m_p95"] = 0.58;
+  summary.quality["brake_lag_s_p99"] = 0.05;
+  const auto remarks = tracking_remarks(summary, scenario);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks.front(),
+            "5 % of the time the autopilot was farther off its path than 0.58 m, and "
+            "vehicle.tracking_error_m says 0.02 m: set it to so much, or tune the autopilot");
+  scenario.vehicle.tracking_error_m = 0.6;
+  EXPECT_TRUE(tracking_remarks(summary, scenario).empty());
+  scenario.vehicle.brake_lag_s = 0.02;
+  EXPECT_EQ(tracking_remarks(summary, scenario).size(), 1U);
+}
+
+TEST(TrackingRemarks, careful_settings_leave_what_is_more_careful) {
+  Scenario scenario;
+  EXPECT_EQ(
+      careful_settings(scenario),
+      (std::vector<std::string>{"mission.max_speed_m_s=5.0", "mission.max_acceleration_m_s2=3.0",
+                                "vehicle.tracking_error_m=0.2", "vehicle.brake_lag_s=0.3"}));
+  scenario.mission.max_speed_m_s = 2.0;
+  scenario.mission.max_acceleration_m_s2 = 1.0;
+  scenario.vehicle.tracking_error_m = 0.5;
+  scenario.vehicle.brake_lag_s = 0.3;
+  EXPECT_TRUE(careful_settings(scenario).empty());
+}
+
+}  // namespace
+}  // namespace flyball
