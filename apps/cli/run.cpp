@@ -313,8 +313,9 @@ int fly_into(const std::string& folder,
 }
 
 int run(const RunOptions& options) {
+  std::string told;
   const auto loaded = load_to_fly(options.flight.scenario, overrides_of(options),
-                                  options.flight.plugins, options.autopilot);
+                                  options.flight.plugins, options.autopilot, told);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }
@@ -343,8 +344,10 @@ int run(const RunOptions& options) {
   if (!computer) {
     return refuse({computer.error()});
   }
-  catch_interrupt();  // Before the first thing that it writes: a flight can be ended as soon as it
-                      // shows.
+  if (!told.empty()) {
+    remark(told);
+  }
+  catch_interrupt();  // A flight can be ended as soon as anything of it shows.
   const Result<std::vector<std::string>> prepared = prepare_folder(folder);
   if (!prepared) {
     return refuse({prepared.error()});

@@ -26,14 +26,15 @@ void add_autopilot(CLI::App& command, AutopilotOption& option) {
 std::variant<LoadedScenario, std::vector<Error>> load_to_fly(const std::string& name_or_path,
                                                              const std::vector<Override>& overrides,
                                                              const Plugins& plugins,
-                                                             const AutopilotOption& option) {
+                                                             const AutopilotOption& option,
+                                                             std::string& told) {
   auto loaded = load_overridden_scenario(name_or_path, overrides, plugins);
   const auto* flown = std::get_if<LoadedScenario>(&loaded);
   if (flown == nullptr || option.address.empty()) {
     return loaded;
   }
   std::vector<Override> all;
-  std::string told;
+  std::string changed;
   for (const std::string& setting : careful_settings(flown->scenario)) {
     const bool is_given =
         std::any_of(overrides.begin(), overrides.end(), [&setting](const Override& given) {
@@ -41,11 +42,11 @@ std::variant<LoadedScenario, std::vector<Error>> load_to_fly(const std::string& 
         });
     if (!is_given) {
       all.push_back({setting, "--autopilot"});
-      told += (told.empty() ? "" : ", ") + setting;
+      changed += (changed.empty() ? "" : ", ") + setting;
     }
   }
-  if (!told.empty()) {
-    remark("an autopilot is flown with " + told + "; --set says otherwise");
+  if (!changed.empty()) {
+    told = "an autopilot is flown with " + changed + "; --set says otherwise";
   }
   all.insert(all.end(), overrides.begin(), overrides.end());
   return load_overridden_scenario(name_or_path, all, plugins);

@@ -24,12 +24,14 @@ struct AutopilotOption {
 void add_autopilot(CLI::App& command, AutopilotOption& option);
 
 /// As `load_overridden_scenario`. With an autopilot what is not overridden is as careful as
-/// `careful_settings`, and that is told.
+/// `careful_settings`.
+/// @param told  Out: the sentence that says so; empty where nothing was changed.
 [[nodiscard]] std::variant<LoadedScenario, std::vector<Error>> load_to_fly(
     const std::string& name_or_path,
     const std::vector<Override>& overrides,
     const Plugins& plugins,
-    const AutopilotOption& option);
+    const AutopilotOption& option,
+    std::string& told);
 
 /// The line to it, if the options ask for one; null if they do not. Nothing is sent yet.
 /// @error `invalid_input` without the real-time executor; those of `open_byte_stream`.
