@@ -58,9 +58,11 @@ double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
   Work pixels;
   const DepthCameraSpec& camera = scenario.camera;
   pixels.add("pixels", static_cast<double>(camera.count) * camera.width_px * camera.height_px);
-  const Duration least = Guard{GuardSettings{}}.reaction_time() +
-                         setup.platform->job_time(scenario.kernels.point_cloud, pixels,
-                                                  setup.platform->frequencies().back());
+  GuardSettings guard;
+  guard.brake_lag = from_seconds(scenario.vehicle.brake_lag_s);
+  const Duration least =
+      Guard{guard}.reaction_time() + setup.platform->job_time(scenario.kernels.point_cloud, pixels,
+                                                              setup.platform->frequencies().back());
   const KnobSpec* range = setup.equipment.knobs.spec("map.range_m");
   return std::min(scenario.mission.max_speed_m_s,
                   safe_speed(scenario.mission.max_acceleration_m_s2, to_seconds(least),

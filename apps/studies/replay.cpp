@@ -199,7 +199,9 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
   explanation.choice = decisions.recorded();
   explanation.options = (*governor)->options();
   const double deceleration_m_s2 = flight.scenario.mission.max_acceleration_m_s2;
-  explanation.response_s = to_seconds(seen.latency_bound + Guard{GuardSettings{}}.reaction_time());
+  GuardSettings guard;
+  guard.brake_lag = from_seconds(flight.scenario.vehicle.brake_lag_s);
+  explanation.response_s = to_seconds(seen.latency_bound + Guard{guard}.reaction_time());
   const double power_w = seen.rotor_power.value() + seen.computer_power.value();
   constexpr double nearly = 0.98;
   if (seen.phase == MissionPhase::cruise && seen.speed_m_s < nearly * seen.speed_limit_m_s) {

@@ -30,6 +30,16 @@ TEST(EnergyBound, over_open_ground_is_that_of_steady_flight) {
   EXPECT_LE(bound->energy_j(), 1.01 * path_m * (rotor_w + 2.1) / 5.0);
 }
 
+TEST(EnergyBound, of_a_vehicle_that_brakes_late_is_higher_because_it_is_slower) {
+  Scenario late = over_open_ground(100.0);
+  late.mission.max_speed_m_s = 10.0;
+  const auto bound = bound_energy(late);
+  late.vehicle.brake_lag_s = 2.0;  // Too long for 10 m/s within the longest range.
+  const auto late_bound = bound_energy(late);
+  ASSERT_TRUE(bound && late_bound);
+  EXPECT_GT(late_bound->energy_j(), 1.05 * bound->energy_j());
+}
+
 TEST(EnergyBound, a_payload_costs_on_the_outward_flight_only) {
   Scenario loaded = over_open_ground(100.0);
   loaded.vehicle.payload_kg = 1.0;
