@@ -31,6 +31,7 @@ void FlightRecorder::record_state() {
   if (const auto& knobs = link_.knobs()) {
     row.push_back({"resolution_m", knobs->value("map.resolution_m")});
     row.push_back({"frequency_hz", knobs->value("cpu.frequency_hz")});
+    held_ += knobs->restraint.must_hover && link_.phase() == MissionPhase::cruise ? 1 : 0;
   }
   if (const auto& navigator = link_.navigator()) {
     row.push_back({"set_speed_m_s", navigator->target_speed_m_s});

@@ -25,6 +25,8 @@ class FlightRecorder {
   [[nodiscard]] std::map<std::string, KernelStatistics> kernels() const;
   /// How far the vehicle was from its path [m], at each recorded state in cruise.
   [[nodiscard]] const std::vector<double>& off_path_m() const { return off_path_m_; }
+  /// At how many of these states the governor's fallback let it hover.
+  [[nodiscard]] std::size_t held() const { return held_; }
   /// By how much time it was ahead of its reference [s], where it flew faster than 2 m/s.
   [[nodiscard]] const std::vector<double>& brake_lag_s() const { return brake_lag_s_; }
 
@@ -41,6 +43,7 @@ class FlightRecorder {
   std::map<std::string, Calls> calls_;
   std::vector<double> off_path_m_;
   std::vector<double> brake_lag_s_;
+  std::size_t held_{};
 };
 
 }  // namespace flyball

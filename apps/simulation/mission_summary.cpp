@@ -31,8 +31,13 @@ void fill_outcome(Summary& summary, const SimulatedFlight& flight, const Scenari
 void fill_tracking(Summary& summary, const SimulatedFlight& flight) {
   const auto& off_path_m = flight.recorder->off_path_m();
   const auto& brake_lag_s = flight.recorder->brake_lag_s();
-  if (flight.has_autopilot && !off_path_m.empty() && !brake_lag_s.empty()) {
-    summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);
+  if (!flight.has_autopilot || off_path_m.empty()) {
+    return;
+  }
+  summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);
+  summary.quality["held_percent"] =
+      100.0 * static_cast<double>(flight.recorder->held()) / static_cast<double>(off_path_m.size());
+  if (!brake_lag_s.empty()) {
     summary.quality["brake_lag_s_p99"] = quantile(brake_lag_s, 0.99);
   }
 }

@@ -21,6 +21,14 @@ std::vector<std::string> tracking_remarks(const Summary& summary, const Scenario
   compare("brake_lag_s_p99",
           "1 % of the time the autopilot was ahead of its reference by more than",
           "vehicle.brake_lag_s", scenario.vehicle.brake_lag_s, "s");
+  constexpr double often_percent = 10.0;
+  const auto held = summary.quality.find("held_percent");
+  if (held != summary.quality.end() && held->second > often_percent) {
+    remarks.push_back(
+        "the governor let the vehicle hover for " + rounded(held->second, 0) +
+        " % of its way, because this computer missed deadlines again and again; give "
+        "it less to do beside the flight, or the flight less (map.rate_hz, map.range_m)");
+  }
   return remarks;
 }
 

@@ -23,6 +23,16 @@ TEST(TrackingRemarks, are_made_on_an_autopilot_that_flies_worse_than_is_declared
   EXPECT_EQ(tracking_remarks(summary, scenario).size(), 1U);
 }
 
+TEST(TrackingRemarks, say_that_the_governor_held_the_vehicle) {
+  Summary summary;
+  summary.quality["held_percent"] = 5.0;
+  EXPECT_TRUE(tracking_remarks(summary, Scenario{}).empty());
+  summary.quality["held_percent"] = 88.0;
+  const auto remarks = tracking_remarks(summary, Scenario{});
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks.front().find("the governor let the vehicle hover for 88 % of its way"), 0U);
+}
+
 TEST(TrackingRemarks, careful_settings_leave_what_is_more_careful) {
   Scenario scenario;
   EXPECT_EQ(
