@@ -66,7 +66,8 @@ Status check_depth_camera(const Scenario& scenario,
 }
 
 Status check_start(const Brief& brief) {
-  if (!brief.maps_obstacles) {
+  const bool is_held_closely = brief.tube.at_rest_m <= TrackingTube{}.at_rest_m;
+  if (!brief.maps_obstacles || is_held_closely) {
     return Done{};
   }
   const DepthCameraSpec& camera = brief.settings.camera;

@@ -23,7 +23,9 @@ namespace flyball {
 
 /// A vehicle leaves the space that is declared clear around its start into space that its camera
 /// has seen, so that has to begin where the clear space ends, over the whole height of the body
-/// with its tube. A camera that looks up or down by half its field or more is left out.
+/// with its tube. A camera that looks up or down by half its field or more is left out, and so is a
+/// vehicle with the error of the simulated controller: it may call the place free where it rests.
+/// What this lets pass may still stall: cells are as wide as the error.
 [[nodiscard]] Status check_start(const Brief& brief);
 
 }  // namespace flyball

@@ -30,6 +30,8 @@ TEST(MissionChecks, a_body_wider_than_the_clear_space_cannot_leave_its_start) {
 TEST(MissionChecks, a_flight_above_the_clear_space_cannot_leave_its_start) {
   Brief brief = matrice();
   brief.site.cruise_height_m = 2.5;
+  EXPECT_TRUE(check_start(brief));  // It is held closely.
+  brief.tube.at_rest_m = 0.2;
   EXPECT_FALSE(check_start(brief));
   brief.site.clear_height_m = 3.0;
   EXPECT_TRUE(check_start(brief));
