@@ -103,6 +103,7 @@ TEST(AutopilotCommand, lands_the_vehicle_when_it_is_interrupted) {
 
 /// A terminal that closes and its shell each say so, within milliseconds.
 TEST(AutopilotCommand, a_signal_that_comes_twice_at_once_lands_the_vehicle_too) {
+  std::signal(SIGHUP, SIG_DFL);  // Who runs the tests by `nohup` has it ignored, by children, too.
   kit::UdpAutopilot autopilot{kit::StandInRules{}};
   const ProgramBeside program{flight + " --autopilot " + autopilot.address()};
   program.await([&autopilot] { return autopilot.is_up(); });
