@@ -160,6 +160,11 @@ class ArduCopter(Autopilot):
         self.link.sendall(data)
 
 
+def heed_interrupts():
+    """A shell that starts this script in the background has it, and its children, ignore Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Flight:
     def __init__(self, flyball, autopilot, folder, words):
         self.folder, self.autopilot = folder, autopilot
@@ -168,12 +173,14 @@ class Flight:
         self.program = subprocess.Popen(
             [flyball, "run", *words, "--executor", "realtime", "--autopilot", autopilot.address,
              "--out", folder / "record", "--json"],
-            stdout=(folder / "summary").open("w"), stderr=self.errors.open("w"))
+            stdout=(folder / "summary").open("w"), stderr=self.errors.open("w"),
+            preexec_fn=heed_interrupts)
 
     def until_up(self):
         if not self.autopilot.await_that(self.autopilot.is_up, 150.0):
             raise TimeoutError("the vehicle did not take off: " + self.errors.read_text())
         self.autopilot.listen(IN_FLIGHT_S)
+        self.autopilot.await_that(lambda: self.autopilot.station.speed > 1.0, 30.0)
 
     def end(self, within_s):
         self.autopilot.await_that(lambda: self.program.poll() is not None, within_s)
