@@ -79,7 +79,8 @@ std::string report_page(const std::string& title,
   return filled(page.empty() ? template_without_plots : page,
                 {{"title", html_text(title)},
                  {"table", table_html},
-                 {"script", viewer_file("top_view.js") + viewer_file("report.js")},
+                 {"script", viewer_file("top_view.js") + viewer_file("knob_rows.js") +
+                                viewer_file("report.js")},
                  {"data", script_json(page_data(runs))}});
 }
 

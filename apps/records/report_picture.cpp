@@ -3,6 +3,7 @@
 
 #include "flyball/records/report.h"
 
+#include "records/knob_history.h"
 #include "records/report_world.h"
 #include <algorithm>
 #include <array>
@@ -25,12 +26,11 @@ struct Series {
   std::string_view field;
 };
 
-constexpr std::array<Series, 9> series_of_state{{
+constexpr std::array<Series, 8> series_of_state{{
     {"x", "x_m"},
     {"y", "y_m"},
     {"speed", "speed_m_s"},
     {"limit", "set_speed_m_s"},
-    {"resolution", "resolution_m"},
     {"latency", "latency_bound_s"},
     {"rotor", "rotor_w"},
     {"computer", "computer_w"},
@@ -169,6 +169,12 @@ RunPicture picture_of(const MissionRecord& record) {
   }
   if (!record.map.empty()) {
     json["map"] = map_json(record.map, record.world.bounds_W, flown);
+  }
+  if (Json knobs = knobs_json(record); !knobs.empty()) {
+    json["knobs"] = std::move(knobs);
+  }
+  if (Json steps = fallback_json(*record.trace); !steps.empty()) {
+    json["fallback"] = std::move(steps);
   }
   // What a survey photographed: rectangles to be covered, and footprints of pictures; and whom a
   // search took for a person.

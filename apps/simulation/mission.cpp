@@ -152,6 +152,15 @@ Status check_graph(const Scenario& scenario,
   return possible ? flight.soft_errors->check() : possible;
 }
 
+/// What is known of a flight before it begins.
+MissionRecord begin_record(const MissionSetup& setup) {
+  MissionRecord record;
+  record.trace = std::make_shared<MemoryRecorder>();
+  record.world = setup.things.world;
+  record.knobs = setup.equipment.knobs;
+  return record;
+}
+
 }  // namespace
 
 Result<std::string> describe_graph(const Scenario& scenario, bool as_dot) {
@@ -188,9 +197,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
   if (const Status begun_map = begin_map(mapper, hooks); !begun_map) {
     return begun_map.error();
   }
-  MissionRecord record;
-  record.trace = std::make_shared<MemoryRecorder>();
-  record.world = setup->things.world;
+  MissionRecord record = begin_record(*setup);
   SimulatedFlight flight{scenario,
                          *setup,
                          *record.trace,

@@ -9,10 +9,13 @@
 #include <cstdio>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 namespace flyball {
 namespace {
+
+constexpr std::string_view fallback_mark = "fallback ";
 
 std::string number(double value) {
   std::array<char, 32> text{};
@@ -64,6 +67,20 @@ std::string choice_text(const PolicyGovernor& governor, const Decision& answer) 
     text += "; fallback " + std::string{to_string(governor.fallback())};
   }
   return text;
+}
+
+std::string fallback_text(Fallback step, const std::string& why) {
+  return std::string{fallback_mark}.append(to_string(step)) + (why.empty() ? "" : ": " + why);
+}
+
+std::optional<FallbackStep> fallback_in(const std::string& event) {
+  if (event.rfind(fallback_mark, 0) != 0) {
+    return std::nullopt;
+  }
+  const std::string step = event.substr(fallback_mark.size());
+  const std::size_t colon = step.find(": ");
+  return colon == std::string::npos ? FallbackStep{step, ""}
+                                    : FallbackStep{step.substr(0, colon), step.substr(colon + 2)};
 }
 
 std::optional<std::map<std::string, double>> settings_of(const std::string& choice) {

@@ -304,8 +304,7 @@ void GovernorLoop::note_fallback(JobContext& job) {
     trouble_ = why;
   }
   if (fallback != fallback_ || why != why_) {
-    note_event(job,
-               "fallback " + std::string{to_string(fallback)} + (why.empty() ? "" : ": " + why));
+    note_event(job, fallback_text(fallback, why));
   }
   fallback_ = fallback;
   why_ = why;

@@ -137,7 +137,7 @@ TEST(Report, a_field_that_a_flight_does_not_have_is_null) {
   record.trace = std::make_shared<MemoryRecorder>();
   record.trace->record(MissionTime{}, "state", {{"x_m", 1.0}});
   const auto series = nlohmann::json::parse(picture_of(record).json)["series"];
-  EXPECT_TRUE(series["resolution"][0].is_null());
+  EXPECT_TRUE(series["limit"][0].is_null());
 }
 
 TEST(Report, the_page_stands_alone_and_holds_each_world_once) {
@@ -146,6 +146,9 @@ TEST(Report, the_page_stands_alone_and_holds_each_world_once) {
   const std::string page = report_page("title", runs, "<table></table>");
   for (const char* outside : {"http://", "https://", "src=", "<link", "@import", "{{"}) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  }
+  for (const char* part : {"function drawMap", "function knobRows", "function drawChart"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   const auto data = data_of(page);
   EXPECT_EQ(data["worlds"].size(), 1U);

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/simulation/mission.h"
 
+#include "records/knob_history.h"
 #include "short_delivery.h"
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 namespace flyball {
 namespace {
+
+/// The field's value in the last row of the flight's state.
+double last_of(const MemoryRecorder& trace, std::string_view name) {
+  double last = 0.0;
+  for (const MemoryRecorder::Row& row : trace.rows()) {
+    for (const Field& field : row.fields) {
+      if (row.channel == "state" && field.name == name) {
+        last = std::get<double>(field.value);
+      }
+    }
+  }
+  return last;
+}
 
 TEST(Mission, ends_as_time_limit_when_the_time_is_over) {
   Scenario scenario = kit::short_delivery(200.0);
@@ -32,6 +47,23 @@ TEST(Mission, is_interrupted_when_asked_to_stop) {
   const auto record = fly(kit::short_delivery(), hooks);
   ASSERT_TRUE(record.ok());
   EXPECT_EQ(record->summary.status, MissionStatus::interrupted);
+}
+
+TEST(Mission, the_record_tells_how_the_knobs_stood_from_start_to_end) {
+  Scenario scenario = kit::short_delivery();
+  scenario.governor.policy = "mission_energy";
+  const MissionRecord record = kit::flown(scenario);
+  const auto knobs = knobs_json(record);
+  ASSERT_FALSE(knobs.empty());
+  EXPECT_EQ(knobs[0]["name"], "map.resolution_m");
+  EXPECT_EQ(knobs[0]["v"].front(), scenario.map.resolution_m);
+  EXPECT_EQ(knobs[0]["v"].back(), last_of(*record.trace, "resolution_m"));
+  std::uint64_t changes = 0;
+  for (const auto& knob : knobs) {
+    changes += knob["changes"].get<std::uint64_t>();
+  }
+  EXPECT_GT(changes, 0U);
+  EXPECT_LE(changes, record.summary.knob_changes) << "what changes at one moment counts once";
 }
 
 TEST(Mission, an_unknown_workload_is_an_error_with_the_way_out) {

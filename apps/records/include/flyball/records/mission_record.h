@@ -7,6 +7,7 @@
 #include "flyball/kernels/mapper.h"
 #include "flyball/records/mission_frame.h"
 #include "flyball/records/summary.h"
+#include "flyball/runtime/knob.h"
 #include "flyball/runtime/recorder.h"
 #include "flyball/sim/world.h"
 
@@ -18,6 +19,7 @@ namespace flyball {
 struct MissionRecord {
   Summary summary{};
   World world{};
+  KnobSettings knobs{};                ///< What the governor could turn, as it stood at the start.
   bool has_goal{true};                 ///< Whether the world's goal was this mission's.
   std::vector<OccupiedCell> map{};     ///< Where a volume was explored: what its map came to.
   Status map_file{Done{}};             ///< Whether the flight's map was written, if it was to be.

@@ -43,7 +43,8 @@ Status write_run(const std::string& folder, const Scenario& scenario, const Miss
 /// What the page needs of one run; small enough to keep for many runs.
 struct RunPicture {
   Summary summary{};
-  std::string json{};  ///< World outline, path and time series at 2 Hz, as a JSON object.
+  std::string json{};  ///< World outline, path and time series at 2 Hz, each change of a
+                       ///< knob, as a JSON object.
 };
 [[nodiscard]] RunPicture picture_of(const MissionRecord& record);
 /// The picture of a run that `write_run` left in `folder`, when it is complete and of exactly this
@@ -51,8 +52,8 @@ struct RunPicture {
 [[nodiscard]] std::optional<RunPicture> finished_run(const std::string& folder,
                                                      const Scenario& scenario);
 
-/// One self-contained page without network: table, plots over time (resolution, speed, power,
-/// battery) and a top view of world and paths; one colour per policy.
+/// One self-contained page without network: table, plots over time (speed, each knob that was
+/// turned, power, battery) and a top view of world and paths; one colour per policy.
 [[nodiscard]] std::string report_page(const std::string& title,
                                       const std::vector<RunPicture>& runs,
                                       const std::string& table_html);

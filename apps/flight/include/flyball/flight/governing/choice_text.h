@@ -20,6 +20,17 @@ namespace flyball {
 /// Reason, wish, answer and step of the fallback of the last decision.
 [[nodiscard]] std::string choice_text(const PolicyGovernor& governor, const Decision& answer);
 
+/// A change of the fallback as an event tells it: `fallback hover: 6 deadlines were missed`.
+[[nodiscard]] std::string fallback_text(Fallback step, const std::string& why);
+
+/// What such an event says.
+struct FallbackStep {
+  std::string name{};  ///< As `to_string` has it.
+  std::string why{};   ///< Empty where the fallback ends.
+};
+/// Nothing when the event is none of `fallback_text`.
+[[nodiscard]] std::optional<FallbackStep> fallback_in(const std::string& event);
+
 /// The answer in the words of `choice_text`, as values by knob; nothing when it is no such text.
 [[nodiscard]] std::optional<std::map<std::string, double>> settings_of(const std::string& choice);
 
