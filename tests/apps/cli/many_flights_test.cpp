@@ -124,6 +124,21 @@ TEST(ManyFlights, say_that_a_policy_failed_and_do_not_choose_it) {
   EXPECT_TRUE(has(asked.output, sentence)) << asked.output << asked.errors;
 }
 
+TEST(ManyFlights, show_the_knobs_of_each_policy_on_one_page_also_of_flights_from_the_store) {
+  const FlyballProgram flyball;
+  const std::string command =
+      "compare delivery_forest" + std::string{few_metres} + "--policies fixed_fine,two_level";
+  for (const char* whence : {"flown", "stored"}) {
+    const auto run = flyball.run(command);
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const std::string page = flyball.place.content("o/report.html");
+    const std::string mark = R"("knobs":[{"name":"map.resolution_m")";
+    const std::size_t first = page.find(mark);
+    ASSERT_NE(first, std::string::npos) << whence;
+    EXPECT_NE(page.find(mark, first + 1), std::string::npos) << whence;
+  }
+}
+
 TEST(ManyFlights, are_tuned_for_a_policy_that_flew_them_itself) {
   const FlyballProgram flyball;
   (void)flyball.place.file("some.lua", R"(

@@ -28,6 +28,7 @@ TEST(RealtimeFlight, flies_the_nodes_of_a_mission_on_threads_as_time_passes) {
   EXPECT_GT(summary.energy_computer_j, 0.0);
   EXPECT_EQ(summary.quality.count("simulator_late_s_max"), 1U);
   EXPECT_FALSE(summary.kernels.empty());
+  EXPECT_NE(record->knobs.spec("map.resolution_m"), nullptr) << "the page shows the knobs as well";
 }
 
 }  // namespace
