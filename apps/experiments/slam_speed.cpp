@@ -63,11 +63,11 @@ class Circle {
       return localizer.error();
     }
     (*localizer)->start({});
-    (*localizer)->place(body_at(0.0));
+    (*localizer)->set_initial_pose(body_at(0.0));
     int frames = 0;
     for (double path_m = 0.0; path_m < flown_m; path_m = speed_m_s * ++frames / rate_hz) {
       Work work;
-      const auto fix = (*localizer)->see(frame_at(path_m, frames / rate_hz, frames), work);
+      const auto fix = (*localizer)->track_frame(frame_at(path_m, frames / rate_hz, frames), work);
       if (!fix) {
         return fix.error();
       }

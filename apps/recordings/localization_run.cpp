@@ -75,9 +75,9 @@ Result<LocalizationRun> localize(const Recording& recording,
     }
     const HostTime begun = HostTime::clock::now();
     for (; imu != recording.imu.end() && imu->stamp <= frame->captured; ++imu) {
-      localizer.feel(*imu);
+      localizer.add_imu_sample(*imu);
     }
-    const auto fix = localizer.see(*frame, work);
+    const auto fix = localizer.track_frame(*frame, work);
     const double frame_ms =
         1e3 * std::chrono::duration<double>(HostTime::clock::now() - begun).count();
     if (!fix) {

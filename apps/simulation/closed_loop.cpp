@@ -104,7 +104,7 @@ void ClosedLoop::start() {
 
 /// It is told where the vehicle stands.
 void ClosedLoop::start_localizer() {
-  localizer_->place(vehicle_.state().X_WB);
+  localizer_->set_initial_pose(vehicle_.state().X_WB);
   if (topics_.imu) {
     const Duration interval = from_seconds(1.0 / ImuSpec{}.rate_hz);
     queue_.every(MissionTime{interval}, interval, EventOrder::sensor, [this] {

@@ -42,8 +42,9 @@ class Exploration {
       }
       ++loads_.views;
     }
-    if (const Status seen = see(stretches_, scene_.scenario, world_, loads_.kernels); !seen) {
-      return seen.error();
+    if (const Status tracked = track_stretches(stretches_, scene_.scenario, world_, loads_.kernels);
+        !tracked) {
+      return tracked.error();
     }
     return std::move(loads_);
   }

@@ -55,10 +55,10 @@ Result<std::vector<VisualFrame>> frames_of(const Stretch& stretch,
   return frames;
 }
 
-Status see(const std::vector<Stretch>& stretches,
-           const Scenario& scenario,
-           const World& world,
-           KernelLoads& loads) {
+Status track_stretches(const std::vector<Stretch>& stretches,
+                       const Scenario& scenario,
+                       const World& world,
+                       KernelLoads& loads) {
   KernelSettings kernels;
   kernels.localizer = localizer_name;
   kernels.localizer_parameters = {{"weak_corner", 7.0}, {"strong_corner", 20.0}};
@@ -74,10 +74,10 @@ Status see(const std::vector<Stretch>& stretches,
     }
     const auto& localizer = *made;
     localizer->start({});
-    localizer->place(stretch.X_WB);
+    localizer->set_initial_pose(stretch.X_WB);
     for (const VisualFrame& frame : *frames) {
       Work work;
-      if (const auto fix = localizer->see(frame, work); !fix) {
+      if (const auto fix = localizer->track_frame(frame, work); !fix) {
         return fix.error();
       }
       if (&frame != &frames->front()) {

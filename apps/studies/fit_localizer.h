@@ -25,12 +25,12 @@ struct Stretch {
                                                          const World& world);
 
 /// Lets localizer `visual_slam`, with ORB-SLAM2's thresholds for corners, as MAVBench flew it,
-/// see each stretch from a fresh start, and adds its work on all frames but the first, which only
+/// track each stretch from a fresh start, and adds its work on all frames but the first, which only
 /// starts the map, to `visual_slam_frames` of `loads`.
-/// @error As `frames_of` and `Localizer::see`.
-[[nodiscard]] Status see(const std::vector<Stretch>& stretches,
-                         const Scenario& scenario,
-                         const World& world,
-                         KernelLoads& loads);
+/// @error As `frames_of` and `Localizer::track_frame`.
+[[nodiscard]] Status track_stretches(const std::vector<Stretch>& stretches,
+                                     const Scenario& scenario,
+                                     const World& world,
+                                     KernelLoads& loads);
 
 }  // namespace flyball

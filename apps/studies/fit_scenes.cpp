@@ -54,8 +54,9 @@ class Delivery {
     if (!is_indoors()) {
       return Error{ErrorCode::failed, "the recorded delivery does not reach its building"};
     }
-    if (const Status seen = see(stretches_, scene_.scenario, world_, loads_.kernels); !seen) {
-      return seen.error();
+    if (const Status tracked = track_stretches(stretches_, scene_.scenario, world_, loads_.kernels);
+        !tracked) {
+      return tracked.error();
     }
     return std::move(loads_);
   }
@@ -227,8 +228,9 @@ Result<KernelLoads> record(const RoomsScene& scene) {
       stretches.push_back({X_WB, scene.speed_m_s, scene.localizes_s});
     }
   }
-  if (const Status seen = see(stretches, scene.scenario, setup->things.world, loads); !seen) {
-    return seen.error();
+  if (const Status tracked = track_stretches(stretches, scene.scenario, setup->things.world, loads);
+      !tracked) {
+    return tracked.error();
   }
   return loads;
 }

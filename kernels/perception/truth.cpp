@@ -27,7 +27,7 @@ class Truth final : public flyball::Localizer {
     inputs.truth = true;
     return inputs;
   }
-  void reveal(const flyball::TruePose& pose) override { truth_ = pose; }
+  void set_true_pose(const flyball::TruePose& pose) override { truth_ = pose; }
 
  private:
   std::optional<flyball::TruePose> truth_{};

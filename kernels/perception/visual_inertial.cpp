@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Visual-inertial odometry: corners followed by Lucas-Kanade and an error-state Kalman filter. It
-// goes on without corners for a second and a half, on what it feels.
+// goes on without corners for a second and a half, on the IMU alone.
 
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/registry.h"
@@ -16,7 +16,7 @@ namespace {
 using flyball::Pose;
 using flyball::VisualFix;
 
-class VisualInertial final : public flyball::SeeingLocalizer {
+class VisualInertial final : public flyball::VisualLocalizer {
  public:
   void start(const flyball::GeodeticOrigin& /*origin*/) override {
     odometry_.start(std::nullopt);
@@ -24,15 +24,18 @@ class VisualInertial final : public flyball::SeeingLocalizer {
   }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, false, true}; }
 
-  void place(const Pose& X_WB) override {
+  void set_initial_pose(const Pose& X_WB) override {
     odometry_.start(X_WB);
     reckon_from(X_WB);
   }
 
-  void feel(const flyball::ImuSample& sample) override { odometry_.feel(sample); }
+  void add_imu_sample(const flyball::ImuSample& sample) override {
+    odometry_.add_imu_sample(sample);
+  }
 
-  flyball::Result<VisualFix> see(const flyball::VisualFrame& frame, flyball::Work& work) override {
-    const auto outcome = odometry_.see(frame, work);
+  flyball::Result<VisualFix> track_frame(const flyball::VisualFrame& frame,
+                                         flyball::Work& work) override {
+    const auto outcome = odometry_.track_frame(frame, work);
     if (!outcome) {
       return outcome.error();
     }

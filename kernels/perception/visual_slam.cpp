@@ -20,7 +20,7 @@ using flyball::Pose;
 using flyball::Vec3;
 using flyball::VisualFix;
 
-class VisualSlam final : public flyball::SeeingLocalizer {
+class VisualSlam final : public flyball::VisualLocalizer {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
     const flyball::FeatureSettings usual;
@@ -40,17 +40,20 @@ class VisualSlam final : public flyball::SeeingLocalizer {
         {whole("pixels_per_feature"), whole("weak_corner"), whole("strong_corner")}});
     return flyball::Done{};
   }
-  void start(const flyball::GeodeticOrigin& /*origin*/) override { place(Pose::Identity()); }
+  void start(const flyball::GeodeticOrigin& /*origin*/) override {
+    set_initial_pose(Pose::Identity());
+  }
   [[nodiscard]] flyball::LocalizerInputs inputs() const override { return {true, true, false}; }
 
-  void place(const Pose& X_WB) override {
+  void set_initial_pose(const Pose& X_WB) override {
     last_ = {};
     last_.X_WB = X_WB;
     reckon_from(X_WB);
     has_begun_ = false;
   }
 
-  flyball::Result<VisualFix> see(const flyball::VisualFrame& frame, flyball::Work& work) override {
+  flyball::Result<VisualFix> track_frame(const flyball::VisualFrame& frame,
+                                         flyball::Work& work) override {
     if (!has_begun_) {
       slam_->start(last_.X_WB * frame.X_BC);
       has_begun_ = true;

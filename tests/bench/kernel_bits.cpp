@@ -255,13 +255,14 @@ void localizers(const Registry& registry) {
       continue;
     }
     localizer->start({});
-    localizer->place(kit::circle_pose(0.0) * kit::ahead_from_body().inverse());
+    localizer->set_initial_pose(kit::circle_pose(0.0) * kit::ahead_from_body().inverse());
     TraceHash hash;
     for (std::uint64_t i = 0; i < 6; ++i) {
       Work work;
       const double path_m = 0.2 * static_cast<double>(i);
       const MissionTime now{from_seconds(0.1 * static_cast<double>(i))};
-      const auto fix = localizer->see(camera.capture(kit::circle_pose(path_m), now, i), work);
+      const auto fix =
+          localizer->track_frame(camera.capture(kit::circle_pose(path_m), now, i), work);
       add(hash, fix ? fix->X_WB.translation() : Vec3{-1, -1, -1});
     }
     print("localizer, " + name, hash);

@@ -293,11 +293,11 @@ void see_and_time(const std::vector<VisualFrame>& frames,
   kernels.localizer_parameters = {{"weak_corner", weak_corner}};
   const auto localizer = std::move(make_kernel<Localizer>(Plugins{}, kernels).value());
   localizer->start({});
-  localizer->place(X_WB);
+  localizer->set_initial_pose(X_WB);
   for (const VisualFrame& frame : frames) {
     Work work;
     CostSample sample;
-    sample.time_s = seconds([&] { (void)localizer->see(frame, work); });
+    sample.time_s = seconds([&] { (void)localizer->track_frame(frame, work); });
     for (const std::string& name : names) {
       sample.counts.push_back(work.count(name));
     }

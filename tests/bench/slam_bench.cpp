@@ -50,13 +50,13 @@ struct Flight {
 };
 
 /// Inertial measurements up to a time.
-class Felt {
+class ImuFeed {
  public:
-  Felt(const kit::CircleRun& run, std::uint64_t seed) : run_{run}, imu_{{}, seed} {}
+  ImuFeed(const kit::CircleRun& run, std::uint64_t seed) : run_{run}, imu_{{}, seed} {}
   void until(double t_s, Localizer& localizer) {
     for (; next_ * interval_s <= t_s + 1e-9; ++next_) {
       const double at_s = next_ * interval_s;
-      localizer.feel(imu_.sample(run_.at(at_s), MissionTime{from_seconds(at_s)}));
+      localizer.add_imu_sample(imu_.sample(run_.at(at_s), MissionTime{from_seconds(at_s)}));
     }
   }
 
@@ -103,8 +103,8 @@ Outcome fly(const Flight& flight) {
     run = {flight.speed_m_s, 1.0, true, std::min(3.0, 0.5 * flight.speed_m_s)};
   }
   localizer->start({});
-  localizer->place(run.at(0.0).X_WB);
-  Felt felt{run, flight.seed};
+  localizer->set_initial_pose(run.at(0.0).X_WB);
+  ImuFeed imu{run, flight.seed};
   Outcome outcome;
   std::chrono::duration<double> busy{};
   for (double t_s = 0.0; run.path_m(t_s) < flight.path_m && !outcome.lost;
@@ -115,10 +115,10 @@ Outcome fly(const Flight& flight) {
                        static_cast<std::uint64_t>(outcome.frames));
     frame.X_BC = kit::ahead_from_body();
     if (localizer->inputs().imu) {
-      felt.until(t_s, *localizer);
+      imu.until(t_s, *localizer);
     }
     const auto begun = std::chrono::steady_clock::now();
-    const auto fix = localizer->see(frame, outcome.work);
+    const auto fix = localizer->track_frame(frame, outcome.work);
     busy += std::chrono::steady_clock::now() - begun;
     judge(fix, X_WB.translation(), flight.path_m, outcome);
   }

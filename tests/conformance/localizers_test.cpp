@@ -24,7 +24,7 @@ class LocalizerCulprit final : public Localizer {
     inputs.images = crime_ == "any_frame";
     return inputs;
   }
-  void reveal(const TruePose& pose) override { honest_->reveal(pose); }
+  void set_true_pose(const TruePose& pose) override { honest_->set_true_pose(pose); }
 
   std::optional<PoseEstimate> estimate(const NavigationSample& sample, Work& work) override {
     Work honest;
@@ -51,13 +51,13 @@ class LocalizerCulprit final : public Localizer {
     }
     return estimate;
   }
-  [[nodiscard]] Result<VisualFix> see(const VisualFrame& frame, Work& work) override {
+  [[nodiscard]] Result<VisualFix> track_frame(const VisualFrame& frame, Work& work) override {
     if (crime_ == "imagines" || crime_ == "any_frame") {
       VisualFix fix;
       fix.tracked = true;
       return fix;
     }
-    return Localizer::see(frame, work);
+    return Localizer::track_frame(frame, work);
   }
 
  private:

@@ -61,8 +61,8 @@ TEST(Truth, repeats_what_the_simulator_knows) {
   Work work;
   const auto localizer = make("truth");
   ASSERT_TRUE(localizer->inputs().truth);
-  localizer->reveal(truth);
-  EXPECT_FALSE(make("truth")->estimate(sample, work)) << "nothing was revealed";
+  localizer->set_true_pose(truth);
+  EXPECT_FALSE(make("truth")->estimate(sample, work)) << "it was not told the true pose";
   const PoseEstimate estimate = localizer->estimate(sample, work).value();
   EXPECT_EQ(estimate.stamp, at(4.0));
   EXPECT_TRUE(estimate.X_WB.isApprox(truth.X_WB));

@@ -39,16 +39,16 @@ struct Companion {
     register_kernels(registry);
     localizer = registry.make<Localizer>("visual_inertial");
     localizer->start({});
-    localizer->place(at(0.0).X_WB);
+    localizer->set_initial_pose(at(0.0).X_WB);
   }
-  /// Feels until the next frame, and sees it, or darkness.
+  /// Adds the IMU's samples until the next frame, and tracks that, or darkness.
   VisualFix next(bool in_the_dark = false, bool with_depth = true) {
     const double t_s = frame_s * frames;
-    while (felt_s <= t_s + 1e-9) {
-      ImuSample felt = imu.sample(at(felt_s), MissionTime{from_seconds(felt_s)});
-      felt.f_B.z() -= dropped_m_s2;
-      localizer->feel(felt);
-      felt_s += imu_s;
+    while (imu_until_s <= t_s + 1e-9) {
+      ImuSample sample = imu.sample(at(imu_until_s), MissionTime{from_seconds(imu_until_s)});
+      sample.f_B.z() -= dropped_m_s2;
+      localizer->add_imu_sample(sample);
+      imu_until_s += imu_s;
     }
     const Pose X_WC = at(t_s).X_WB * kit::ahead_from_body();
     VisualFrame frame = camera().capture(X_WC, MissionTime{from_seconds(t_s)},
@@ -65,7 +65,7 @@ struct Companion {
     if (!with_depth) {
       frame.depth_m.clear();
     }
-    const auto fix = localizer->see(frame, work);
+    const auto fix = localizer->track_frame(frame, work);
     EXPECT_TRUE(fix);
     miss_m = (fix->X_WB.translation() - X_WC.translation()).norm();
     return *fix;
@@ -75,7 +75,7 @@ struct Companion {
   Imu imu;
   std::unique_ptr<Localizer> localizer;
   Work work;
-  double felt_s{};
+  double imu_until_s{};
   double miss_m{};
   double dropped_m_s2{};  ///< A broken accelerometer.
   bool hangs{};           ///< The camera sends its last image again and again.
@@ -105,11 +105,11 @@ TEST(VisualInertial, follows_a_start_from_rest) {
 TEST(VisualInertial, does_not_believe_a_sample_that_no_sensor_can_mean) {
   Companion companion{{2.0, 0.3, false}};
   for (int i = 0; i < 10; ++i) {
-    ImuSample broken = companion.imu.sample(companion.at(companion.felt_s),
-                                            MissionTime{from_seconds(companion.felt_s)});
+    ImuSample broken = companion.imu.sample(companion.at(companion.imu_until_s),
+                                            MissionTime{from_seconds(companion.imu_until_s)});
     broken.f_B.x() = i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e4;
     broken.w_WB_B.z() = i % 3 == 0 ? 1e6 : 0.0;
-    companion.localizer->feel(broken);
+    companion.localizer->add_imu_sample(broken);
     EXPECT_TRUE(companion.next().tracked) << i;
   }
   EXPECT_LT(companion.miss_m, 0.06);
@@ -230,7 +230,7 @@ VehicleState swaying(double t_s) {
   return state;
 }
 
-// Rotors that turn on the ground are felt like motion; nothing is seen to move.
+// The IMU takes rotors that turn on the ground for motion; the images show none.
 TEST(VisualInertial, stays_where_it_is_while_it_stands_and_shakes) {
   Companion companion{kit::CircleRun{0.0, 100.0, true}};
   for (int i = 0; i < 80; ++i) {

@@ -19,7 +19,7 @@ std::unique_ptr<Localizer> make() {
   register_kernels(registry);
   auto localizer = registry.make<Localizer>("visual_slam");
   localizer->start({});
-  localizer->place(kit::circle_pose(0.0));
+  localizer->set_initial_pose(kit::circle_pose(0.0));
   return localizer;
 }
 
@@ -53,7 +53,7 @@ TEST(VisualSlam, follows_a_slow_flight) {
   Work work;
   for (int i = 0; i < 12; ++i) {
     const Pose X_WC = kit::circle_pose(0.2 * i);
-    const auto fix = localizer->see(clock.look(X_WC), work);
+    const auto fix = localizer->track_frame(clock.look(X_WC), work);
     ASSERT_TRUE(fix) << fix.error().message;
     ASSERT_TRUE(fix->tracked) << i;
     EXPECT_LT(miss_m(*fix, X_WC), 0.08) << i;
@@ -75,14 +75,14 @@ TEST(VisualSlam, refuses_images_of_another_camera) {
   const auto localizer = make();
   Clock clock;
   Work work;
-  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work));
-  const auto fix = localizer->see(
+  ASSERT_TRUE(localizer->track_frame(clock.look(kit::circle_pose(0.0)), work));
+  const auto fix = localizer->track_frame(
       smaller.capture(kit::circle_pose(0.1), MissionTime{from_seconds(0.1)}, 1), work);
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().message,
             "a frame of 9408 pixels follows frames of 37632; one localizer takes the images of one "
             "camera");
-  const auto next = localizer->see(clock.look(kit::circle_pose(0.1)), work);
+  const auto next = localizer->track_frame(clock.look(kit::circle_pose(0.1)), work);
   EXPECT_TRUE(next && next->tracked) << "it goes on with its own";
 }
 
@@ -107,7 +107,7 @@ Consistency consistency(double step_m, double step_s) {
     Work work;
     for (int i = 0; step_m * i < 20.0; ++i) {
       const Pose X_WC = kit::circle_pose(step_m * i);
-      const auto fix = localizer->see(
+      const auto fix = localizer->track_frame(
           rgbd.capture(X_WC, MissionTime{from_seconds(step_s * i)}, static_cast<std::uint64_t>(i)),
           work);
       if (i > 0 && fix && fix->tracked) {
@@ -148,15 +148,15 @@ TEST(VisualSlam, says_when_it_is_lost_and_finds_a_place_again_that_it_knows) {
   Clock clock;
   Work work;
   for (int i = 0; i < 4; ++i) {
-    ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.2 * i)), work)->tracked);
+    ASSERT_TRUE(localizer->track_frame(clock.look(kit::circle_pose(0.2 * i)), work)->tracked);
   }
-  const auto away = localizer->see(clock.look(kit::circle_pose(80.0)), work);
+  const auto away = localizer->track_frame(clock.look(kit::circle_pose(80.0)), work);
   ASSERT_TRUE(away);
   EXPECT_FALSE(away->tracked) << "nothing of that was ever seen";
-  const auto still_away = localizer->see(clock.look(kit::circle_pose(80.2)), work);
+  const auto still_away = localizer->track_frame(clock.look(kit::circle_pose(80.2)), work);
   EXPECT_FALSE(still_away->tracked);
   const Pose X_WC = kit::circle_pose(0.3);
-  const auto back = localizer->see(clock.look(X_WC), work);
+  const auto back = localizer->track_frame(clock.look(X_WC), work);
   ASSERT_TRUE(back->tracked);
   EXPECT_LT(miss_m(*back, X_WC), 0.08);
 }
@@ -168,13 +168,13 @@ double features_with(const std::map<std::string, ParameterValue>& given) {
   const auto chosen = Parameters::resolve("visual_slam", localizer->parameters(), given);
   EXPECT_TRUE(localizer->configure(std::get<Parameters>(chosen), no_models));
   localizer->start({});
-  localizer->place(kit::circle_pose(0.0));
+  localizer->set_initial_pose(kit::circle_pose(0.0));
   Work work;
-  (void)localizer->see(Clock{}.look(kit::circle_pose(0.0)), work).value();
+  (void)localizer->track_frame(Clock{}.look(kit::circle_pose(0.0)), work).value();
   return work.count("features");
 }
 
-NavigationSample felt_at(double t_s, double height_m) {
+NavigationSample sample_at(double t_s, double height_m) {
   NavigationSample sample;
   sample.stamp = MissionTime{from_seconds(t_s)};
   sample.q_WB_ahrs = Eigen::Quaterniond{kit::circle_pose(0.0).linear()};
@@ -186,16 +186,16 @@ TEST(VisualSlam, begins_a_young_map_anew_where_the_vehicle_is_reckoned_to_be) {
   const auto localizer = make();
   Clock clock;
   Work work;
-  PoseEstimate reckoned = localizer->estimate(felt_at(0.0, 400.0), work).value();
-  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
+  PoseEstimate reckoned = localizer->estimate(sample_at(0.0, 400.0), work).value();
+  ASSERT_TRUE(localizer->track_frame(clock.look(kit::circle_pose(0.0)), work)->tracked);
   for (int i = 1; i <= 300; ++i) {
-    reckoned = localizer->estimate(felt_at(0.01 * i, 400.0 + 0.01 * i), work).value();
+    reckoned = localizer->estimate(sample_at(0.01 * i, 400.0 + 0.01 * i), work).value();
   }
   clock.frames = 30;
   Pose X_WC = kit::circle_pose(20.0);  // It sees nothing that it knows.
   VisualFrame frame = clock.look(X_WC);
   frame.X_WB_reckoned = reckoned.X_WB;
-  const auto fix = localizer->see(frame, work);
+  const auto fix = localizer->track_frame(frame, work);
   ASSERT_TRUE(fix);
   EXPECT_TRUE(fix->tracked);
   EXPECT_NEAR(fix->X_WB.translation().z(), kit::circle_pose(0.0).translation().z() + 3.0, 0.05);
@@ -206,8 +206,8 @@ TEST(VisualSlam, begins_no_map_anew_where_nobody_knows_the_height) {
   const auto localizer = make();
   Clock clock;
   Work work;
-  ASSERT_TRUE(localizer->see(clock.look(kit::circle_pose(0.0)), work)->tracked);
-  const auto fix = localizer->see(clock.look(kit::circle_pose(20.0)), work);
+  ASSERT_TRUE(localizer->track_frame(clock.look(kit::circle_pose(0.0)), work)->tracked);
+  const auto fix = localizer->track_frame(clock.look(kit::circle_pose(20.0)), work);
   ASSERT_TRUE(fix);
   EXPECT_FALSE(fix->tracked);
 }
@@ -235,7 +235,7 @@ TEST(VisualSlam, gives_the_same_answer_twice) {
     Work work;
     VisualFix last;
     for (int i = 0; i < 4; ++i) {
-      last = *localizer->see(clock.look(kit::circle_pose(0.3 * i)), work);
+      last = *localizer->track_frame(clock.look(kit::circle_pose(0.3 * i)), work);
     }
     return last;
   };
@@ -252,7 +252,7 @@ TEST(VisualSlam, starts_nowhere_without_features) {
   blank.grey.assign(64 * 48, 128);
   blank.depth_m.assign(64 * 48, 3.0F);
   Work work;
-  const auto fix = localizer->see(blank, work);
+  const auto fix = localizer->track_frame(blank, work);
   ASSERT_TRUE(fix);
   EXPECT_FALSE(fix->tracked);
   EXPECT_EQ(fix->keyframes, 0);
@@ -264,7 +264,7 @@ TEST(VisualSlam, refuses_a_frame_of_another_size_than_its_camera) {
   broken.camera = {64, 48, 32.0, 32.0, 31.5, 23.5, {}};
   broken.grey.assign(100, 128);
   Work work;
-  const auto fix = localizer->see(broken, work);
+  const auto fix = localizer->track_frame(broken, work);
   ASSERT_FALSE(fix);
   EXPECT_EQ(fix.error().code, ErrorCode::invalid_input);
   EXPECT_NE(fix.error().message.find("64 x 48"), std::string::npos);

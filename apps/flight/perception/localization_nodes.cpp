@@ -62,7 +62,7 @@ class Localize {
       turn_knobs(job, mission_, *localizer_);
     }
     if (const auto truth = vehicle_.true_pose ? job.latest(*vehicle_.true_pose) : nullptr) {
-      localizer_->reveal(*truth);
+      localizer_->set_true_pose(*truth);
     }
     const auto pose = localizer_->estimate(sample, work);
     tell_of_first(job, pose.has_value());
@@ -125,7 +125,7 @@ void add_localize(Graph& graph,
   graph.node(std::move(spec), [localize](JobContext& job) { return (*localize)(job); });
 }
 
-/// Hands frames to the localizer, with what it feels and where it is reckoned to be.
+/// Hands frames to the localizer, with the samples of the IMU and the pose by dead reckoning.
 class See {
  public:
   See(const FlightParts& parts, Topic<PoseEstimate> poses, Topic<VisualFix> fix)
@@ -138,8 +138,8 @@ class See {
   Work operator()(JobContext& job) {
     Work work;
     const auto seen = job.latest(*vehicle_.view);
-    while (const auto felt = vehicle_.imu ? job.take(*vehicle_.imu) : nullptr) {
-      localizer_->feel(*felt);
+    while (const auto sample = vehicle_.imu ? job.take(*vehicle_.imu) : nullptr) {
+      localizer_->add_imu_sample(*sample);
     }
     poses_.take_from(job, poses_topic_);
     if (!seen || !is_localizers_turn(job, mission_, limit_, seen->depth.captured)) {
@@ -148,7 +148,7 @@ class See {
     turn_knobs(job, mission_, *localizer_);
     VisualFrame frame = visual_frame(*seen);
     frame.X_WB_reckoned = reckoned(job, frame.captured);
-    const auto found = localizer_->see(frame, work);
+    const auto found = localizer_->track_frame(frame, work);
     if (found) {
       job.publish(fix_, *found);
     } else {
@@ -158,7 +158,7 @@ class See {
   }
 
  private:
-  /// Only a barometer tells the height of a vehicle that does not see where it is.
+  /// Only a barometer tells the height of a vehicle whose images do not tell where it is.
   [[nodiscard]] std::optional<Pose> reckoned(JobContext& job, MissionTime captured) const {
     const auto sample = job.latest(vehicle_.navigation);
     const auto pose = poses_.at(captured);

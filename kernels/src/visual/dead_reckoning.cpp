@@ -15,7 +15,7 @@ constexpr auto memory = 5s;  // A frame that is older than this corrects with wh
 }  // namespace
 
 void DeadReckoning::start(const Pose& X_WB) {
-  felt_.clear();
+  samples_.clear();
   fix_ = std::nullopt;
   climb_ = {};
   has_barometer_ = false;
@@ -27,42 +27,42 @@ void DeadReckoning::correct(const VisualFix& fix) {
     return;
   }
   fix_ = fix;
-  if (!felt_.empty()) {
-    height_then_m_ = felt_at(fix.captured).height_m;
+  if (!samples_.empty()) {
+    height_then_m_ = sample_at(fix.captured).height_m;
   }
 }
 
-void DeadReckoning::feel(const NavigationSample& sample) {
+void DeadReckoning::add_sample(const NavigationSample& sample) {
   if (sample.pressure_pa > 0.0) {
     climb_.update(pressure_height_m(sample.pressure_pa), sample.stamp);
     height_then_m_ = has_barometer_ ? height_then_m_ : climb_.height_m();
     has_barometer_ = true;
   }
-  felt_.push_back({sample.stamp, sample.q_WB_ahrs.normalized(), climb_.height_m()});
-  while (felt_.front().stamp + memory < sample.stamp) {
-    felt_.pop_front();
+  samples_.push_back({sample.stamp, sample.q_WB_ahrs.normalized(), climb_.height_m()});
+  while (samples_.front().stamp + memory < sample.stamp) {
+    samples_.pop_front();
   }
 }
 
-const DeadReckoning::Felt& DeadReckoning::felt_at(MissionTime t) const {
+const DeadReckoning::Sample& DeadReckoning::sample_at(MissionTime t) const {
   const auto after =
-      std::lower_bound(felt_.begin(), felt_.end(), t,
-                       [](const Felt& felt, MissionTime time) { return felt.stamp < time; });
-  return after == felt_.end() ? felt_.back() : *after;
+      std::lower_bound(samples_.begin(), samples_.end(), t,
+                       [](const Sample& sample, MissionTime time) { return sample.stamp < time; });
+  return after == samples_.end() ? samples_.back() : *after;
 }
 
 /// A barometer's noise of 3 cm against the error of a fix's speed: the height is the barometer's.
 Pose DeadReckoning::pose_at(MissionTime t) const {
   Pose X_WB = fix_ ? fix_->X_WB : X_WB_start_;
-  if (felt_.empty()) {
+  if (samples_.empty()) {
     return X_WB;
   }
   const double z_then_m = X_WB.translation().z();
-  const Felt& then = felt_at(t);
+  const Sample& then = sample_at(t);
   if (fix_) {
     const double age_s = to_seconds(t - fix_->captured);
     X_WB.translation() += std::clamp(age_s, 0.0, longest_reckoning_s) * fix_->v_WB;
-    const Eigen::Quaterniond turned = felt_at(fix_->captured).q_WB.conjugate() * then.q_WB;
+    const Eigen::Quaterniond turned = sample_at(fix_->captured).q_WB.conjugate() * then.q_WB;
     X_WB.linear() =
         (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
   }
@@ -73,7 +73,7 @@ Pose DeadReckoning::pose_at(MissionTime t) const {
 }
 
 PoseEstimate DeadReckoning::estimate(const NavigationSample& sample) {
-  feel(sample);
+  add_sample(sample);
   PoseEstimate estimate{sample.stamp, pose_at(sample.stamp), Vec3::Zero()};
   if (fix_ && to_seconds(sample.stamp - fix_->captured) < longest_reckoning_s) {
     estimate.v_WB = fix_->v_WB;

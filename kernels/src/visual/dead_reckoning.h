@@ -24,17 +24,17 @@ class DeadReckoning {
   [[nodiscard]] PoseEstimate estimate(const NavigationSample& sample);
 
  private:
-  struct Felt {
+  struct Sample {
     MissionTime stamp;
     Eigen::Quaterniond q_WB;
     double height_m;  ///< By the barometer.
   };
-  void feel(const NavigationSample& sample);
+  void add_sample(const NavigationSample& sample);
   /// Where it was at a time of the last five seconds, as far as is known now.
   [[nodiscard]] Pose pose_at(MissionTime t) const;
-  [[nodiscard]] const Felt& felt_at(MissionTime t) const;
+  [[nodiscard]] const Sample& sample_at(MissionTime t) const;
 
-  std::deque<Felt> felt_;  ///< In the last seconds.
+  std::deque<Sample> samples_;  ///< In the last seconds.
   ClimbFilter climb_{};
   bool has_barometer_{};
   double height_then_m_{};          ///< At the start, later at the fix.
@@ -42,9 +42,9 @@ class DeadReckoning {
   Pose X_WB_start_{Pose::Identity()};
 };
 
-/// A localizer that sees knows a place per frame; between frames it reckons. What it reckons with
-/// is out of reach of `see`, which another thread may call.
-class SeeingLocalizer : public Localizer {
+/// A localizer that uses images knows a pose per frame, and dead reckoning carries it on between
+/// frames. What it reckons with is out of reach of `track_frame`, which another thread may call.
+class VisualLocalizer : public Localizer {
  public:
   void correct(const VisualFix& fix) final { reckoning_.correct(fix); }
   std::optional<PoseEstimate> estimate(const NavigationSample& sample, Work& work) final {

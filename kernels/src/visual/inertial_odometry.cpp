@@ -83,7 +83,7 @@ void InertialOdometry::start(const std::optional<Pose>& X_WB) {
 }
 
 /// One sample that no sensor can mean would spoil the estimate for good.
-void InertialOdometry::feel(const ImuSample& sample) {
+void InertialOdometry::add_imu_sample(const ImuSample& sample) {
   constexpr double most_m_s2 = 500.0;   // Chosen: 50 g, and 16 turns a second. Both are beyond what
   constexpr double most_rad_s = 100.0;  // such sensors measure.
   if (sample.f_B.norm() <= most_m_s2 && sample.w_WB_B.norm() <= most_rad_s) {
@@ -263,7 +263,7 @@ void InertialOdometry::look(const VisualFrame& frame,
                             OdometryOutcome& outcome,
                             Work& work) {
   outcome.tracks = watch_for_motion(points);
-  const auto view = rest_.see(points, frame.captured, frame.camera.focal_x_px);
+  const auto view = rest_.compare(points, frame.captured, frame.camera.focal_x_px);
   bool is_bound = !has_moved_;
   if (!has_moved_) {
     stand();
@@ -287,7 +287,7 @@ void InertialOdometry::look(const VisualFrame& frame,
   }
 }
 
-Result<OdometryOutcome> InertialOdometry::see(const VisualFrame& frame, Work& work) {
+Result<OdometryOutcome> InertialOdometry::track_frame(const VisualFrame& frame, Work& work) {
   OdometryOutcome outcome;
   if (has_begun_) {
     advance(frame.captured);

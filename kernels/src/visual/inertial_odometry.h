@@ -14,8 +14,8 @@ namespace flyball {
 
 struct OdometryOutcome {
   /// Saw enough within the last second and a half, makes sense, and knows its speed to .5 m/s; to
-  /// .2 m/s when nothing that was seen has corrected it for as long. What it feels does not speak
-  /// against what it sees for a second.
+  /// .2 m/s when nothing that was seen has corrected it for as long. The IMU does not contradict
+  /// the images for a second.
   bool tracked{};
   int tracks{};    ///< Points in the newest image that were in the one before.
   int believed{};  ///< Tracks that corrected the filter.
@@ -30,15 +30,15 @@ class InertialOdometry {
 
   /// At rest here; without a pose, level as the accelerometer says, at the origin.
   void start(const std::optional<Pose>& X_WB);
-  void feel(const ImuSample& sample);
+  void add_imu_sample(const ImuSample& sample);
   /// Adds `pixels`, `features`, `tracks` and `filter_updates` (rows times columns squared) to
   /// `work`.
   /// @error As `FeatureTracks::follow`.
-  [[nodiscard]] Result<OdometryOutcome> see(const VisualFrame& frame, Work& work);
+  [[nodiscard]] Result<OdometryOutcome> track_frame(const VisualFrame& frame, Work& work);
   [[nodiscard]] const InertialFilter& filter() const { return filter_; }
 
  private:
-  /// The same image again, while what it feels says that it moves: the camera hangs.
+  /// The same image again, while the IMU says that the body moves: the camera hangs.
   [[nodiscard]] bool is_stale(const VisualFrame& frame) const;
   void look(const VisualFrame& frame,
             const std::vector<TrackedPoint>& points,
@@ -67,7 +67,7 @@ class InertialOdometry {
   RestWatch rest_{};
   InertialFilter filter_;
   std::map<std::uint64_t, std::vector<Glimpse>> seen_{};
-  std::vector<ImuSample> waiting_{};  ///< Felt, but later than the newest frame.
+  std::vector<ImuSample> waiting_{};  ///< Later than the newest frame.
   std::deque<Vec3> recent_f_B_{};     ///< To see how much it shakes.
   ImuSample last_{};
   std::optional<Pose> X_WB_start_{};
@@ -77,7 +77,7 @@ class InertialOdometry {
   bool has_begun_{};
   bool has_moved_{};
   bool has_been_full_{};  ///< The window.
-  int refused_views_{};   ///< In a row: it seems to stand, and what it feels says otherwise.
+  int refused_views_{};   ///< In a row: it seems to stand, and the IMU says otherwise.
   bool has_failed_{};     ///< For good: it knows no place that it could find again.
 };
 

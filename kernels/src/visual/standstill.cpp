@@ -34,9 +34,9 @@ void RestWatch::begin(const std::vector<TrackedPoint>& points, MissionTime now) 
   captured_then_ = told_ = now;
 }
 
-std::optional<SlowView> RestWatch::see(const std::vector<TrackedPoint>& points,
-                                       MissionTime now,
-                                       double focal_px) {
+std::optional<SlowView> RestWatch::compare(const std::vector<TrackedPoint>& points,
+                                           MissionTime now,
+                                           double focal_px) {
   std::vector<double> moved;
   std::vector<double> depths_m;
   for (const TrackedPoint& point : points) {
@@ -82,7 +82,7 @@ double shaking(const std::deque<Vec3>& recent_f_B) {
 }
 
 Innovation standing(const InertialFilter& filter,
-                    const ImuSample& felt,
+                    const ImuSample& sample,
                     double speed_sigma_m_s,
                     double shaking_m_s2) {
   constexpr double rate_sigma_rad_s = 0.01;
@@ -93,8 +93,8 @@ Innovation standing(const InertialFilter& filter,
   still.sigma = Eigen::VectorXd::Zero(9);
   const Vec3 up_B = filter.X_WB().linear().transpose() * -gravity_W();
   still.residual.segment<3>(0) = -filter.v_WB();
-  still.residual.segment<3>(3) = felt.w_WB_B - filter.gyro_bias_now();
-  still.residual.segment<3>(6) = felt.f_B - filter.accel_bias_now() - up_B;
+  still.residual.segment<3>(3) = sample.w_WB_B - filter.gyro_bias_now();
+  still.residual.segment<3>(6) = sample.f_B - filter.accel_bias_now() - up_B;
   using F = InertialFilter;
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   still.slope.block<3, 3>(0, F::velocity) = one;

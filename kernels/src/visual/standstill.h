@@ -28,9 +28,9 @@ class RestWatch {
  public:
   void clear();
   /// @return Twice a second; nothing in between, nor where too few corners are in both views.
-  [[nodiscard]] std::optional<SlowView> see(const std::vector<TrackedPoint>& points,
-                                            MissionTime now,
-                                            double focal_px);
+  [[nodiscard]] std::optional<SlowView> compare(const std::vector<TrackedPoint>& points,
+                                                MissionTime now,
+                                                double focal_px);
 
  private:
   void begin(const std::vector<TrackedPoint>& points, MissionTime now);
@@ -50,10 +50,10 @@ constexpr std::size_t shake_samples = 40;  // .2 s at 200 Hz.
 /// It stands: a measurement of speed, tilt and biases.
 /// @param shaking_m_s2  Standard deviation of the vibration in the accelerometer.
 [[nodiscard]] Innovation standing(const InertialFilter& filter,
-                                  const ImuSample& felt,
+                                  const ImuSample& sample,
                                   double speed_sigma_m_s,
                                   double shaking_m_s2);
-/// It is slow, whatever the inertial sensors feel.
+/// It is slow, whatever the inertial sensors measure.
 [[nodiscard]] Innovation slow(const InertialFilter& filter, double speed_sigma_m_s);
 
 }  // namespace flyball

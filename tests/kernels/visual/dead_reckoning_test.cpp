@@ -75,9 +75,9 @@ TEST(DeadReckoning, stands_still_when_fixes_fail_to_come) {
 }
 
 NavigationSample climbing(double t_s, double height_m) {
-  NavigationSample felt = sample(t_s, 0.0);
-  felt.pressure_pa = standard_pressure_pa(400.0 + height_m);
-  return felt;
+  NavigationSample high = sample(t_s, 0.0);
+  high.pressure_pa = standard_pressure_pa(400.0 + height_m);
+  return high;
 }
 
 TEST(DeadReckoning, knows_how_high_it_has_climbed_without_a_fix) {

@@ -75,7 +75,7 @@ double miss_m(const CameraModel& lens, const CameraModel& told) {
   register_kernels(registry);
   const auto slam = registry.make<Localizer>("visual_slam");
   slam->start({});
-  slam->place(kit::circle_pose(0.0));
+  slam->set_initial_pose(kit::circle_pose(0.0));
   const kit::BentCamera camera{kit::circle_world(1), lens, 1};
   Work work;
   double worst_m = 0.0;
@@ -84,7 +84,7 @@ double miss_m(const CameraModel& lens, const CameraModel& told) {
     VisualFrame frame =
         camera.capture(X_WC, MissionTime{from_seconds(0.1 * i)}, static_cast<std::uint64_t>(i));
     frame.camera = told;
-    const auto fix = slam->see(frame, work);
+    const auto fix = slam->track_frame(frame, work);
     worst_m = std::max(worst_m, fix && fix->tracked
                                     ? (fix->X_WB.translation() - X_WC.translation()).norm()
                                     : 10.0);

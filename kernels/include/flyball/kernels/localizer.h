@@ -27,14 +27,14 @@ struct LocalizerInputs {
   bool truth{};  ///< Only a simulator can fly it.
 };
 
-/// One that sees is told where it stands (`place`), gets frames (`see`) and, when the computer is
-/// through with a frame, its result (`correct`): what `estimate` says depends on frames only from
-/// then on.
+/// A visual localizer is told where it starts (`set_initial_pose`) and tracks frames
+/// (`track_frame`). When the computer is through with a frame, it is given the fix that came of it
+/// (`correct`): what `estimate` says depends on the frame only from then on.
 ///
 /// Two threads may use one localizer at the same time once it has been placed: the first calls
-/// `apply`, `feel` and `see`, the second `reveal`, `correct` and `estimate`. So these two groups
-/// share no state; what one has to tell the other goes through `VisualFix` and
-/// `VisualFrame::X_WB_reckoned`.
+/// `apply`, `add_imu_sample` and `track_frame`, the second `set_true_pose`, `correct` and
+/// `estimate`. So these two groups share no state; what one has to tell the other goes through
+/// `VisualFix` and `VisualFrame::X_WB_reckoned`.
 class Localizer : public Kernel {
  public:
   /// Once it is configured: where W lies. What was estimated before is forgotten.
@@ -46,15 +46,16 @@ class Localizer : public Kernel {
 
   [[nodiscard]] virtual LocalizerInputs inputs() const { return {}; }
   /// Where the vehicle stands; to be said before the first frame, and it stands still until then.
-  virtual void place(const Pose& /*X_WB*/) {}
+  virtual void set_initial_pose(const Pose& /*X_WB*/) {}
   /// Where the vehicle truly is, before the sample of the same time; for `inputs().truth`.
-  virtual void reveal(const TruePose& /*pose*/) {}
+  virtual void set_true_pose(const TruePose& /*pose*/) {}
   /// In order of their stamps; those up to a frame's time before the frame.
-  virtual void feel(const ImuSample& /*sample*/) {}
+  virtual void add_imu_sample(const ImuSample& /*sample*/) {}
   /// Frames in order of their times. Adds what it did to `work`.
   /// @error `unavailable` when it takes no images, `invalid_input` when image and camera differ in
   /// size.
-  [[nodiscard]] virtual Result<VisualFix> see(const VisualFrame& /*frame*/, Work& /*work*/) {
+  [[nodiscard]] virtual Result<VisualFix> track_frame(const VisualFrame& /*frame*/,
+                                                      Work& /*work*/) {
     return Error{ErrorCode::unavailable, "this localizer looks at no images"};
   }
   virtual void correct(const VisualFix& /*fix*/) {}

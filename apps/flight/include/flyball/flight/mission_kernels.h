@@ -21,8 +21,8 @@
 namespace flyball {
 
 /// Owners: the node that calls the kernel, and who set up the mission, who may use it before the
-/// graph runs and after it has stopped. Of the localizer, `see` and `feel` belong to the node
-/// `see`, the rest to the node `localize`.
+/// graph runs and after it has stopped. Of the localizer, `track_frame` and `add_imu_sample`
+/// belong to the node `see`, the rest to the node `localize`.
 struct MissionKernels {
   std::shared_ptr<PointCloudBuilder> point_cloud;
   std::shared_ptr<Mapper> mapper;

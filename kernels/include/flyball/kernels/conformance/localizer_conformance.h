@@ -76,11 +76,11 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     sample.pressure_pa = standard_pressure_pa(origin.height_m + p_W.z());
     return sample;
   }
-  static ImuSample felt_at(int at_ms) {
-    ImuSample felt;
-    felt.stamp = MissionTime{std::chrono::milliseconds{at_ms}};
-    felt.f_B = Vec3{1e-3 * at_ms > stand_s ? gain_m_s2 : 0.0, 0.0, 9.80665};
-    return felt;
+  static ImuSample imu_sample_at(int at_ms) {
+    ImuSample sample;
+    sample.stamp = MissionTime{std::chrono::milliseconds{at_ms}};
+    sample.f_B = Vec3{1e-3 * at_ms > stand_s ? gain_m_s2 : 0.0, 0.0, 9.80665};
+    return sample;
   }
 
   /// 0..1, the same for all points of one cube of a lattice.
@@ -149,7 +149,7 @@ class LocalizerConformance : public KernelConformance<Localizer> {
   }
 
   void look(Localizer& localizer, int at_ms, Flight& flight) {
-    const auto fix = localizer.see(frame_at(at_ms), flight.work);
+    const auto fix = localizer.track_frame(frame_at(at_ms), flight.work);
     require(fix.ok(), fix ? "" : "refuses an ordinary frame: " + fix.error().message);
     if (fix) {
       flight.tracked = flight.tracked && fix->tracked;
@@ -160,18 +160,18 @@ class LocalizerConformance : public KernelConformance<Localizer> {
   Flight fly(Localizer& localizer, int until_ms = static_cast<int>(1000.0 * end_s)) {
     const LocalizerInputs inputs = localizer.inputs();
     localizer.start(GeodeticOrigin{});
-    localizer.place(truth_at(0).X_WB);
+    localizer.set_initial_pose(truth_at(0).X_WB);
     Flight flight;
     for (int at_ms = 0; at_ms <= until_ms; at_ms += tick_ms) {
       if (inputs.imu) {
-        localizer.feel(felt_at(at_ms));
+        localizer.add_imu_sample(imu_sample_at(at_ms));
       }
       if (inputs.images && at_ms % 100 == 0) {
         look(localizer, at_ms, flight);
       }
       if (at_ms % 20 == 0) {
         if (inputs.truth) {
-          localizer.reveal(truth_at(at_ms));
+          localizer.set_true_pose(truth_at(at_ms));
         }
         ++flight.samples;
         note(localizer.estimate(sample_at(at_ms), flight.work), at_ms, flight);
@@ -214,7 +214,7 @@ class LocalizerConformance : public KernelConformance<Localizer> {
     Flight after;
     for (const NavigationSample& sample : {broken, sample_at(1200)}) {
       if (localizer->inputs().truth) {
-        localizer->reveal(truth_at(1200));
+        localizer->set_true_pose(truth_at(1200));
       }
       note(localizer->estimate(sample, work), 1200, after);
     }
@@ -224,17 +224,17 @@ class LocalizerConformance : public KernelConformance<Localizer> {
   void check_frames() {
     const auto localizer = made();
     localizer->start(GeodeticOrigin{});
-    localizer->place(truth_at(0).X_WB);
+    localizer->set_initial_pose(truth_at(0).X_WB);
     Work work;
     if (!localizer->inputs().images) {
-      const auto fix = localizer->see(frame_at(0), work);
+      const auto fix = localizer->track_frame(frame_at(0), work);
       require(!fix && fix.error().code == ErrorCode::unavailable,
               "answers a frame although it looks at no images");
       return;
     }
     VisualFrame broken = frame_at(0);
     broken.grey.resize(100);
-    const auto fix = localizer->see(broken, work);
+    const auto fix = localizer->track_frame(broken, work);
     require(!fix && fix.error().code == ErrorCode::invalid_input && !fix.error().message.empty(),
             "accepts a frame that is not of its camera's size");
   }
