@@ -20,7 +20,7 @@ Navigator::Navigator(std::shared_ptr<const Brief> brief, std::shared_ptr<PathTra
       path_tracker_{std::move(path_tracker)},
       follower_{brief_},
       patience_{brief_->settings.mission.plan_time_limit_s},
-      map_latency_{frame_price(*brief_)} {}
+      newest_{frame_price(*brief_)} {}
 
 void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs) {
   if (knobs == knobs_) {
@@ -29,8 +29,8 @@ void Navigator::set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> k
   knobs_ = std::move(knobs);
   follower_.set_knobs(knobs_);
   path_tracker_->apply(knobs_->knobs);
-  if (map_latency_.note_terms(now, terms_of(*knobs_, *brief_))) {
-    follower_.set_latency_bound(map_latency_.age_bound());
+  if (newest_.note_terms(now, terms_of(*knobs_, *brief_))) {
+    follower_.set_latency_bound(newest_.age_bound());
   }
 }
 
@@ -42,7 +42,7 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
     goal_yaw_rad_ = go->yaw_rad;
     is_one_of_many_ = go->is_one_of_many;
     patience_.begin(now);
-    failures_ = 0;
+    failures_.begin_goal();
     set_goal(now, go->p_W);
   } else {
     clear_goal();
@@ -82,18 +82,15 @@ bool Navigator::has_arrived() const {
 }
 
 void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
-  newest_ = clearance.revision;
-  newest_latency_ = clearance.published - newest_.captured;
-  unused_capture_ = newest_.captured;
-  (void)map_latency_.note_terms(now, terms_of(*knobs_, *brief_));
-  map_latency_.published(newest_, clearance.published);
-  follower_.map_captured(newest_.captured);
-  follower_.set_latency_bound(map_latency_.age_bound());
+  (void)newest_.note_terms(now, terms_of(*knobs_, *brief_));
+  newest_.note(clearance.revision, clearance.published);
+  follower_.map_captured(newest_.captured());
+  follower_.set_latency_bound(newest_.age_bound());
 }
 
 void Navigator::refresh_known_free() {
-  if (newest_.map) {
-    const CountedMap map{*newest_.map};
+  if (newest_.has_map()) {
+    const CountedMap map{newest_.map()};
     follower_.refresh_known_free(map);
     map.add_to(news_.asked);
   }
@@ -116,22 +113,21 @@ void Navigator::path_checked(MissionTime now, const PathClearance& clearance) {
 /// While the vehicle does not know where it is, no path is flown; afterwards, from where it then
 /// is.
 void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) {
-  if (is_searching_ && goal_W_) {
+  if (search_ && goal_W_) {
     hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
     patience_.resume(now);
     set_goal(now, *goal_W_);
   }
-  is_searching_ = false;
+  search_.reset();
 }
 
 /// Where the fallback asks for a hover, the search goes no farther.
 Setpoint Navigator::searched(MissionTime now, const Setpoint& search) {
-  if (!is_searching_ || !knobs_->restraint.must_hover) {
+  if (!search_ || !knobs_->restraint.must_hover) {
     search_ = search;
   }
-  search_.stamp = now;
-  is_searching_ = true;
-  return search_;
+  search_->stamp = now;
+  return *search_;
 }
 
 /// A pose that is too old would draw the vehicle to where the path was then, and past its end: the
@@ -149,18 +145,11 @@ PoseEstimate Navigator::believed(MissionTime now, const PoseEstimate& where) {
   return here;
 }
 
-void Navigator::tell_map_use(MissionTime now) {
-  if (unused_capture_) {
-    news_.map_use = MapUse{map_latency_.budget_use(), to_seconds(now - *unused_capture_)};
-    unused_capture_.reset();
-  }
-}
-
 void Navigator::note_rest(MissionTime now, double speed_m_s) {
   const bool rests = speed_m_s <= rests_below_m_s;
   at_rest_since_ = rests ? at_rest_since_.value_or(now) : std::optional<MissionTime>{};
-  if (stalls_ > 0 && speed_m_s > moves_above_m_s) {
-    failures_ = stalls_ = 0;
+  if (speed_m_s > moves_above_m_s) {
+    failures_.moved();
   }
   std::optional<double> to_goal_m;
   if (goal_W_ && !has_arrived()) {
@@ -174,7 +163,7 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
 
 // The same view would fail again, or show the same detour. A step back turns by itself.
 std::optional<Vec3> Navigator::way_to_look_for() const {
-  const bool fails = failures_ > 0 && !follower_.has_path();
+  const bool fails = failures_.count() > 0 && !follower_.has_path();
   const bool looks = fails || detours_.holds_back() || stops_for_plan_;
   return looks && !back_.is_active() ? goal_W_ : std::nullopt;
 }
@@ -202,7 +191,9 @@ Setpoint Navigator::tick(MissionTime now,
     }
   }
   note_rest(now, reference.speed_m_s);
-  tell_map_use(now);
+  if (const auto use = newest_.first_use(now)) {
+    news_.map_use = use;
+  }
   if (!follower_.has_path()) {
     Setpoint hover;
     hover.stamp = now;
@@ -239,13 +230,13 @@ NavigatorState Navigator::state() const {
   state.known_free_m = follower_.known_free_m();
   state.latency_bound = follower_.latency_bound();
   state.tracking_error = tracking_error_;
-  state.planner_failures = failures_;
+  state.planner_failures = failures_.count();
   state.replans = replans_;
-  state.map_revision = newest_.number;
-  state.map_latency = newest_latency_;
-  state.map_captured = newest_.captured;
-  state.map_range_m = newest_.range_m;
-  state.map = newest_.number > 0 ? newest_.map : nullptr;
+  state.map_revision = newest_.revision().number;
+  state.map_latency = newest_.latency();
+  state.map_captured = newest_.captured();
+  state.map_range_m = newest_.revision().range_m;
+  state.map = newest_.published();
   return state;
 }
 

@@ -43,7 +43,7 @@ void Navigator::want_plan(MissionTime now, const std::string& why) {
 // In larger cells a door may have been closed, and the path is the way around. The way through the
 // door is looked for once, when the first map of smaller cells is there.
 void Navigator::note_finer_map(MissionTime now) {
-  if (!asked_ && detours_.shows_more(newest_.map->resolution_m()) && is_detour()) {
+  if (!asked_ && detours_.shows_more(newest_.map().resolution_m()) && is_detour()) {
     if (is_long_detour(rest_of(follower_))) {
       stops_for_plan_ = true;  // So that it does not come too late.
     }
@@ -99,7 +99,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
     asked_.reset();  // Neither a path nor a failure has come: a message was lost.
     want_plan(now, "no answer to a plan");
   }
-  if (!goal_W_ || !newest_.map || asked_ || back_.is_active()) {
+  if (!goal_W_ || !newest_.has_map() || asked_ || back_.is_active()) {
     return std::nullopt;
   }
   if ((follower_.is_at_end() && !has_arrived()) || is_leg_ending()) {
@@ -109,7 +109,7 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   if (!wants_plan_ || now < not_before_ || awaits_finer_map(now)) {
     return std::nullopt;
   }
-  if (detours_.is_found_again(newest_.map->resolution_m())) {
+  if (detours_.is_found_again(newest_.map().resolution_m())) {
     take_held_back();  // No map of smaller cells has come.
   }
   wants_plan_ = false;
@@ -121,9 +121,9 @@ std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
 // one that found a long detour would find it again. When the governor has asked for smaller cells,
 // the search waits for the first map of them.
 bool Navigator::awaits_finer_map(MissionTime now) const {
-  return !known_ && (failures_ > 0 || detours_.holds_back()) &&
+  return !known_ && (failures_.count() > 0 || detours_.holds_back()) &&
          now < not_before_ + finer_patience &&
-         are_smaller_cells(knobs_->value("map.resolution_m"), newest_.map->resolution_m());
+         are_smaller_cells(knobs_->value("map.resolution_m"), newest_.map().resolution_m());
 }
 
 PlanQuery Navigator::query(MissionTime now) {
@@ -133,15 +133,15 @@ PlanQuery Navigator::query(MissionTime now) {
   const double splice_m = follower_.has_path() ? start_from_path(query) : 0.0;
   asked_ = Asked{query.id, now, splice_m, known_.has_value()};
   if (!asked_->joins) {
-    detours_.searched(newest_.map->resolution_m());
+    detours_.searched(newest_.map().resolution_m());
   }
   query.known = std::exchange(known_, std::nullopt);
   query.may_turn_back =
       stops_for_plan_ || lead_.lead_s() > 2.0 * follower_.speed_m_s() / turning_m_s2;
   query.goal_W = *goal_W_;
-  query.failures = failures_;
+  query.failures = failures_.count();
   // When no path was found twice with the narrow tube, none will be found with a wide one.
-  query.may_be_tight = situation().is_slow_at(query.start_W) || failures_ > 1;
+  query.may_be_tight = situation().is_slow_at(query.start_W) || failures_.count() > 1;
   query.iteration_s = lead_.iteration_s();
   if (needs_flown_way(query)) {
     query.flown_W = flown_.between(query.start_W, query.goal_W, brief_->settings.planner.horizon_m);
@@ -153,9 +153,9 @@ PlanQuery Navigator::query(MissionTime now) {
 // forest, a search finds a shorter one at once. Each third plan after failures is made without it,
 // because the way may be what has failed.
 bool Navigator::needs_flown_way(const PlanQuery& query) const {
-  const bool may_search_long = failures_ > 0 || brief_->settings.planner.horizon_m > 0.0 ||
+  const bool may_search_long = failures_.count() > 0 || brief_->settings.planner.horizon_m > 0.0 ||
                                situation().is_slow_at(query.start_W);
-  return knows_way_ && !query.known && may_search_long && failures_ % 3 != 2;
+  return knows_way_ && !query.known && may_search_long && failures_.count() % 3 != 2;
 }
 
 // The next plan is asked for so early that the vehicle need not stop, and so late that the next
@@ -192,7 +192,7 @@ double Navigator::start_from_path(PlanQuery& query) {
   const Path& path = follower_.path();
   const double lead_s = known_ ? least_plan_lead_s : lead_.lead_s();
   const bool leaves_moving =
-      refusals_ == 0 && !stops_for_plan_ && follower_.speed_m_s() >= creeps_below_m_s;
+      failures_.refusals() == 0 && !stops_for_plan_ && follower_.speed_m_s() >= creeps_below_m_s;
   const double stop_m = leaves_moving ? last_stop_m() : follower_.planned_stop_m();
   const double moving_m = std::min(follower_.s_m() + follower_.speed_m_s() * lead_s, stop_m);
   follower_.commit_stop(stop_m);
@@ -216,7 +216,9 @@ void Navigator::plan_failed(MissionTime now, const Asked& asked, const PlannedPa
   if (!planned.map_moved_on && flies_detour_on()) {
     return;
   }
-  failures_ += planned.map_moved_on ? 0 : 1;
+  if (!planned.map_moved_on) {
+    failures_.search_failed();
+  }
   if (planned.failure == "start blocked" && at_rest_since_) {
     leave_blocked_place();
   } else if (at_rest_since_ && !planned.map_moved_on) {
@@ -232,7 +234,7 @@ void Navigator::plan_failed(MissionTime now, const Asked& asked, const PlannedPa
 // take no more time than another search would; in rooms, where flight is slow, they take more.
 bool Navigator::is_worth_joining(const std::vector<Vec3>& path_W) const {
   const double limit_m_s = situation().speed_limit_m_s(follower_.position_W());
-  const double search_s = std::max(lead_.lead_s(), searched_s_);
+  const double search_s = std::max(lead_.lead_s(), lead_.last_s());
   return path_W.size() >= 2 && detour_m(path_W) <= search_s * limit_m_s;
 }
 
@@ -241,8 +243,11 @@ bool Navigator::is_worth_joining(const std::vector<Vec3>& path_W) const {
 // place is a point ahead again, since that takes no search.
 void Navigator::plan_refused(MissionTime now, const Asked& asked, const PlannedPath& planned) {
   const bool is_late = follower_.s_m() > asked.splice_m;
-  refusals_ += is_late && !asked.joins && refusals_ == 0 ? 0 : 1;
-  if (refusals_ < most_refusals && is_worth_joining(planned.path.waypoints_W)) {
+  const bool is_first_late = is_late && !asked.joins && failures_.refusals() == 0;
+  if (!is_first_late) {
+    failures_.path_refused();
+  }
+  if (failures_.refusals() < most_refusals && is_worth_joining(planned.path.waypoints_W)) {
     known_ = planned.path;
   }
   want_plan(now, is_late ? "too late for the plan" : "too fast for the plan");
@@ -254,8 +259,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
   }
   const Asked asked = *std::exchange(asked_, std::nullopt);
   if (!asked.joins) {
-    searched_s_ = to_seconds(now - asked.at);
-    lead_.took(searched_s_, planned.iterations);
+    lead_.took(to_seconds(now - asked.at), planned.iterations);
   }
   if (!planned.failure.empty()) {
     plan_failed(now, asked, planned);
@@ -265,14 +269,14 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     wait_for_finer_map(now, planned);
     return;
   }
-  failures_ = stalls_;
+  failures_.path_found();
   detours_.drop();
   const Path path{planned.trajectory};
   if (!follower_.adopt(path, asked.splice_m)) {
     plan_refused(now, asked, planned);
     return;
   }
-  refusals_ = 0;
+  failures_.path_joined();
   stops_for_plan_ = false;
   blocked_at_m_.reset();
   ++path_number_;

@@ -25,7 +25,7 @@ void Navigator::trust_own_place() {
 
 double Navigator::blind_ahead_m() const {
   const Intrinsics camera = brief_->settings.camera.intrinsics();
-  return blind_m(newest_.map->resolution_m(), brief_->narrow_body(),
+  return blind_m(newest_.map().resolution_m(), brief_->narrow_body(),
                  0.5 * camera.height_px / camera.focal_px);
 }
 
@@ -33,7 +33,7 @@ double Navigator::blind_ahead_m() const {
 // would not show it.
 bool Navigator::sees_no_more() const {
   const auto faces_path_since = follower_.faces_path_since();
-  return faces_path_since && newest_.captured >= *faces_path_since + some_maps &&
+  return faces_path_since && newest_.captured() >= *faces_path_since + some_maps &&
          follower_.known_free_m() < blind_ahead_m();
 }
 
@@ -49,7 +49,7 @@ void Navigator::note_stall(MissionTime now) {
     return;
   }
   trust_own_place();
-  failures_ = ++stalls_;
+  failures_.stalled();
   if (!leaves) {
     want_plan(now, "stalled before unknown space");
   }
@@ -101,7 +101,8 @@ bool Navigator::leaves_blind_zone() {
 // sooner.
 void Navigator::look_from_elsewhere() {
   const Vec3 here_W = follower_.position_W();
-  if (failures_ < tries || is_one_of_many_ || !steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
+  if (failures_.count() < tries || is_one_of_many_ ||
+      !steps_back(elsewhere_m, yaw_of(*goal_W_ - here_W))) {
     return;
   }
   news_.events.push_back("goes back to look for a path from there");
@@ -114,7 +115,7 @@ void Navigator::go_back(MissionTime now, Duration dt, double error_m) {
   const StepBack::Hover next =
       back_.tick(now, dt, {follower_.position_W(), follower_.yaw_rad()}, error_m);
   follower_.hover_at(next.p_W, next.yaw_rad);
-  if (back_.has_looked(newest_.captured)) {
+  if (back_.has_looked(newest_.captured())) {
     want_plan(now, "has looked from farther back");
   }
 }

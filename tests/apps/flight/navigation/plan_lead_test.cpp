@@ -9,10 +9,12 @@ namespace {
 TEST(PlanLead, is_short_until_a_plan_has_taken_long) {
   PlanLead lead;
   EXPECT_EQ(lead.lead_s(), least_plan_lead_s);
+  EXPECT_EQ(lead.last_s(), 0.0);
   lead.took(0.4, 1.0);
   EXPECT_NEAR(lead.lead_s(), 0.6, 1e-12);
   lead.took(100.0, 1.0);
   EXPECT_EQ(lead.lead_s(), 3.0);
+  EXPECT_EQ(lead.last_s(), 100.0);
 }
 
 TEST(PlanLead, forgets_all_but_five) {

@@ -9,9 +9,10 @@
 #include "flyball/flight/navigation/flown_way.h"
 #include "flyball/flight/navigation/goal_patience.h"
 #include "flyball/flight/navigation/guidance.h"
-#include "flyball/flight/navigation/map_latency.h"
+#include "flyball/flight/navigation/newest_map.h"
 #include "flyball/flight/navigation/path_clearance.h"
 #include "flyball/flight/navigation/path_follower.h"
+#include "flyball/flight/navigation/plan_failures.h"
 #include "flyball/flight/navigation/plan_lead.h"
 #include "flyball/flight/navigation/plan_service.h"
 #include "flyball/flight/navigation/situation.h"
@@ -43,7 +44,9 @@ class Navigator {
   /// The knobs in force from now on; to be called before anything else.
   void set_knobs(MissionTime now, std::shared_ptr<const KnobsInForce> knobs);
   /// Where nothing maps obstacles: the space that is declared free.
-  void set_declared_map(std::shared_ptr<const OccupancyView> map) { newest_.map = std::move(map); }
+  void set_declared_map(std::shared_ptr<const OccupancyView> map) {
+    newest_.declare(std::move(map));
+  }
   void obey(MissionTime now, const GuidanceCommand& command);
   /// A map has been published, and the path was held against it.
   void path_checked(MissionTime now, const PathClearance& clearance);
@@ -85,8 +88,7 @@ class Navigator {
   [[nodiscard]] bool flies_detour_on();
   [[nodiscard]] std::optional<Vec3> way_to_look_for() const;
   void note_rest(MissionTime now, double speed_m_s);
-  void tell_map_use(MissionTime now);
-  [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, *newest_.map}; }
+  [[nodiscard]] Situation situation() const { return {*brief_, *knobs_, newest_.map()}; }
   [[nodiscard]] bool is_leg_ending() const;
   [[nodiscard]] Setpoint searched(MissionTime now, const Setpoint& search);
   void resume_after_search(MissionTime now, const PoseEstimate& where);
@@ -128,10 +130,8 @@ class Navigator {
   std::uint64_t next_id_{1};
   std::optional<Asked> asked_{};
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
-  int refusals_{};  ///< Plans in a row that came too late or bent too sharply to be joined.
-  std::optional<KnownPath> known_{};  ///< The path of the last of these, or one held back before.
-  int stalls_{};    ///< Plans in a row that led nowhere: they count as failed ones.
-  int failures_{};  ///< See NavigatorState::planner_failures.
+  std::optional<KnownPath> known_{};      ///< A path that was refused, or one held back before.
+  PlanFailures failures_{};
   int replans_{};
   StepBack back_{};
   FlownWay flown_{};
@@ -139,18 +139,14 @@ class Navigator {
   DetourWatch detours_{};
   bool stops_for_plan_{};  ///< The next path begins where the vehicle comes to rest.
   PlanLead lead_{};
-  double searched_s_{};  ///< How long the last search for a path took.
   bool wants_plan_{};
-  bool is_searching_{};  ///< The localizer is lost, and the vehicle looks for a known place.
-  Setpoint search_{};    ///< Its last set-point while it searched.
-  bool is_blind_{};      ///< No pose has come for too long.
+  std::optional<Setpoint> search_{};  ///< While the localizer is lost: the last set-point of the
+                                      ///< search for a known place.
+  bool is_blind_{};                   ///< No pose has come for too long.
   MissionTime not_before_{};
   std::uint64_t path_number_{};
   std::optional<MissionTime> at_rest_since_{};
-  MapLatency map_latency_;
-  MapRevision newest_{};  ///< Its number is 0 before the first map; the map may be declared.
-  Duration newest_latency_{};
-  std::optional<MissionTime> unused_capture_{};  ///< Of a revision that no command has used yet.
+  NewestMap newest_;
   TrackingError tracking_error_{};
 };
 

@@ -15,6 +15,8 @@ inline constexpr double least_plan_lead_s = 0.1;
 class PlanLead {
  public:
   void took(double plan_s, double iterations);
+  /// What the last one took; 0 before the first.
+  [[nodiscard]] double last_s() const { return taken_.empty() ? 0.0 : taken_.back().s; }
   /// Between .1 and 3 s.
   [[nodiscard]] double lead_s() const;
   /// Time of one iteration, over all searches of these plans; 0: they searched too little to tell.
