@@ -3,6 +3,13 @@
 
 namespace flyball {
 
+GuardSettings guard_settings(const FlightSettings& settings) {
+  GuardSettings guard;
+  guard.max_deceleration_m_s2 = settings.mission.max_acceleration_m_s2;
+  guard.brake_lag = settings.brake_lag;
+  return guard;
+}
+
 std::string mapper_cost(const KernelSettings& kernels) {
   const auto named = kernels.mapper_parameters.find("cost_of");
   const auto* kernel =

@@ -225,6 +225,7 @@ FlightSettings flight_settings(const Scenario& scenario) {
   settings.name = scenario.name;
   settings.seed = scenario.seed;
   settings.mission = scenario.mission;
+  settings.brake_lag = from_seconds(scenario.vehicle.brake_lag_s);
   settings.camera = scenario.camera;
   if (scenario.kernels.localizer == "gps") {
     settings.fix_error_m = std::hypot(scenario.gps.white_noise_m, scenario.gps.wander_m);

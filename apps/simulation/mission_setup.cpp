@@ -151,7 +151,6 @@ Brief brief_of(const Scenario& scenario, const MissionSetup& setup) {
   brief.platform = setup.platform;
   brief.body = setup.equipment.body;
   brief.tube.at_rest_m = scenario.vehicle.tracking_error_m;
-  brief.brake_lag = from_seconds(scenario.vehicle.brake_lag_s);
   brief.sees_its_place = setup.equipment.kernels.localizer->inputs().images;
   return brief;
 }

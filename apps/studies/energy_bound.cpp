@@ -58,8 +58,7 @@ double fastest_m_s(const Scenario& scenario, const MissionSetup& setup) {
   Work pixels;
   const DepthCameraSpec& camera = scenario.camera;
   pixels.add("pixels", static_cast<double>(camera.count) * camera.width_px * camera.height_px);
-  GuardSettings guard;
-  guard.brake_lag = from_seconds(scenario.vehicle.brake_lag_s);
+  const GuardSettings guard = guard_settings(flight_settings(scenario));
   const Duration least =
       Guard{guard}.reaction_time() + setup.platform->job_time(scenario.kernels.point_cloud, pixels,
                                                               setup.platform->frequencies().back());

@@ -199,8 +199,7 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
   explanation.choice = decisions.recorded();
   explanation.options = (*governor)->options();
   const double deceleration_m_s2 = flight.scenario.mission.max_acceleration_m_s2;
-  GuardSettings guard;
-  guard.brake_lag = from_seconds(flight.scenario.vehicle.brake_lag_s);
+  const GuardSettings guard = guard_settings(flight_settings(flight.scenario));
   explanation.response_s = to_seconds(seen.latency_bound + Guard{guard}.reaction_time());
   const double power_w = seen.rotor_power.value() + seen.computer_power.value();
   constexpr double nearly = 0.98;

@@ -44,13 +44,6 @@ double eased(double value, double target, double dt_s) {
   return value + std::min(1.0, gain_1_s * dt_s) * (target - value);
 }
 
-GuardSettings guard_settings(const Brief& brief) {
-  GuardSettings settings;
-  settings.max_deceleration_m_s2 = brief.settings.mission.max_acceleration_m_s2;
-  settings.brake_lag = brief.brake_lag;
-  return settings;
-}
-
 }  // namespace
 
 TierDistances tier_speeds_m_s(const KnobsInForce& knobs) {
@@ -77,7 +70,7 @@ TierDistances known_free_until_m(const OccupancyView& map,
 }
 
 PathFollower::PathFollower(std::shared_ptr<const Brief> brief)
-    : brief_{std::move(brief)}, guard_{guard_settings(*brief_)} {}
+    : brief_{std::move(brief)}, guard_{guard_settings(brief_->settings)} {}
 
 void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   path_ = std::make_shared<const Path>();

@@ -22,5 +22,15 @@ TEST(FlightSettings, price_a_detection_as_its_detector_unless_another_kernel_is_
   EXPECT_EQ(detector_cost(settings), "hog");
 }
 
+TEST(FlightSettings, have_the_guard_of_their_deceleration_and_brake_lag) {
+  FlightSettings settings;
+  settings.mission.max_acceleration_m_s2 = 3.5;
+  settings.brake_lag = std::chrono::milliseconds{300};
+  const GuardSettings guard = guard_settings(settings);
+  EXPECT_EQ(guard.max_deceleration_m_s2, 3.5);
+  EXPECT_EQ(guard.brake_lag, settings.brake_lag);
+  EXPECT_EQ(guard_settings(FlightSettings{}).brake_lag, GuardSettings{}.brake_lag);
+}
+
 }  // namespace
 }  // namespace flyball

@@ -214,6 +214,15 @@ TEST(Scenario, each_setting_has_one_place_and_its_default_is_legal) {
   EXPECT_TRUE(errors_of(to_toml(scenario)).empty()) << joined(errors_of(to_toml(scenario)));
 }
 
+TEST(Scenario, its_acceleration_and_brake_lag_are_those_of_the_guard) {
+  Scenario scenario;
+  scenario.mission.max_acceleration_m_s2 = 3.5;
+  scenario.vehicle.brake_lag_s = 0.3;
+  const GuardSettings guard = guard_settings(flight_settings(scenario));
+  EXPECT_EQ(guard.max_deceleration_m_s2, 3.5);
+  EXPECT_EQ(guard.brake_lag, from_seconds(0.3));
+}
+
 TEST(Scenario, every_shipped_one_loads) {
   const std::vector<std::string> names = shipped("scenarios");
   EXPECT_GE(names.size(), 3U);

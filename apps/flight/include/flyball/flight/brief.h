@@ -48,8 +48,6 @@ struct Brief {
   std::shared_ptr<const Platform> platform{};
   Cylinder body{};      ///< Of the airframe.
   TrackingTube tube{};  ///< How far the vehicle may be from its reference.
-  /// How much later than its reference the vehicle brakes.
-  Duration brake_lag{GuardSettings{}.brake_lag};
   /// False when the graph has no map. Then space is free where the site is declared clear and
   /// nowhere else, at any distance.
   bool maps_obstacles{true};

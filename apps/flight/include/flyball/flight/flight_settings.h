@@ -8,6 +8,7 @@
 #include "flyball/kernels/explorer.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/camera_spec.h"
+#include "flyball/runtime/guard.h"
 #include "flyball/runtime/parameters.h"
 
 #include <cstdint>
@@ -144,6 +145,8 @@ struct FlightSettings {
   std::string name{"unnamed"};  ///< Of the mission, for messages.
   std::uint64_t seed{1};        ///< Of every random draw on board.
   MissionSettings mission{};
+  /// How much later than its reference the vehicle brakes.
+  Duration brake_lag{GuardSettings{}.brake_lag};
   DepthCameraSpec camera{};
   /// Standard deviation of a GPS fix, level [m]; 0 where another localizer is flown with.
   double fix_error_m{};
@@ -161,6 +164,8 @@ struct FlightSettings {
   GovernorSettings governor{};
 };
 
+/// The guard that watches over this flight.
+[[nodiscard]] GuardSettings guard_settings(const FlightSettings& settings);
 /// Whose price the map's work has on the platform: the mapper's own, or that of the kernel that its
 /// parameter `cost_of` names.
 [[nodiscard]] std::string mapper_cost(const KernelSettings& kernels);
