@@ -59,7 +59,9 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
     range_m_ = knobs.value("map.range_m");
     const auto levels = flyball::levels_between(cells_m, given.number("fine_latency_s"),
                                                 given.number("coarse_latency_s"));
-    auto search = flyball::EnergySearch::make({}, levels, {range_m_}, knobs, *power);
+    flyball::EnergySearchSettings settings;
+    settings.reaction_s = flyball::to_seconds(board.vehicle.reaction_time);
+    auto search = flyball::EnergySearch::make(settings, levels, {range_m_}, knobs, *power);
     if (!search) {
       return flyball::Error{search.error().code,
                             "policy \"energy_clock\": " + search.error().message};

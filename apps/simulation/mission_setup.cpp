@@ -124,6 +124,7 @@ BoardModel known_on_board(const Scenario& scenario, const MissionSetup& setup) {
   board.vehicle.narrow_width_m = 2.0 * body.radius_m;
   board.vehicle.ground_clearance_m = brief.site.cruise_height_m - body.half_height_m;
   board.vehicle.depth_camera = scenario.camera;
+  board.vehicle.reaction_time = guard_settings(brief.settings).reaction_time();
   return board;
 }
 

@@ -38,6 +38,7 @@ Result<LimitedSearch> LimitedSearch::make(const std::string& owner,
   if (!settings) {
     return settings.error();
   }
+  settings->reaction_s = to_seconds(board.vehicle.reaction_time);
   settings->spacing_m = std::max(settings->spacing_m, between_obstacles_m);
   const auto levels =
       limits->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));

@@ -23,7 +23,8 @@ struct LimitedSearch {
   /// @param owner     For messages: `policy "mission_energy"`.
   /// @param given     Those of `MissionLimits::parameters`, `fine_latency_s` and
   ///                  `coarse_latency_s`.
-  /// @param settings  Their spacing is that of a forest at least. If the policy refuses its own
+  /// @param settings  Their reaction time becomes the vehicle's, and their spacing that of a forest
+  ///                  at least. If the policy refuses its own
   ///                  parameters, that is told after what is missing.
   /// @error `invalid_input`: a knob or the board's power is missing, or parameters contradict each
   ///        other or the knobs.

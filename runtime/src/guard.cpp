@@ -43,10 +43,6 @@ double known_free_distance(const OccupancyView& map,
   }
 }
 
-Duration Guard::reaction_time() const {
-  return settings_.tick + settings_.command_age + settings_.brake_lag;
-}
-
 double Guard::cruise_speed(Duration latency_bound, double distance_m) const {
   if (latency_bound <= Duration::zero() || latency_bound >= longest_duration) {
     return 0.0;

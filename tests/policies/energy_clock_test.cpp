@@ -9,8 +9,10 @@ namespace {
 constexpr double lowest_hz = 806.4e6;  // Of `conformance_knobs`.
 constexpr double top_hz = 2035.2e6;
 
-std::unique_ptr<Policy> energy_clock() {
-  StartedPolicy started = start_policy("energy_clock", {});
+std::unique_ptr<Policy> energy_clock(Duration reaction = GuardSettings{}.reaction_time()) {
+  BoardModel board = conformance_board();
+  board.vehicle.reaction_time = reaction;
+  StartedPolicy started = start_policy("energy_clock", {}, conformance_knobs(), board);
   EXPECT_TRUE(started.status);
   return std::move(started.policy);
 }
@@ -52,6 +54,13 @@ TEST(EnergyClock, not_where_the_next_path_is_so_short_that_latency_limits_the_sp
   EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
   seen.known_free_m = 1.0;  // A view in the next room, or a wall.
   EXPECT_EQ(clock_hz(energy_clock()->decide(seen)), top_hz);
+}
+
+TEST(EnergyClock, nor_where_the_vehicle_brakes_so_late_that_latency_limits_the_speed) {
+  Observation seen = cruising(1.0, 0.15, 300.0);
+  seen.speed_limit_m_s = seen.speed_m_s = 2.0;
+  EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
+  EXPECT_EQ(clock_hz(energy_clock(std::chrono::seconds{2})->decide(seen)), top_hz);
 }
 
 TEST(EnergyClock, nor_where_the_mission_mostly_waits_for_the_computer) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the rule does on a mapper with a lattice of cells; the instruments have tests of their own.
+#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/search_space.h"
 
 #include "cruising.h"
 #include "started_policy.h"
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +77,45 @@ TEST(MissionEnergy, keeps_the_top_clock_while_a_gap_ahead_holds_it_up) {
   EXPECT_EQ(clock_hz(2.0, gap_m), top_hz);
   EXPECT_LT(clock_hz(3.0, gap_m), top_hz);
   EXPECT_LT(clock_hz(2.0, flyball::open_path_m), top_hz);
+}
+
+flyball::BoardModel board_of_a_vehicle_that_brakes_after(flyball::Duration reaction) {
+  flyball::BoardModel board = flyball::conformance_board();
+  board.vehicle.reaction_time = reaction;
+  return board;
+}
+
+/// What the rule expects of each setting in the open, where the mission would let it fly at 9 m/s.
+std::map<std::string, flyball::PolicyOption> expected(const char* rule,
+                                                      flyball::Duration reaction) {
+  const flyball::StartedPolicy started = flyball::start_policy(
+      rule, {}, flyball::conformance_knobs(), board_of_a_vehicle_that_brakes_after(reaction));
+  flyball::Observation seen = cruising();
+  seen.speed_limit_m_s = 9.0;
+  (void)started.policy->decide(seen);
+  std::map<std::string, flyball::PolicyOption> all;
+  for (const flyball::PolicyOption& option :
+       dynamic_cast<const flyball::ComparesOptions&>(*started.policy).options()) {
+    std::string name;
+    for (const auto& [knob, value] : option.setting) {
+      name += std::string{knob} + "=" + std::to_string(value) + " ";
+    }
+    all[name] = option;
+  }
+  return all;
+}
+
+TEST(MissionEnergy, expects_less_speed_of_each_setting_where_the_vehicle_brakes_late) {
+  for (const char* rule : {"mission_energy", "reference"}) {
+    const auto usual = expected(rule, 140ms);
+    const auto late = expected(rule, 640ms);
+    ASSERT_EQ(usual.size(), late.size());
+    ASSERT_GT(usual.size(), 20U);
+    for (const auto& [setting, option] : usual) {
+      EXPECT_NEAR(late.at(setting).response_s, option.response_s + 0.5, 1e-9) << setting;
+      EXPECT_LT(late.at(setting).speed_m_s, option.speed_m_s) << setting;
+    }
+  }
 }
 
 bool has_wish(const flyball::Decision& decision, const std::string& knob) {

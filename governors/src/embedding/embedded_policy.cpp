@@ -130,7 +130,8 @@ Error on_one_line(Error error) {
 }  // namespace
 
 Result<std::unique_ptr<Policy>> start_embedded_policy(const FlyballGovernorSettings& settings,
-                                                      const KnobSettings& knobs) {
+                                                      const KnobSettings& knobs,
+                                                      Duration reaction_time) {
   Registry known;
   register_known_policies(known);
   auto choice = choice_of(settings, known);
@@ -140,10 +141,11 @@ Result<std::unique_ptr<Policy>> start_embedded_policy(const FlyballGovernorSetti
   if (const Status added = add_parameters(settings.parameters, *choice); !added) {
     return on_one_line(added.error());
   }
-  const auto board = board_of(settings.board);
+  auto board = board_of(settings.board);
   if (!board) {
     return board.error();
   }
+  board->vehicle.reaction_time = reaction_time;
   auto policy = choice->started(knobs, *board);
   if (!policy) {
     return on_one_line(policy.error());

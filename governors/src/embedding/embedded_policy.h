@@ -6,14 +6,16 @@
 
 #include "flyball/governors/governor.h"
 #include "flyball/governors/policy.h"
+#include "flyball/runtime/time.h"
 
 #include <memory>
 
 namespace flyball {
 
-/// @param knobs  What the caller added.
+/// @param knobs          What the caller added.
+/// @param reaction_time  The guard's, for policies that reckon with a safe speed.
 /// @error What is wrong, without line breaks.
 [[nodiscard]] Result<std::unique_ptr<Policy>> start_embedded_policy(
-    const FlyballGovernorSettings& settings, const KnobSettings& knobs);
+    const FlyballGovernorSettings& settings, const KnobSettings& knobs, Duration reaction_time);
 
 }  // namespace flyball

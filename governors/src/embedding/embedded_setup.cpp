@@ -54,6 +54,16 @@ flyball::PolicyGovernorSettings governor_settings(double min_dwell_s, KnobMode m
   return settings;
 }
 
+/// The caller's own reaction time stands for all of the guard's parts.
+flyball::GuardSettings guard_settings(double reaction_s) {
+  flyball::GuardSettings guard;
+  if (reaction_s > 0.0) {
+    guard.tick = guard.command_age = {};
+    guard.brake_lag = flyball::from_seconds(reaction_s);
+  }
+  return guard;
+}
+
 bool is_time(double s) {
   return std::isfinite(s) && s >= 0.0;
 }
@@ -147,7 +157,8 @@ std::int32_t FlyballGovernor::open(const FlyballGovernorSettings& settings) {
         "min_dwell_s, first_latency_s and reaction_s must be finite and not negative");
   }
   const flyball::KnobSettings knobs = knobs_.settings();
-  auto policy = flyball::start_embedded_policy(settings, knobs);
+  guard_ = guard_settings(settings.reaction_s);
+  auto policy = flyball::start_embedded_policy(settings, knobs, guard_.reaction_time());
   if (!policy) {
     return refuse(policy.error());
   }
@@ -158,9 +169,5 @@ std::int32_t FlyballGovernor::open(const FlyballGovernorSettings& settings) {
                     flyball::PolicyGovernor::HostClock{});
   settings_ = settings;
   latencies_ = flyball::LatencyWindow{flyball::from_seconds(settings.first_latency_s)};
-  if (settings.reaction_s > 0.0) {
-    guard_.tick = guard_.command_age = {};
-    guard_.brake_lag = flyball::from_seconds(settings.reaction_s);
-  }
   return flyball_governor_ok;
 }

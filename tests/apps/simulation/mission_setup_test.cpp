@@ -3,8 +3,10 @@
 
 #include "flyball/scenario/files.h"
 
+#include "cruising.h"
 #include "scratch_folder.h"
 #include "short_delivery.h"
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -107,6 +109,25 @@ std::string older_platform() {
   return shipped_platform_with(
       {{"[kernels.flyball]", "[kernels.another]"},
        {"[kernels.flyball.seconds_per]", "[kernels.another.seconds_per]"}});
+}
+
+/// The longest response among the settings that `mission_energy` compares.
+double longest_response_s(double brake_lag_s) {
+  Scenario scenario;
+  scenario.governor.policy = "mission_energy";
+  scenario.vehicle.brake_lag_s = brake_lag_s;
+  const auto setup = set_up(scenario);
+  EXPECT_TRUE(setup.ok()) << setup.error().message;
+  static_cast<void>(setup->governor->decide(kit::cruising()));
+  double longest_s = 0.0;
+  for (const PolicyOption& option : setup->governor->options()) {
+    longest_s = std::max(longest_s, option.response_s);
+  }
+  return longest_s;
+}
+
+TEST(MissionSetup, tells_the_policy_how_late_the_vehicle_brakes) {
+  EXPECT_NEAR(longest_response_s(0.7), longest_response_s(0.1) + 0.6, 1e-9);
 }
 
 TEST(MissionSetup, refuses_a_mapper_whose_time_the_platform_cannot_tell) {

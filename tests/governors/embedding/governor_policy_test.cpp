@@ -109,40 +109,51 @@ TEST(EmbeddedPolicy, that_is_no_file_is_named) {
   EXPECT_NE(std::string::npos, refusal("/nowhere/libmine.so").find("/nowhere/libmine.so"));
 }
 
+/// With knobs that mission_energy has, and some power for it to reckon with.
+struct EnergyLoop : GovernedLoop {
+  EnergyLoop() {
+    add(cell_knob());
+    FlyballGovernorKnob range = cell_knob();
+    range.name = "map.range_m";
+    range.legal_count = 0;
+    range.min = 5.0;
+    range.max = 25.0;
+    range.start = 12.0;
+    add(range);
+    FlyballGovernorKnob budget = range;
+    budget.name = "planner.budget";
+    budget.unit = "1";
+    budget.max = 5000.0;
+    budget.start = 1000.0;
+    add(budget);
+    add(clock_knob());
+    board.struct_size = sizeof board;
+    board.max_cores = 4;
+    board.clocks_hz = clocks_hz;
+    board.clock_count = 3;
+    board.converter = 1.1;
+    board.soc_w = 1.0;
+    board.core_cubic_w = 0.3;
+  }
+  /// Opened, in flight.
+  void fly(const char* policy, double speed_m_s, double reaction_s) {
+    FlyballGovernorSettings given = settings(policy);
+    given.board = &board;
+    given.reaction_s = reaction_s;
+    ASSERT_EQ(flyball_governor_ok, open(given)) << error();
+    observe("phase", flyball_governor_cruise);
+    observe("speed_m_s", speed_m_s);
+    observe("known_free_m", 10.0);
+    observe("max_deceleration_m_s2", 5.0);
+  }
+  FlyballGovernorBoard board{};
+};
+
 TEST(EmbeddedPolicy, can_reckon_with_the_power_of_the_board) {
-  GovernedLoop loop;
-  loop.add(loop.cell_knob());
-  FlyballGovernorKnob range = loop.cell_knob();
-  range.name = "map.range_m";
-  range.legal_count = 0;
-  range.min = 5.0;
-  range.max = 25.0;
-  range.start = 12.0;
-  loop.add(range);
-  FlyballGovernorKnob budget = range;
-  budget.name = "planner.budget";
-  budget.unit = "1";
-  budget.max = 5000.0;
-  budget.start = 1000.0;
-  loop.add(budget);
-  loop.add(loop.clock_knob());
+  EnergyLoop loop;
   ASSERT_EQ(flyball_governor_invalid_input, loop.open(loop.settings("mission_energy")));
   EXPECT_NE(std::string::npos, loop.error().find("power")) << loop.error();
-  FlyballGovernorBoard board{};
-  board.struct_size = sizeof board;
-  board.max_cores = 4;
-  board.clocks_hz = clocks_hz;
-  board.clock_count = 3;
-  board.converter = 1.1;
-  board.soc_w = 1.0;
-  board.core_cubic_w = 0.3;
-  FlyballGovernorSettings settings = loop.settings("mission_energy");
-  settings.board = &board;
-  ASSERT_EQ(flyball_governor_ok, loop.open(settings)) << loop.error();
-  loop.observe("phase", flyball_governor_cruise);
-  loop.observe("speed_m_s", 3.0);
-  loop.observe("known_free_m", 10.0);
-  loop.observe("max_deceleration_m_s2", 5.0);
+  loop.fly("mission_energy", 3.0, 0.0);
   loop.observe("speed_limit_m_s", 8.0);
   for (int i = 0; i < 100; ++i) {
     loop.observe("latency_s", 0.1);
@@ -150,6 +161,22 @@ TEST(EmbeddedPolicy, can_reckon_with_the_power_of_the_board) {
     ASSERT_STREQ("none", decision.fallback) << decision.why;
     EXPECT_STREQ("energy", decision.reason);
   }
+}
+
+/// At the mission's own limit of speed, after a frame.
+double clock_hz_of_one_that_brakes_after(double reaction_s) {
+  constexpr double limit_m_s = 1.0;
+  constexpr int clock = 3;  // The last knob.
+  EnergyLoop loop;
+  loop.fly("energy_clock", limit_m_s, reaction_s);
+  loop.observe("speed_limit_m_s", limit_m_s);
+  loop.observe("latency_s", 1.0);
+  return loop.decide(1.0).decided[clock];
+}
+
+TEST(EmbeddedPolicy, can_reckon_with_the_callers_own_reaction_time) {
+  EXPECT_LT(clock_hz_of_one_that_brakes_after(0.0), 2.0e9);
+  EXPECT_EQ(clock_hz_of_one_that_brakes_after(9.0), 2.0e9) << "latency limits it below 1 m/s";
 }
 
 TEST(EmbeddedPolicy, refuses_a_board_that_cannot_be) {

@@ -13,6 +13,7 @@
 #include "flyball/governors/speed_limit.h"
 #include "flyball/governors/thermal_limit.h"
 #include "flyball/governors/waiting_share.h"
+#include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation.h"
 
 #include <vector>
@@ -21,9 +22,10 @@ namespace flyball {
 
 struct EnergySearchSettings {
   double deceleration_m_s2{6.0};
-  double reaction_s{0.14};  ///< t_b: the guard's tick, a command's age and the brake's lag.
-  double margin_m{0.5};     ///< Body and tracking tube, subtracted from the distance. Chosen.
-  double frame_s{0.05};     ///< Between two frames of the camera.
+  /// t_b: `VehicleModel::reaction_time` of the vehicle that is flown.
+  double reaction_s{to_seconds(GuardSettings{}.reaction_time())};
+  double margin_m{0.5};  ///< Body and tracking tube, subtracted from the distance. Chosen.
+  double frame_s{0.05};  ///< Between two frames of the camera.
   /// Mean length of path from obstacle to obstacle; 0: there are none.
   double spacing_m{};
   double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of

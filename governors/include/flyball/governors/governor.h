@@ -156,7 +156,9 @@ typedef struct FlyballGovernorSettings {
   uint64_t seed;          /* Of the random numbers that a policy may draw. */
   double min_dwell_s;     /* Of knobs that do not say it themselves; 0: half a second. */
   double first_latency_s; /* Upper bound on latency until a frame has passed; 0: there is none. */
-  double reaction_s; /* From command to braking, for `safe_speed_m_s`; 0: as the guard's .14 s. */
+  /** From command to braking, for `safe_speed_m_s` and for policies that reckon with such a speed;
+   * 0: as the guard's .14 s. */
+  double reaction_s;
   const FlyballGovernorBoard* board; /* NULL: nothing is known. */
 } FlyballGovernorSettings;
 

@@ -6,6 +6,7 @@
 /// meters say, and the operating point that is asked of it.
 
 #include "flyball/runtime/camera_spec.h"
+#include "flyball/runtime/guard.h"
 #include "flyball/runtime/platform.h"
 #include "flyball/runtime/time.h"
 #include "flyball/runtime/units.h"
@@ -25,7 +26,8 @@ struct VehicleModel {
   /// From the ground up to the lowest point of the body with its tube, where it cruises; empty: not
   /// known.
   std::optional<double> ground_clearance_m{};
-  std::optional<DepthCameraSpec> depth_camera{};  ///< Empty: its noise is not known.
+  std::optional<DepthCameraSpec> depth_camera{};            ///< Empty: its noise is not known.
+  Duration reaction_time{GuardSettings{}.reaction_time()};  ///< t_b, as its guard counts it.
 };
 
 /// Operating points, power and heat of one computer, as its platform file or its maker's data sheet

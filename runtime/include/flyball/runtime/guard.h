@@ -45,14 +45,16 @@ struct GuardSettings {
   /// Measured: .069 s at most in stops from 1, 3, 6, 9 m/s (tests/sim/flight_controller_test.cpp).
   Duration brake_lag{std::chrono::milliseconds{100}};
   Duration command_age{std::chrono::milliseconds{20}};
+
+  /// t_b = tick + age of the command + brake lag.
+  [[nodiscard]] Duration reaction_time() const { return tick + command_age + brake_lag; }
 };
 
 class Guard {
  public:
   explicit Guard(GuardSettings settings) : settings_{settings} {}
 
-  /// t_b = tick + age of the command + brake lag.
-  [[nodiscard]] Duration reaction_time() const;
+  [[nodiscard]] Duration reaction_time() const { return settings_.reaction_time(); }
   /// Speed from which the vehicle stops within `distance_m` if the next map comes within
   /// `latency_bound`. Zero for a bound that is zero, negative or saturated (see `from_seconds`):
   /// such a bound says nothing about the next map.
