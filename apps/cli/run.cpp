@@ -319,7 +319,7 @@ int run(const RunOptions& options) {
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     return refuse(*errors);
   }
-  const Scenario& scenario = std::get<LoadedScenario>(loaded).scenario;
+  const auto& scenario = std::get<Scenario>(loaded);
   const std::string folder = options.flight.out.empty()
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)

@@ -3,6 +3,8 @@
 
 #include "flyball/records/text_table.h"
 
+#include <algorithm>
+
 namespace flyball {
 
 std::vector<std::string> tracking_remarks(const Summary& summary, const Scenario& scenario) {
@@ -32,24 +34,29 @@ std::vector<std::string> tracking_remarks(const Summary& summary, const Scenario
   return remarks;
 }
 
-std::vector<std::string> careful_settings(const Scenario& scenario) {
+std::vector<std::string> make_careful(Scenario& scenario, const std::vector<std::string>& kept) {
   constexpr double most_m_s = 5.0;
   constexpr double most_m_s2 = 3.0;
   constexpr double least_error_m = 0.2;
   constexpr double least_lag_s = 0.3;
-  std::vector<std::string> settings;
-  const auto set = [&settings](bool is_looser, const char* key, double value) {
-    if (is_looser) {
-      settings.push_back(std::string{key} + "=" + rounded(value, 1));
+  std::vector<std::string> changed;
+  const auto set = [&](const char* key, double& setting, double careful, bool is_looser) {
+    if (is_looser && std::find(kept.begin(), kept.end(), key) == kept.end()) {
+      setting = careful;
+      changed.push_back(std::string{key} + "=" + rounded(careful, 1));
     }
   };
-  const MissionSettings& mission = scenario.mission;
-  const VehicleSettings& vehicle = scenario.vehicle;
-  set(mission.max_speed_m_s > most_m_s, "mission.max_speed_m_s", most_m_s);
-  set(mission.max_acceleration_m_s2 > most_m_s2, "mission.max_acceleration_m_s2", most_m_s2);
-  set(vehicle.tracking_error_m < least_error_m, "vehicle.tracking_error_m", least_error_m);
-  set(vehicle.brake_lag_s < least_lag_s, "vehicle.brake_lag_s", least_lag_s);
-  return settings;
+  const auto at_most = [&set](const char* key, double& setting, double most) {
+    set(key, setting, most, setting > most);
+  };
+  const auto at_least = [&set](const char* key, double& setting, double least) {
+    set(key, setting, least, setting < least);
+  };
+  at_most("mission.max_speed_m_s", scenario.mission.max_speed_m_s, most_m_s);
+  at_most("mission.max_acceleration_m_s2", scenario.mission.max_acceleration_m_s2, most_m_s2);
+  at_least("vehicle.tracking_error_m", scenario.vehicle.tracking_error_m, least_error_m);
+  at_least("vehicle.brake_lag_s", scenario.vehicle.brake_lag_s, least_lag_s);
+  return changed;
 }
 
 }  // namespace flyball

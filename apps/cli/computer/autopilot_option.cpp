@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/computer/autopilot_option.h"
 
+#include "flyball/runtime/text/listed.h"
 #include "flyball/simulation/tracking_remarks.h"
 
 #include "cli/computer/host_clock.h"
 #include "cli/console.h"
 #include "cli/flight_options.h"
-#include <algorithm>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -23,33 +23,28 @@ void add_autopilot(CLI::App& command, AutopilotOption& option) {
            ->type_name("ADDRESS"));
 }
 
-std::variant<LoadedScenario, std::vector<Error>> load_to_fly(const std::string& name_or_path,
-                                                             const std::vector<Override>& overrides,
-                                                             const Plugins& plugins,
-                                                             const AutopilotOption& option,
-                                                             std::string& told) {
+std::variant<Scenario, std::vector<Error>> load_to_fly(const std::string& name_or_path,
+                                                       const std::vector<Override>& overrides,
+                                                       const Plugins& plugins,
+                                                       const AutopilotOption& option,
+                                                       std::string& told) {
   auto loaded = load_overridden_scenario(name_or_path, overrides, plugins);
-  const auto* flown = std::get_if<LoadedScenario>(&loaded);
-  if (flown == nullptr || option.address.empty()) {
-    return loaded;
+  if (auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
+    return std::move(*errors);
   }
-  std::vector<Override> all;
-  std::string changed;
-  for (const std::string& setting : careful_settings(flown->scenario)) {
-    const bool is_given =
-        std::any_of(overrides.begin(), overrides.end(), [&setting](const Override& given) {
-          return key_of(given.key_and_value) == key_of(setting);
-        });
-    if (!is_given) {
-      all.push_back({setting, "--autopilot"});
-      changed += (changed.empty() ? "" : ", ") + setting;
-    }
+  Scenario scenario = std::move(std::get<LoadedScenario>(loaded).scenario);
+  if (option.address.empty()) {
+    return scenario;
   }
+  std::vector<std::string> given;
+  for (const Override& one : overrides) {
+    given.push_back(key_of(one.key_and_value));
+  }
+  const std::string changed = listed(make_careful(scenario, given));
   if (!changed.empty()) {
     told = "an autopilot is flown with " + changed + "; --set says otherwise";
   }
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  return load_overridden_scenario(name_or_path, all, plugins);
+  return scenario;
 }
 
 Result<std::unique_ptr<AutopilotLink>> open_autopilot(const AutopilotOption& option,

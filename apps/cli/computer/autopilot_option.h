@@ -23,10 +23,10 @@ struct AutopilotOption {
 /// Adds `--autopilot`.
 void add_autopilot(CLI::App& command, AutopilotOption& option);
 
-/// As `load_overridden_scenario`. With an autopilot what is not overridden is as careful as
-/// `careful_settings`.
+/// The scenario of `load_overridden_scenario`. With an autopilot what is not overridden is made
+/// careful (`make_careful`).
 /// @param told  Out: the sentence that says so; empty where nothing was changed.
-[[nodiscard]] std::variant<LoadedScenario, std::vector<Error>> load_to_fly(
+[[nodiscard]] std::variant<Scenario, std::vector<Error>> load_to_fly(
     const std::string& name_or_path,
     const std::vector<Override>& overrides,
     const Plugins& plugins,

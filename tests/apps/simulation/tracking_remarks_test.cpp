@@ -36,14 +36,27 @@ TEST(TrackingRemarks, say_that_the_governor_held_the_vehicle) {
 TEST(TrackingRemarks, careful_settings_leave_what_is_more_careful) {
   Scenario scenario;
   EXPECT_EQ(
-      careful_settings(scenario),
+      make_careful(scenario, {}),
       (std::vector<std::string>{"mission.max_speed_m_s=5.0", "mission.max_acceleration_m_s2=3.0",
                                 "vehicle.tracking_error_m=0.2", "vehicle.brake_lag_s=0.3"}));
+  EXPECT_EQ(scenario.mission.max_speed_m_s, 5.0);
+  EXPECT_EQ(scenario.mission.max_acceleration_m_s2, 3.0);
+  EXPECT_EQ(scenario.vehicle.tracking_error_m, 0.2);
+  EXPECT_EQ(scenario.vehicle.brake_lag_s, 0.3);
   scenario.mission.max_speed_m_s = 2.0;
   scenario.mission.max_acceleration_m_s2 = 1.0;
   scenario.vehicle.tracking_error_m = 0.5;
-  scenario.vehicle.brake_lag_s = 0.3;
-  EXPECT_TRUE(careful_settings(scenario).empty());
+  EXPECT_TRUE(make_careful(scenario, {}).empty());
+  EXPECT_EQ(scenario.mission.max_speed_m_s, 2.0);
+}
+
+TEST(TrackingRemarks, careful_settings_leave_what_was_asked_for) {
+  Scenario scenario;
+  EXPECT_EQ(
+      make_careful(scenario, {"mission.max_speed_m_s", "vehicle.tracking_error_m"}),
+      (std::vector<std::string>{"mission.max_acceleration_m_s2=3.0", "vehicle.brake_lag_s=0.3"}));
+  EXPECT_EQ(scenario.mission.max_speed_m_s, Scenario{}.mission.max_speed_m_s);
+  EXPECT_EQ(scenario.vehicle.tracking_error_m, Scenario{}.vehicle.tracking_error_m);
 }
 
 }  // namespace
