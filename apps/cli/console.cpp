@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <string_view>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -30,6 +31,8 @@ int output_error = 0;
 // When that was, in milliseconds that begin again after 24 days.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupted_ms = 0;
+
+constexpr std::string_view program_name = "flyball: ";
 
 constexpr unsigned wrapped_ms = 0x7fffffff;
 
@@ -97,7 +100,12 @@ void note(const std::string& line) {
 }
 
 void remark(const std::string& sentence) {
-  note("flyball: " + sentence);
+  note(std::string{program_name} + sentence);
+}
+
+std::string remarked(const std::string& lines) {
+  const std::size_t begin = lines.rfind(program_name, 0) == 0 ? program_name.size() : 0;
+  return lines.substr(begin, lines.find_last_not_of('\n') + 1 - begin);
 }
 
 int refuse(const std::vector<Error>& errors) {

@@ -29,6 +29,9 @@ void note(const std::string& line);
 /// Prints one line that begins with the program's name: what whoever gave the command has to know.
 /// Lines about progress have no name before them.
 void remark(const std::string& sentence);
+/// What such lines of another process of this program say, from the first one on: without that
+/// one's name, which `remark` and `refuse` put before it again, and without the last line's end.
+[[nodiscard]] std::string remarked(const std::string& lines);
 /// Prints each error as such a line; returns `exit_bad_input`.
 [[nodiscard]] int refuse(const std::vector<Error>& errors);
 

@@ -28,11 +28,7 @@ Error failure_of(const PlannedFlight& flight, const ChildEnd& end) {
 void add_failure(const PlannedFlight& flight, const ChildEnd& end, Flown& flown) {
   Error error = failure_of(flight, end);
   if (end.exit_code == exit_bad_input) {
-    const std::string program =
-        "flyball: ";  // Each line begins with it, and `refuse` adds it again.
-    const std::size_t last = end.errors.find_last_not_of('\n');
-    error.message = end.errors.substr(std::min(program.size(), end.errors.size()),
-                                      last == std::string::npos ? 0 : last + 1 - program.size());
+    error.message = remarked(end.errors);
   }
   add_new({error}, flown.errors);
   flown.exit_code = end.exit_code == exit_bad_input

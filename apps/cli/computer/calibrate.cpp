@@ -253,7 +253,7 @@ Result<Calibration> measure(const CalibrateArguments& given, Bench& bench) {
     return heat.error();
   }
   for (const Error& not_restored : bench.board ? bench.board->close() : std::vector<Error>{}) {
-    note(not_restored.message);
+    remark(not_restored.message);
   }
   return calibration;
 }

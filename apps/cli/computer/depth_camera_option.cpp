@@ -27,7 +27,7 @@ Result<std::unique_ptr<DepthSource>> open_depth_camera(const std::string& pipe,
   DepthPipeSettings settings;
   settings.width_px = spec.width_px;
   settings.height_px = spec.height_px;
-  settings.tell = [](const std::string& sentence) { note(sentence); };
+  settings.tell = [](const std::string& sentence) { remark(sentence); };
   settings.clock = host_clock;
   return open_depth_pipe(pipe, settings);
 }

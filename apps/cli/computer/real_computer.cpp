@@ -112,10 +112,10 @@ Status RealComputer::open_board(const PlatformModel& expected) {
   board_ = std::move(*opened);
   const std::vector<Hertz> missing = clocks_missing_on(board_->model(), expected.frequencies);
   if (!missing.empty()) {
-    note("this computer lacks " + std::to_string(missing.size()) + " of the " +
-         std::to_string(expected.frequencies.size()) + " clocks of platform \"" + expected.name +
-         "\", such as " + rounded(missing.back().value() * 1e-9, 2) +
-         " GHz; try: flyball calibrate");
+    remark("this computer lacks " + std::to_string(missing.size()) + " of the " +
+           std::to_string(expected.frequencies.size()) + " clocks of platform \"" + expected.name +
+           "\", such as " + rounded(missing.back().value() * 1e-9, 2) +
+           " GHz; try: flyball calibrate");
   }
   shared_board_ = std::make_unique<RealtimeBoard>(*board_);
   return Done{};
@@ -131,7 +131,7 @@ void RealComputer::equip(MissionHooks& hooks) {
     settings.fifo_priority = options_.fifo_priority;
   }
   settings.lock_memory = true;
-  settings.tell = [](const std::string& sentence) { note(sentence); };
+  settings.tell = [](const std::string& sentence) { remark(sentence); };
   if (shared_board_) {
     settings.grant = [board = shared_board_.get()](const OperatingPoint& wanted) {
       return board->grant(wanted);
@@ -147,10 +147,10 @@ void RealComputer::close() {
     return;
   }
   for (const std::string& sentence : shared_board_->take_notes()) {
-    note(sentence);
+    remark(sentence);
   }
   for (const Error& error : board_->close()) {
-    note(error.message);
+    remark(error.message);
   }
 }
 

@@ -85,6 +85,17 @@ TEST(ManyFlights, name_every_mistake_once_before_they_fly) {
   EXPECT_TRUE(has(worlds.errors, "did you mean scanning_farm?")) << worlds.errors;
 }
 
+TEST(ManyFlights, say_once_why_all_were_refused_and_by_whom) {
+  const FlyballProgram flyball;
+  const auto refused = flyball.run(
+      "compare delivery_forest --policies fixed_fine,two_level --seeds 1,2 --set "
+      "vehicle.payload_kg=20 --out o");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors.rfind("flyball: vehicle.payload_kg = 20 is too heavy", 0), 0U)
+      << refused.errors;
+  EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 1) << refused.errors;
+}
+
 TEST(ManyFlights, say_which_setting_their_policy_overrules) {
   const FlyballProgram flyball;
   const std::string sentence =
