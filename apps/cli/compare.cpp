@@ -129,11 +129,8 @@ int show(const CompareOptions& options, const std::string& folder, const Entries
 
 int compare(const CompareOptions& options) {
   const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
-  if (!seeds) {
-    return refuse({seeds.error()});
-  }
-  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
-    return refuse({contest.error()});
+  if (const auto errors = check_contest(options.flight, options.policies, seeds); !errors.empty()) {
+    return refuse(errors);
   }
   auto planned = plan(options, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {

@@ -248,11 +248,8 @@ int show(const DriftOptions& options,
 
 int drift(const DriftOptions& options) {
   const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
-  if (!seeds) {
-    return refuse({seeds.error()});
-  }
-  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
-    return refuse({contest.error()});
+  if (const auto errors = check_contest(options.flight, options.policies, seeds); !errors.empty()) {
+    return refuse(errors);
   }
   const std::vector<DriftCase> cases = drift_cases(options.at_s);
   auto planned = plan(options, cases, *seeds);

@@ -148,34 +148,39 @@ std::optional<int> unfinished(const Flown& flown) {
   return std::nullopt;
 }
 
-Status check_settings(const FlightOptions& options, const std::string& policy_option) {
+std::vector<Error> check_settings(const FlightOptions& options, const std::string& policy_option) {
+  std::vector<Error> errors;
   for (const std::string& setting : options.settings) {
     const std::string key = key_of(setting);
     if (key == "seed" || key == "governor.policy") {
-      return Error{ErrorCode::invalid_input, "--set " + setting +
-                                                 " has an option of its own; give " +
-                                                 (key == "seed" ? "--seeds" : policy_option)};
+      errors.push_back({ErrorCode::invalid_input, "--set " + setting +
+                                                      " has an option of its own; give " +
+                                                      (key == "seed" ? "--seeds" : policy_option)});
     }
   }
-  return Done{};
+  return errors;
 }
 
-Status check_contest(const FlightOptions& options, const std::vector<std::string>& policies) {
-  if (const Status settings = check_settings(options); !settings) {
-    return settings.error();
+std::vector<Error> check_contest(const FlightOptions& options,
+                                 const std::vector<std::string>& policies,
+                                 const Result<std::vector<std::uint64_t>>& seeds) {
+  std::vector<Error> errors = check_settings(options);
+  if (!seeds) {
+    errors.push_back(seeds.error());
   }
   std::map<std::string, std::string> by_folder;
   for (const std::string& policy : policies) {
     const auto [other, is_new] = by_folder.emplace(run_folder("", policy, 0), policy);
     if (!is_new) {
-      return Error{ErrorCode::invalid_input,
-                   other->second == policy
-                       ? "--policies has \"" + policy + "\" twice; name each once"
-                       : "--policies has \"" + other->second + "\" and \"" + policy +
-                             "\", whose flights would have the same name; rename one of them"};
+      add_new({{ErrorCode::invalid_input,
+                other->second == policy
+                    ? "--policies has \"" + policy + "\" twice; name each once"
+                    : "--policies has \"" + other->second + "\" and \"" + policy +
+                          "\", whose flights would have the same name; rename one of them"}},
+              errors);
     }
   }
-  return Done{};
+  return errors;
 }
 
 }  // namespace flyball

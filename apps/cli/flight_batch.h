@@ -77,12 +77,14 @@ struct Flown {
 
 /// Seeds and policies of many missions come from options of their own, which `--set` would lose to.
 /// @param policy_option  `--policies`, by which this command names policies.
-[[nodiscard]] Status check_settings(const FlightOptions& options,
-                                    const std::string& policy_option = "--policies");
+/// @return               Every mistake.
+[[nodiscard]] std::vector<Error> check_settings(const FlightOptions& options,
+                                                const std::string& policy_option = "--policies");
 
-/// Also of the policies: two of one name (files in different folders) would write over each other's
-/// flights.
-[[nodiscard]] Status check_contest(const FlightOptions& options,
-                                   const std::vector<std::string>& policies);
+/// Every mistake in these and in what the options of a contest's own gave. Two policies of one name
+/// (files in different folders) would write over each other's flights.
+[[nodiscard]] std::vector<Error> check_contest(const FlightOptions& options,
+                                               const std::vector<std::string>& policies,
+                                               const Result<std::vector<std::uint64_t>>& seeds);
 
 }  // namespace flyball

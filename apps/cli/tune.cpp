@@ -96,36 +96,34 @@ std::optional<Error> find_shared_seed(const std::vector<std::uint64_t>& training
   return std::nullopt;
 }
 
-/// The seeds to train on, where all options but `--try` and `--policy` are sound.
-Result<std::vector<std::uint64_t>> training_seeds(const TuneOptions& options) {
-  auto seeds = read_seeds(options.seeds);
+/// The seeds to train on.
+/// @param errors  Every mistake in options other than `--try` and `--policy` is added to them.
+std::vector<std::uint64_t> training_seeds(const TuneOptions& options, std::vector<Error>& errors) {
+  const auto seeds = read_seeds(options.seeds);
   const auto test_seeds = read_seeds(options.test_seeds, "--test-seeds");
-  if (!seeds || !test_seeds) {
-    return seeds ? test_seeds.error() : seeds.error();
+  for (const auto* read : {&seeds, &test_seeds}) {
+    if (!*read) {
+      errors.push_back(read->error());
+    }
   }
-  if (const auto shared = find_shared_seed(*seeds, *test_seeds)) {
-    return *shared;
+  if (errors.empty()) {
+    if (const auto shared = find_shared_seed(*seeds, *test_seeds)) {
+      errors.push_back(*shared);
+    }
   }
-  if (const Status settings = check_settings(options.flight, "--policy"); !settings) {
-    return settings.error();
-  }
+  add_new(check_settings(options.flight, "--policy"), errors);
   const Status preset = options.preset.empty() ? Status{Done{}} : check_preset(options.preset);
-  return preset ? std::move(seeds) : Result<std::vector<std::uint64_t>>{preset.error()};
+  if (!preset) {
+    errors.push_back(preset.error());
+  }
+  return errors.empty() ? *seeds : std::vector<std::uint64_t>{};
 }
 
-int tune(const TuneOptions& options) {
-  const auto seeds = training_seeds(options);
-  if (!seeds) {
-    return refuse({seeds.error()});
-  }
-  const auto tried = read_all_tried(options.tried);
-  if (!tried) {
-    return refuse({tried.error()});
-  }
-  auto policy = raced_policy(options.policy);
-  if (!policy) {
-    return refuse({policy.error()});
-  }
+/// @return The exit code.
+int race(const TuneOptions& options,
+         const RacedPolicy& policy,
+         const std::vector<std::uint64_t>& seeds,
+         std::vector<Candidate> candidates) {
   const std::string folder = out_folder(options);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {
@@ -137,14 +135,8 @@ int tune(const TuneOptions& options) {
   if (!store) {
     return refuse({store.error()});
   }
-  Race race{{options.flight,
-             std::move(*policy),
-             *seeds,
-             folder + "/candidates",
-             folder,
-             {folder, options.jobs}},
+  Race race{{options.flight, policy, seeds, folder + "/candidates", folder, {folder, options.jobs}},
             *store};
-  std::vector<Candidate> candidates = combinations(*tried);
   const std::optional<int> code = race.halve(candidates, is_better);
   if (code && is_new && !race.has_begun()) {  // Nothing to go on with.
     std::error_code ignored;
@@ -152,6 +144,20 @@ int tune(const TuneOptions& options) {
     remove_empty(claimed->made());
   }
   return code ? *code : show(options, race, candidates);
+}
+
+int tune(const TuneOptions& options) {
+  std::vector<Error> errors;
+  const std::vector<std::uint64_t> seeds = training_seeds(options, errors);
+  const auto tried = read_all_tried(options.tried);
+  if (!tried) {
+    errors.push_back(tried.error());
+  }
+  const auto policy = raced_policy(options.policy);
+  if (!policy) {
+    errors.push_back(policy.error());
+  }
+  return errors.empty() ? race(options, *policy, seeds, combinations(*tried)) : refuse(errors);
 }
 
 }  // namespace

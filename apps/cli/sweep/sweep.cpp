@@ -65,12 +65,8 @@ std::variant<SweepRequest, std::vector<Error>> request_of(const SweepOptions& op
   if (!axes) {
     errors.push_back(axes.error());
   }
-  if (!seeds) {
-    errors.push_back(seeds.error());
-  }
-  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
-    errors.push_back(contest.error());
-  }
+  const auto contest = check_contest(options.flight, options.policies, seeds);
+  errors.insert(errors.end(), contest.begin(), contest.end());
   auto loaded =
       load_scenario(options.flight.scenario, options.flight.settings, options.flight.plugins);
   if (auto* wrong = std::get_if<std::vector<Error>>(&loaded)) {

@@ -52,8 +52,10 @@ KnownBounds bounds_of(const TournamentFlights& entries) {
 }
 
 /// Each is two policies that fly, with a colon between them.
-Result<std::vector<PolicyPair>> read_pairs(const TournamentOptions& options,
-                                           const Ablations& ablations) {
+/// @param errors  Every pair that is none is added to them.
+std::vector<PolicyPair> read_pairs(const TournamentOptions& options,
+                                   const Ablations& ablations,
+                                   std::vector<Error>& errors) {
   std::set<std::string> rows{options.policies.begin(), options.policies.end()};
   for (const AblatedPolicy& variant : ablations.variants) {
     rows.insert(variant.policy);
@@ -66,8 +68,9 @@ Result<std::vector<PolicyPair>> read_pairs(const TournamentOptions& options,
     const std::size_t colon = std::min(text.find(':'), text.size());
     const PolicyPair pair{text.substr(0, colon), text.substr(std::min(colon + 1, text.size()))};
     if (rows.count(pair.policy) == 0 || rows.count(pair.to) == 0 || pair.policy == pair.to) {
-      return Error{ErrorCode::invalid_input,
-                   "--pairs has \"" + text + "\"; give two of --policies with a colon between"};
+      errors.push_back(
+          {ErrorCode::invalid_input,
+           "--pairs has \"" + text + "\"; give two of --policies with a colon between"});
     }
     pairs.push_back(pair);
   }
@@ -227,25 +230,19 @@ Result<Ablations> read_ablations(TournamentOptions& options) {
 
 int hold_tournament(TournamentOptions options) {
   const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
-  if (!seeds) {
-    return refuse({seeds.error()});
-  }
-  const auto ablations = read_ablations(options);
+  const Result<Ablations> ablations = read_ablations(options);
+  std::vector<Error> errors = check_contest(options.flight, options.policies, seeds);
   if (!ablations) {
-    return refuse({ablations.error()});
+    errors.push_back(ablations.error());
+  } else if (options.policies.empty()) {
+    errors.push_back(
+        {ErrorCode::invalid_input, "no policy flies; give --policies A,B,C, or --ablate"});
+  } else {
+    options.pairs = read_pairs(options, *ablations, errors);
   }
-  if (options.policies.empty()) {
-    return refuse(
-        {{ErrorCode::invalid_input, "no policy flies; give --policies A,B,C, or --ablate"}});
+  if (!errors.empty()) {
+    return refuse(errors);
   }
-  if (const Status contest = check_contest(options.flight, options.policies); !contest) {
-    return refuse({contest.error()});
-  }
-  Result<std::vector<PolicyPair>> pairs = read_pairs(options, *ablations);
-  if (!pairs) {
-    return refuse({pairs.error()});
-  }
-  options.pairs = std::move(*pairs);
   return hold(options, *seeds, *ablations);
 }
 

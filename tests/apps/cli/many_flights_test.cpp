@@ -85,6 +85,35 @@ TEST(ManyFlights, name_every_mistake_once_before_they_fly) {
   EXPECT_TRUE(has(worlds.errors, "did you mean scanning_farm?")) << worlds.errors;
 }
 
+TEST(ManyFlights, name_every_mistake_of_their_own_options) {
+  const FlyballProgram flyball;
+  const std::string contest =
+      " --policies two_level,fixed_fine,two_level,./fixed_fine.toml --seeds 3..1 --set seed=7";
+  for (const std::string& command :
+       {"compare delivery_forest" + contest, "drift delivery_forest" + contest,
+        "sweep delivery_forest --over map.range_m=5,7" + contest,
+        "tournament --worlds delivery_forest" + contest +
+            " --pairs two_level:nosuch,two_level:two_level"}) {
+    const auto refused = flyball.run(command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    for (const char* mistake :
+         {"--policies has \"two_level\" twice",
+          "\"fixed_fine\" and \"./fixed_fine.toml\", whose flights", "--seeds 3..1 ends before",
+          "--set seed=7 has an option of its own"}) {
+      EXPECT_TRUE(has(refused.errors, mistake)) << mistake << "\n" << refused.errors;
+    }
+    const bool has_pairs = has(command, "--pairs");
+    EXPECT_EQ(has(refused.errors, "--pairs has \"two_level:nosuch\""), has_pairs);
+    EXPECT_EQ(has(refused.errors, "--pairs has \"two_level:two_level\""), has_pairs);
+    EXPECT_TRUE(flyball.place.is_empty()) << command;
+  }
+  const auto tuned = flyball.run(
+      "tune delivery_forest --try resolution_m=x --seeds 3..1 --policy nosuch.lua --preset a.lua "
+      "--set seed=7");
+  EXPECT_EQ(tuned.exit_code, 2);
+  EXPECT_GE(std::count(tuned.errors.begin(), tuned.errors.end(), '\n'), 4) << tuned.errors;
+}
+
 TEST(ManyFlights, say_once_why_all_were_refused_and_by_whom) {
   const FlyballProgram flyball;
   const auto refused = flyball.run(
