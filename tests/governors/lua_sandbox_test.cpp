@@ -52,6 +52,11 @@ TEST(LuaSandbox, reads_a_script_that_an_editor_began_with_a_byte_order_mark) {
   EXPECT_TRUE(contains(error_of("\xef\xbb\xbf\nerror('no')"), "mine.lua:2:"));
 }
 
+TEST(LuaSandbox, reads_a_script_whose_first_line_is_for_the_shell) {
+  EXPECT_EQ("7", logged_by("#!/usr/bin/env lua\nprint(7)"));
+  EXPECT_TRUE(contains(error_of("#!/usr/bin/env lua\nerror('no')"), "mine.lua:2:"));
+}
+
 TEST(LuaSandbox, has_no_way_out) {
   for (const char* name : {"os",           "io",          "debug",          "load",
                            "loadfile",     "dofile",      "require",        "package",

@@ -34,6 +34,13 @@ TEST(LuaSource, leaves_out_a_byte_order_mark_at_the_beginning_only) {
   EXPECT_EQ("x = 1 \xef\xbb\xbf", prepared("x = 1 \xef\xbb\xbf"));
 }
 
+TEST(LuaSource, leaves_out_a_first_line_for_the_shell_but_not_its_end) {
+  EXPECT_EQ("\nx =  false^t", prepared("#!/usr/bin/env lua\nx = #t"));
+  EXPECT_EQ("\nx = 1", prepared("\xef\xbb\xbf#!/usr/bin/lua \"it's\" [[\nx = 1"));
+  EXPECT_EQ("", prepared("#!/usr/bin/lua"));
+  EXPECT_EQ("x = 1\n false^!/usr/bin/lua", prepared("x = 1\n#!/usr/bin/lua"));
+}
+
 TEST(LuaSource, refuses_zero_bytes_by_their_line) {
   using namespace std::string_literals;
   for (const std::string& text : {"s = '\0'"s, "s = '\\0'"s, "s = '\\0a'"s, "s = '\\00x'"s,

@@ -17,6 +17,9 @@ class ScriptReader {
     if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; starts_with(byte_order_mark)) {
       at_ = byte_order_mark.size();
     }
+    if (starts_with("#")) {  // The line's end stays, so that messages count lines as editors do.
+      at_ = std::min(text_.find('\n', at_), text_.size());
+    }
   }
 
   Result<std::string> prepared() {
