@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "flyball/runtime/file_handle.h"
 #include "flyball/vehicles/depth_source.h"
 
-#include "vehicles/file_handle.h"
 #include "vehicles/pgm_reader.h"
 #include <array>
 #include <atomic>
@@ -112,7 +112,7 @@ class DepthPipe final : public DepthSource {
     (void)pipe_->wait(read_wait);
     const auto got = ::read(pipe_->number(), room_.data(), room_.size());
     if (got < 0) {
-      return errno == EAGAIN || errno == EINTR || fail(system_error("cannot read the pipe"));
+      return errno == EAGAIN || errno == EINTR || fail(system_error("cannot read the pipe", errno));
     }
     if (got == 0) {
       if (has_begun_) {
@@ -176,7 +176,7 @@ Result<std::unique_ptr<DepthSource>> open_depth_pipe(const std::string& name,
   auto pipe = std::make_unique<FileHandle>(::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat found {};
   if (!pipe->is_open() || ::fstat(pipe->number(), &found) != 0) {
-    return system_error("cannot open " + called);
+    return system_error("cannot open " + called, errno);
   }
   if (!S_ISFIFO(found.st_mode)) {
     return Error{ErrorCode::invalid_input,

@@ -2,7 +2,8 @@
 // tested-in: byte_stream
 #include "vehicles/serial_stream.h"
 
-#include "vehicles/file_handle.h"
+#include "flyball/runtime/file_handle.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -55,7 +56,7 @@ class SerialStream final : public ByteStream {
     const auto sent = rest_.empty() ? 0 : write(line_->number(), rest_.data(), rest_.size());
     if (sent < 0) {
       return errno == EAGAIN || errno == EINTR ? Status{Done{}}
-                                               : system_error("cannot write to " + device_);
+                                               : system_error("cannot write to " + device_, errno);
     }
     rest_.erase(rest_.begin(), rest_.begin() + sent);
     return Done{};
@@ -66,7 +67,7 @@ class SerialStream final : public ByteStream {
     const auto got = read(line_->number(), room.data(), room.size());
     if (got < 0) {
       return errno == EAGAIN || errno == EINTR ? Status{Done{}}
-                                               : system_error("cannot read from " + device_);
+                                               : system_error("cannot read from " + device_, errno);
     }
     bytes.insert(bytes.end(), room.begin(), room.begin() + got);
     return Done{};
@@ -97,10 +98,10 @@ Result<std::unique_ptr<ByteStream>> open_serial(const std::string& device,
   auto line = std::make_unique<FileHandle>(
       open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!line->is_open()) {
-    return system_error("cannot open " + device);
+    return system_error("cannot open " + device, errno);
   }
   if (!set_raw(line->number(), speed->second)) {
-    return system_error(device + " is no serial line");
+    return system_error(device + " is no serial line", errno);
   }
   (void)ioctl(line->number(), TIOCEXCL);  // Where it fails, somebody else may open it as well.
   return std::unique_ptr<ByteStream>{std::make_unique<SerialStream>(std::move(line), device)};

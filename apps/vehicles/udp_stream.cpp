@@ -2,7 +2,8 @@
 // tested-in: byte_stream
 #include "vehicles/udp_stream.h"
 
-#include "vehicles/file_handle.h"
+#include "flyball/runtime/file_handle.h"
+
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -58,7 +59,8 @@ class UdpStream final : public ByteStream {
     const auto* to = reinterpret_cast<const sockaddr*>(&*peer_);  // NOLINT: sockets' own way
     const auto sent =
         sendto(socket_->number(), bytes.data(), bytes.size(), MSG_NOSIGNAL, to, sizeof *peer_);
-    return sent >= 0 || is_passing(errno) ? Status{Done{}} : system_error("cannot send by UDP");
+    return sent >= 0 || is_passing(errno) ? Status{Done{}}
+                                          : system_error("cannot send by UDP", errno);
   }
 
   /// Datagrams of others than the first sender are not listened to: two autopilots in one stream
@@ -71,7 +73,7 @@ class UdpStream final : public ByteStream {
       const auto got =
           recvfrom(socket_->number(), room_.data(), room_.size(), MSG_DONTWAIT, sender, &size);
       if (got < 0) {
-        return is_passing(errno) ? Status{Done{}} : system_error("cannot receive by UDP");
+        return is_passing(errno) ? Status{Done{}} : system_error("cannot receive by UDP", errno);
       }
       peer_ = peer_.value_or(from);
       if (is_same(*peer_, from)) {
@@ -113,7 +115,7 @@ Result<std::unique_ptr<ByteStream>> open_udp(const std::string& host, const std:
   here.sin_addr.s_addr = htonl(*address);
   const auto* at = reinterpret_cast<const sockaddr*>(&here);  // NOLINT: sockets' own way
   if (!socket->is_open() || bind(socket->number(), at, sizeof here) != 0) {
-    return system_error("cannot listen at udp:" + host + ":" + port);
+    return system_error("cannot listen at udp:" + host + ":" + port, errno);
   }
   return std::unique_ptr<ByteStream>{std::make_unique<UdpStream>(std::move(socket))};
 }

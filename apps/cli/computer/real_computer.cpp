@@ -7,7 +7,6 @@
 #include "flyball/simulation/realtime_flight.h"
 
 #include "cli/console.h"
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -50,12 +49,7 @@ Result<BoardFile> choose_board(const std::string& name, const std::string& model
 
 std::vector<int> cores_for_jobs(const BoardFile& board) {
   const std::vector<int> usable = usable_cpus();
-  std::vector<int> cores;
-  for (const int core : board.core_order) {
-    if (std::find(usable.begin(), usable.end(), core) != usable.end()) {
-      cores.push_back(core);
-    }
-  }
+  const std::vector<int> cores = cores_in_order(board, usable);
   return cores.empty() ? usable : cores;
 }
 

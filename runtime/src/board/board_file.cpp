@@ -182,4 +182,18 @@ BoardFile board_file_for(const std::vector<BoardFile>& files, const std::string&
   return best;
 }
 
+std::vector<int> cores_in_order(const BoardFile& board,
+                                const std::vector<int>& present,
+                                bool with_cores_if_asked) {
+  std::vector<int> order = board.core_order.empty() ? present : board.core_order;
+  if (with_cores_if_asked) {
+    order.insert(order.end(), board.cores_if_asked.begin(), board.cores_if_asked.end());
+  }
+  const auto is_absent = [&present](int core) {
+    return std::find(present.begin(), present.end(), core) == present.end();
+  };
+  order.erase(std::remove_if(order.begin(), order.end(), is_absent), order.end());
+  return order;
+}
+
 }  // namespace flyball

@@ -129,24 +129,12 @@ std::vector<Error> CoreControl::unplug_rest(Duration now) {
 std::vector<int> core_order_of(const std::vector<BoardCore>& cores,
                                const BoardFile& board,
                                bool with_cores_if_asked) {
-  std::vector<int> wanted = board.core_order;
-  if (wanted.empty()) {
-    for (const BoardCore& core : cores) {
-      wanted.push_back(core.id);
-    }
+  std::vector<int> present;
+  present.reserve(cores.size());
+  for (const BoardCore& core : cores) {
+    present.push_back(core.id);
   }
-  if (with_cores_if_asked) {
-    wanted.insert(wanted.end(), board.cores_if_asked.begin(), board.cores_if_asked.end());
-  }
-  std::vector<int> order;
-  for (const int id : wanted) {
-    const bool is_present = std::any_of(cores.begin(), cores.end(),
-                                        [id](const BoardCore& core) { return core.id == id; });
-    if (is_present) {
-      order.push_back(id);
-    }
-  }
-  return order;
+  return cores_in_order(board, present, with_cores_if_asked);
 }
 
 }  // namespace flyball

@@ -60,8 +60,7 @@ class CoreControl {
   std::optional<Duration> unplugged_{};  ///< When, last.
 };
 
-/// The order of the board's file, then, if asked for, its cores of another kind; those that are not
-/// present are left out. Without an order in the file all cores, ascending.
+/// `cores_in_order` of all that are present, on-line or not.
 [[nodiscard]] std::vector<int> core_order_of(const std::vector<BoardCore>& cores,
                                              const BoardFile& board,
                                              bool with_cores_if_asked);

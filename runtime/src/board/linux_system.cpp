@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/board/linux_system.h"
 
+#include "flyball/runtime/file_handle.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
-#include <system_error>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -17,23 +17,6 @@ namespace {
 
 constexpr std::size_t longest_file = 65536;
 
-/// Closes a file at the end of a scope.
-class OpenFile {
- public:
-  OpenFile(const std::string& path, int flags) : descriptor_{open(path.c_str(), flags)} {}
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    if (descriptor_ >= 0) {
-      close(descriptor_);
-    }
-  }
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 class RootedSystem final : public LinuxSystem {
  public:
   explicit RootedSystem(std::string root) : root_{std::move(root)} {
@@ -44,15 +27,15 @@ class RootedSystem final : public LinuxSystem {
 
   Result<std::string> read(const std::string& path) const override {
     // A pipe in a copy of a system must not make its reader wait.
-    const OpenFile file{root_ + path, O_RDONLY | O_CLOEXEC | O_NONBLOCK};
-    if (file.get() < 0) {
+    const FileHandle file{open((root_ + path).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    if (!file.is_open()) {
       return system_error(path + " cannot be read", errno);
     }
     std::string content;
     std::array<char, 4096> part{};
     ssize_t count = 0;
     while (content.size() < longest_file &&
-           (count = ::read(file.get(), part.data(), part.size())) > 0) {
+           (count = ::read(file.number(), part.data(), part.size())) > 0) {
       content.append(part.data(), static_cast<std::size_t>(count));
     }
     if (count < 0) {
@@ -62,12 +45,13 @@ class RootedSystem final : public LinuxSystem {
   }
 
   Status write(const std::string& path, const std::string& text) override {
-    const OpenFile file{root_ + path, O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK};
-    if (file.get() < 0) {
+    const FileHandle file{
+        open((root_ + path).c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK)};
+    if (!file.is_open()) {
       return system_error(path + " cannot be written", errno);
     }
     // One call: the kernel takes each call as a value of its own.
-    const ssize_t count = ::write(file.get(), text.data(), text.size());
+    const ssize_t count = ::write(file.number(), text.data(), text.size());
     if (count != static_cast<ssize_t>(text.size())) {
       return system_error("\"" + text + "\" cannot be written to " + path, count < 0 ? errno : EIO);
     }
@@ -128,32 +112,10 @@ class RootedSystem final : public LinuxSystem {
   std::string root_;
 };
 
-ErrorCode code_of(int number) {
-  switch (number) {
-    case ENOENT:
-    case ENOTDIR:
-    case ENODEV:
-    case ESRCH:
-      return ErrorCode::not_found;
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return ErrorCode::unavailable;
-    case EINVAL:
-      return ErrorCode::invalid_input;
-    default:
-      return ErrorCode::failed;
-  }
-}
-
 }  // namespace
 
 std::unique_ptr<LinuxSystem> linux_system(const std::string& root) {
   return std::make_unique<RootedSystem>(root);
-}
-
-Error system_error(const std::string& what, int number) {
-  return {code_of(number), what + ": " + std::system_category().message(number)};
 }
 
 }  // namespace flyball

@@ -2,6 +2,8 @@
 // tested-in: settings_keeper
 #include "board/settings_journal.h"
 
+#include "flyball/runtime/file_handle.h"
+
 #include "board/sysfs_text.h"
 #include <array>
 #include <cerrno>

@@ -2,6 +2,7 @@
 #include "board/watchdog.h"
 
 #include "flyball/runtime/board/linux_system.h"
+#include "flyball/runtime/file_handle.h"
 
 #include <algorithm>
 #include <array>

@@ -59,6 +59,18 @@ TEST(BoardFile, takes_the_cores_of_a_tx2_in_their_order) {
   EXPECT_EQ(board.cores_if_asked, (std::vector<int>{1, 2}));
 }
 
+TEST(BoardFile, orders_the_cores_that_are_present) {
+  using Cores = std::vector<int>;
+  const Cores present{0, 1, 2, 3, 4, 5};
+  BoardFile board;
+  EXPECT_EQ(cores_in_order(board, present), present);
+  board.core_order = {3, 0, 4, 9};
+  board.cores_if_asked = {2, 8};
+  EXPECT_EQ(cores_in_order(board, present), (Cores{3, 0, 4}));
+  EXPECT_EQ(cores_in_order(board, present, true), (Cores{3, 0, 4, 2}));
+  EXPECT_EQ(cores_in_order(board, {1, 5}), Cores{}) << "another board's file";
+}
+
 TEST(BoardFile, says_everything_that_is_wrong_in_one_message) {
   const auto board = load_text(
       "name = \"\"\ncore_order = [0, 0]\nmay_unplug_cores = 1\nclock_step_hz = \"fast\"\n"

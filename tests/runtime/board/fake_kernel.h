@@ -8,6 +8,7 @@
 /// copy sees it too.
 
 #include "flyball/runtime/board/linux_system.h"
+#include "flyball/runtime/file_handle.h"
 
 #include "board/sysfs_text.h"
 #include <algorithm>

@@ -47,14 +47,6 @@ TEST(LinuxSystem, lists_folders_sorted_and_missing_ones_as_empty) {
   EXPECT_TRUE(system->entries("/c").empty());
 }
 
-TEST(LinuxSystem, tells_apart_what_is_not_permitted_and_what_is_refused) {
-  EXPECT_EQ(system_error("x", EROFS).code, ErrorCode::unavailable);
-  EXPECT_EQ(system_error("x", EACCES).code, ErrorCode::unavailable);
-  EXPECT_EQ(system_error("x", EINVAL).code, ErrorCode::invalid_input);
-  EXPECT_EQ(system_error("x", EBUSY).code, ErrorCode::failed);
-  EXPECT_EQ(system_error("x cannot be read", EINVAL).message, "x cannot be read: Invalid argument");
-}
-
 TEST(LinuxSystem, binds_a_thread_to_cores_and_says_when_it_gets_fewer) {
   std::thread{[] {  // Its affinity dies with it.
     const auto system = linux_system();

@@ -35,4 +35,10 @@ struct BoardFile {
 [[nodiscard]] BoardFile board_file_for(const std::vector<BoardFile>& files,
                                        const std::string& model);
 
+/// Those of the cores that are present which jobs may take, in the order of the board's file, then,
+/// if asked for, its cores of another kind. Where the file has no order, all as they are given.
+[[nodiscard]] std::vector<int> cores_in_order(const BoardFile& board,
+                                              const std::vector<int>& present,
+                                              bool with_cores_if_asked = false);
+
 }  // namespace flyball

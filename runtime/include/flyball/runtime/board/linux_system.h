@@ -47,7 +47,4 @@ class LinuxSystem {
 /// those of this system.
 [[nodiscard]] std::unique_ptr<LinuxSystem> linux_system(const std::string& root = "/");
 
-/// What an errno means to whoever reads or writes one of these files.
-[[nodiscard]] Error system_error(const std::string& what, int number);
-
 }  // namespace flyball

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// A file descriptor that is closed when it goes.
+/// A file descriptor that is closed when it goes, and what the system says when it gives none.
 
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/time.h"
@@ -13,6 +13,7 @@ namespace flyball {
 
 class FileHandle {
  public:
+  /// @param number  What `open` or `socket` returned; below zero: nothing was opened.
   explicit FileHandle(int number) : number_{number} {}
   ~FileHandle();
   FileHandle(const FileHandle&) = delete;
@@ -27,7 +28,9 @@ class FileHandle {
   int number_;
 };
 
-/// `what` and the system's own words for `errno`.
-[[nodiscard]] Error system_error(const std::string& what);
+/// `what`, and the system's own words for an errno; the code is what that means to whoever reads or
+/// writes a file: `not_found`, `unavailable` (not permitted, or read-only), `invalid_input`
+/// (EINVAL), or `failed`.
+[[nodiscard]] Error system_error(const std::string& what, int number);
 
 }  // namespace flyball

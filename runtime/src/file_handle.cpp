@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tested-in: byte_stream
-#include "vehicles/file_handle.h"
+#include "flyball/runtime/file_handle.h"
 
 #include <cerrno>
 #include <chrono>
@@ -10,6 +9,27 @@
 #include <unistd.h>
 
 namespace flyball {
+namespace {
+
+ErrorCode code_of(int number) {
+  switch (number) {
+    case ENOENT:
+    case ENOTDIR:
+    case ENODEV:
+    case ESRCH:
+      return ErrorCode::not_found;
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return ErrorCode::unavailable;
+    case EINVAL:
+      return ErrorCode::invalid_input;
+    default:
+      return ErrorCode::failed;
+  }
+}
+
+}  // namespace
 
 FileHandle::~FileHandle() {
   if (is_open()) {
@@ -25,8 +45,8 @@ Duration FileHandle::wait(Duration at_most) const {
   return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - begun);
 }
 
-Error system_error(const std::string& what) {
-  return {ErrorCode::unavailable, what + ": " + std::generic_category().message(errno)};
+Error system_error(const std::string& what, int number) {
+  return {code_of(number), what + ": " + std::system_category().message(number)};
 }
 
 }  // namespace flyball
