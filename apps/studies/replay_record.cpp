@@ -4,16 +4,19 @@
 #include "flyball/flight/governing/choice_text.h"
 #include "flyball/governors/policy_period.h"
 #include "flyball/runtime/observation_fields.h"
+#include "flyball/scenario/files.h"
 #include "flyball/studies/replay.h"
 
 #include "records/json_counts.h"
 #include "records/summary_reader.h"
+#include "scenario/scenario_reader.h"
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -109,7 +112,31 @@ Status read_trace(const std::string& path, RecordedFlight& flight) {
   return Done{};
 }
 
+/// A record names files as its command did: it holds no folders of the computer that flew it, and
+/// can be moved together with them. One that is not there was named from another folder.
+std::optional<Error> file_out_of_sight(const std::string& path) {
+  const ScenarioText text = read_scenario_file(path);
+  for (const auto& [key, kind] :
+       {std::pair{"governor.policy", "presets"}, std::pair{"platform.name", "platforms"},
+        std::pair{"edge.platform", "platforms"}, std::pair{"vehicle.airframe", "airframes"}}) {
+    const auto given = text.values.find(key);
+    const std::string name =
+        given == text.values.end() ? std::string{} : as_text(given->second).value_or("");
+    std::error_code failed;
+    if (looks_like_path(kind, name) && fs::path{name}.is_relative() && !fs::exists(name, failed)) {
+      return Error{ErrorCode::not_found,
+                   path + ": " + key + " = \"" + name +
+                       "\", and there is no such file from here; go to the folder from which the "
+                       "mission was flown"};
+    }
+  }
+  return std::nullopt;
+}
+
 Status read_scenario(const std::string& path, const Plugins& plugins, RecordedFlight& flight) {
+  if (const auto hidden = file_out_of_sight(path)) {
+    return *hidden;
+  }
   auto loaded = load_scenario(path, {}, plugins);
   if (const auto* errors = std::get_if<std::vector<Error>>(&loaded)) {
     Error all{errors->front().code, ""};

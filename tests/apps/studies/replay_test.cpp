@@ -10,6 +10,7 @@
 #include "short_delivery.h"
 #include <chrono>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -228,6 +229,26 @@ Result<RecordedFlight> read_with(const ScratchFolder& folder,
   auto read = read_flight(folder.path());
   static_cast<void>(folder.file(file, whole));
   return read;
+}
+
+TEST(Replay, says_from_where_a_file_of_the_record_is_seen) {
+  const ScratchFolder folder;
+  (void)flown_with("fixed_coarse", folder);
+  for (const auto& [before, after, key] :
+       {std::tuple{"policy = \"fixed_coarse\"", "policy = \"./mine.lua\"", "governor.policy"},
+        std::tuple{"name = \"jetson_tx2\"", "name = \"boards/mine.toml\"", "platform.name"}}) {
+    const auto moved = read_with(folder, "mission.toml", before, after);
+    ASSERT_FALSE(moved.ok());
+    const std::string named{after};
+    EXPECT_EQ(moved.error().message,
+              folder.path() + "mission.toml: " + key + named.substr(named.find(" = ")) +
+                  ", and there is no such file from here; go to the folder from which the mission "
+                  "was flown");
+  }
+  EXPECT_EQ(read_with(folder, "mission.toml", "\"fixed_coarse\"", "\"nosuch\"")
+                .error()
+                .message.rfind("no policy \"nosuch\"", 0),
+            0U);
 }
 
 TEST(Replay, refuses_more_or_fewer_decisions_than_a_flight_can_have) {
