@@ -80,6 +80,19 @@ ClosedLoop::ClosedLoop(MissionLink& link,
       imu_{ImuSpec{}, scenario.seed},
       wind_{wind_spec(scenario.vehicle), scenario.seed} {}
 
+void ClosedLoop::hear_localizer(Topic<PoseEstimate> pose,
+                                std::optional<Topic<LocalizationStatus>> status) {
+  if (status) {
+    executor_.subscribe<LocalizationStatus>(
+        *status, [this](const LocalizationStatus& seen) { is_lost_ = seen.is_lost; });
+  }
+  executor_.subscribe<PoseEstimate>(pose, [this](const PoseEstimate& where) {
+    if (!is_lost_) {
+      pilot_->localized(where);
+    }
+  });
+}
+
 void ClosedLoop::start() {
   executor_.subscribe<FlightCommand>(topics_.command,
                                      [this](const FlightCommand& command) { obey(command); });

@@ -4,6 +4,7 @@
 /// @file
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
+#include "flyball/flight/perception/localization_nodes.h"
 #include "flyball/flight/vehicle_port.h"
 #include "flyball/kernels/localizer.h"
 #include "flyball/runtime/event_queue.h"
@@ -71,6 +72,9 @@ class ClosedLoop {
   /// Before `start`: whoever flies the vehicle is there, and the vehicle is where he says.
   /// @error As `Pilot::prepare`.
   [[nodiscard]] Status prepare(const std::function<bool()>& stop) { return pilot_->prepare(stop); }
+  /// Before `start`: whoever flies the vehicle is told where the localizer has it, while it is not
+  /// lost. Lost, it only guesses.
+  void hear_localizer(Topic<PoseEstimate> pose, std::optional<Topic<LocalizationStatus>> status);
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
   [[nodiscard]] const FlightLog& log() const { return log_; }
@@ -124,6 +128,7 @@ class ClosedLoop {
   DeviceUse last_use_{};
   std::uint64_t navigation_count_{};
   bool pilot_has_failed_{};
+  bool is_lost_{};  ///< The localizer.
 };
 
 }  // namespace flyball

@@ -45,8 +45,7 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
     : workload{std::move(made)},
       graph{scenario.mission.workload},
       computer{setup.platform->model()},
-      board{start_point(scenario)},
-      has_autopilot{on.autopilot != nullptr} {
+      board{start_point(scenario)} {
   parts.brief = adapted_brief(scenario, setup, on);
   parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
   parts.mission = add_mission_topics(graph);
@@ -60,6 +59,10 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
   link = std::make_unique<MissionLink>(parts.brief, graph, parts.mission, *executor, queue);
   loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                       parts.vehicle, parts.kernels.localizer, on.autopilot);
+  const auto pose = graph.find<PoseEstimate>("pose");
+  if (parts.brief->has_autopilot && pose) {
+    loop->hear_localizer(*pose, graph.find<LocalizationStatus>("localization"));
+  }
   referee =
       std::make_unique<Referee>(*link, RefereedFlight{scenario, setup.things, graph, *executor,
                                                       queue, *loop, *parts.kernels.mapper});
@@ -73,8 +76,7 @@ std::shared_ptr<const Brief> SimulatedFlight::adapted_brief(const Scenario& scen
                                                             const MissionSetup& setup,
                                                             const FlightHardware& on) const {
   Brief brief = brief_of(scenario, setup);
-  brief.shares_pose_with_autopilot =
-      on.autopilot != nullptr && setup.equipment.kernels.localizer->inputs().truth;
+  brief.has_autopilot = on.autopilot != nullptr;
   workload->adapt(brief);
   return std::make_shared<const Brief>(std::move(brief));
 }

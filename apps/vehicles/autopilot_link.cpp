@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/realtime/cpus.h"
 
+#include "vehicles/odometry_frame.h"
 #include "vehicles/offboard_control.h"
 #include <utility>
 
@@ -28,7 +29,8 @@ AutopilotLink::AutopilotLink(std::unique_ptr<ByteStream> stream,
       tell_{std::move(tell)},
       clock_{std::move(clock)},
       clock_began_{clock_ ? clock_() : Duration::zero()},
-      cpus_{usable_cpus()} {}
+      cpus_{usable_cpus()},
+      frame_{std::make_unique<OdometryFrame>()} {}
 
 AutopilotLink::~AutopilotLink() {
   end_thread();
@@ -156,6 +158,7 @@ void AutopilotLink::step(MissionTime now) {
       exchange(asked_);
     }
     called_ = now_;
+    frame_->note(now, control_->motion(asked_).X_WB);
     if (!control_->failure().empty() && !has_failed_) {
       has_failed_ = true;
       news_.push_back(control_->failure());
@@ -171,9 +174,14 @@ void AutopilotLink::obey(const FlightCommand& command) {
 
 void AutopilotLink::follow(const Setpoint& setpoint) {
   const Lock lock{mutex_};
-  Setpoint shifted = setpoint;
+  Setpoint shifted = frame_->in_odometry(setpoint);
   shifted.stamp = MissionTime{mission_.host(setpoint.stamp)};
   control_->follow(shifted);
+}
+
+void AutopilotLink::localized(const PoseEstimate& where) {
+  const Lock lock{mutex_};
+  frame_->localized(where, !control_->is_in_charge());
 }
 
 ReportedMotion AutopilotLink::motion() const {

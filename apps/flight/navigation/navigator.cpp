@@ -204,10 +204,10 @@ Setpoint Navigator::tick(MissionTime now,
   return path_tracker_->track(follower_.path(), reference, to_correct(here), now);
 }
 
-/// An autopilot that flies by the same pose leaves no error to correct.
+/// An autopilot corrects by itself.
 PoseEstimate Navigator::to_correct(const PoseEstimate& here) const {
   PoseEstimate there = here;
-  if (brief_->shares_pose_with_autopilot) {
+  if (brief_->has_autopilot) {
     there.X_WB.translation() = follower_.position_W();
   }
   return there;

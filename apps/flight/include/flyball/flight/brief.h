@@ -54,9 +54,10 @@ struct Brief {
 
   /// Whether the localizer takes images, so that the place is known from frame to frame only.
   bool sees_its_place{};
-  /// Whether the autopilot flies by the same pose, so that its own loops correct every error. A
-  /// second correction beside them is unstable: an ArduCopter swayed by 4 m along its path.
-  bool shares_pose_with_autopilot{};
+  /// Whether an autopilot keeps the vehicle at its set-points, which are carried over into its own
+  /// frame. A second correction beside its loops is unstable: an ArduCopter swayed by 4 m along its
+  /// path.
+  bool has_autopilot{};
 
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;
