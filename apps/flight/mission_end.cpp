@@ -38,6 +38,8 @@ const char* to_string(MissionFailure failure) {
       return "incomplete";
     case MissionFailure::false_alarm:
       return "false_alarm";
+    case MissionFailure::misdelivered:
+      return "misdelivered";
     case MissionFailure::autopilot:
       return "autopilot";
   }

@@ -30,6 +30,7 @@ constexpr std::array failures{MissionFailure::none,
                               MissionFailure::not_found,
                               MissionFailure::incomplete,
                               MissionFailure::false_alarm,
+                              MissionFailure::misdelivered,
                               MissionFailure::autopilot};
 
 /// Throws like the library's own getters when no value has this name.

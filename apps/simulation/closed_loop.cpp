@@ -82,13 +82,14 @@ ClosedLoop::ClosedLoop(MissionLink& link,
 
 void ClosedLoop::hear_localizer(Topic<PoseEstimate> pose,
                                 std::optional<Topic<LocalizationStatus>> status) {
+  frame_.emplace();
   if (status) {
     executor_.subscribe<LocalizationStatus>(
         *status, [this](const LocalizationStatus& seen) { is_lost_ = seen.is_lost; });
   }
   executor_.subscribe<PoseEstimate>(pose, [this](const PoseEstimate& where) {
     if (!is_lost_) {
-      pilot_->localized(where);
+      frame_->localized(where, !is_airborne());
     }
   });
 }
@@ -98,7 +99,7 @@ void ClosedLoop::start() {
                                      [this](const FlightCommand& command) { obey(command); });
   executor_.subscribe<Setpoint>(topics_.setpoint, [this](const Setpoint& setpoint) {
     if (link_.phase() == MissionPhase::cruise) {
-      pilot_->follow(setpoint);
+      pilot_->follow(frame_ ? frame_->in_odometry(setpoint) : setpoint);
     }
   });
   const Duration step = from_seconds(scenario_.vehicle.physics_step_s);
@@ -150,6 +151,9 @@ Watts ClosedLoop::device_power(double dt_s) {
 
 void ClosedLoop::physics_step() {
   pilot_->step(scenario_.vehicle.physics_step_s, wind_.velocity_W());
+  if (frame_) {
+    frame_->note(queue_.now(), vehicle_.state().X_WB);
+  }
   watch_pilot();
 }
 

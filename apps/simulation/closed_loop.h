@@ -4,6 +4,7 @@
 /// @file
 /// Vehicle, sensors, power and battery around the modeled computer, all on one event queue.
 
+#include "flyball/flight/odometry_frame.h"
 #include "flyball/flight/perception/localization_nodes.h"
 #include "flyball/flight/vehicle_port.h"
 #include "flyball/kernels/localizer.h"
@@ -72,8 +73,8 @@ class ClosedLoop {
   /// Before `start`: whoever flies the vehicle is there, and the vehicle is where he says.
   /// @error As `Pilot::prepare`.
   [[nodiscard]] Status prepare(const std::function<bool()>& stop) { return pilot_->prepare(stop); }
-  /// Before `start`: whoever flies the vehicle is told where the localizer has it, while it is not
-  /// lost. Lost, it only guesses.
+  /// Before `start`: set-points are carried over from the localizer's world into the frame in which
+  /// the vehicle is flown. While the localizer is lost, nothing is learned from its guesses.
   void hear_localizer(Topic<PoseEstimate> pose, std::optional<Topic<LocalizationStatus>> status);
   /// Puts physics and sensors on the queue and listens to the commands.
   void start();
@@ -128,7 +129,8 @@ class ClosedLoop {
   DeviceUse last_use_{};
   std::uint64_t navigation_count_{};
   bool pilot_has_failed_{};
-  bool is_lost_{};  ///< The localizer.
+  std::optional<OdometryFrame> frame_{};  ///< Empty: that is the localizer's world.
+  bool is_lost_{};                        ///< The localizer.
 };
 
 }  // namespace flyball

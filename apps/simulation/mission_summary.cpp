@@ -31,7 +31,7 @@ void fill_outcome(Summary& summary, const SimulatedFlight& flight, const Scenari
 void fill_tracking(Summary& summary, const SimulatedFlight& flight) {
   const auto& off_path_m = flight.recorder->off_path_m();
   const auto& brake_lag_s = flight.recorder->brake_lag_s();
-  if (!flight.parts.brief->has_autopilot || off_path_m.empty()) {
+  if (!flight.has_autopilot || off_path_m.empty()) {
     return;
   }
   summary.quality["off_path_m_p95"] = quantile(off_path_m, 0.95);

@@ -36,7 +36,6 @@ class OffboardPilot final : public Pilot {
 
   void obey(const FlightCommand& command) override { autopilot_.obey(command); }
   void follow(const Setpoint& setpoint) override { autopilot_.follow(setpoint); }
-  void localized(const PoseEstimate& where) override { autopilot_.localized(where); }
   [[nodiscard]] FlightStatus status() const override { return autopilot_.status(); }
   [[nodiscard]] bool may_touch_ground() const override { return autopilot_.may_touch_ground(); }
   [[nodiscard]] bool knows_pose() const override { return autopilot_.motion().is_fresh; }

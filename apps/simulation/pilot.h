@@ -35,8 +35,6 @@ class Pilot {
   /// Everything but the payload, which hangs on the vehicle.
   virtual void obey(const FlightCommand& command) = 0;
   virtual void follow(const Setpoint& setpoint) = 0;
-  /// Where the localizer has the vehicle, for who flies it by an estimate of its own.
-  virtual void localized(const PoseEstimate& where) = 0;
   [[nodiscard]] virtual FlightStatus status() const = 0;
   /// While it takes off, lands or stands.
   [[nodiscard]] virtual bool may_touch_ground() const = 0;

@@ -19,6 +19,11 @@ VehicleExtras extras_of(const MissionSetup& setup) {
   return extras;
 }
 
+/// Whether the localizer's world may lie elsewhere than the one in which the vehicle is flown.
+bool localizer_errs(const MissionSetup& setup) {
+  return !setup.equipment.kernels.localizer->inputs().truth;
+}
+
 OperatingPoint start_point(const Scenario& scenario) {
   return {scenario.platform.cores, Hertz{scenario.platform.frequency_hz}};
 }
@@ -45,7 +50,8 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
     : workload{std::move(made)},
       graph{scenario.mission.workload},
       computer{setup.platform->model()},
-      board{start_point(scenario)} {
+      board{start_point(scenario)},
+      has_autopilot{on.autopilot != nullptr} {
   parts.brief = adapted_brief(scenario, setup, on);
   parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
   parts.mission = add_mission_topics(graph);
@@ -60,7 +66,7 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
   loop = std::make_unique<ClosedLoop>(*link, scenario, setup.things, *executor, queue,
                                       parts.vehicle, parts.kernels.localizer, on.autopilot);
   const auto pose = graph.find<PoseEstimate>("pose");
-  if (parts.brief->has_autopilot && pose) {
+  if (localizer_errs(setup) && pose) {
     loop->hear_localizer(*pose, graph.find<LocalizationStatus>("localization"));
   }
   referee =
@@ -76,7 +82,7 @@ std::shared_ptr<const Brief> SimulatedFlight::adapted_brief(const Scenario& scen
                                                             const MissionSetup& setup,
                                                             const FlightHardware& on) const {
   Brief brief = brief_of(scenario, setup);
-  brief.has_autopilot = on.autopilot != nullptr;
+  brief.leaves_errors_to_controller = on.autopilot != nullptr || localizer_errs(setup);
   workload->adapt(brief);
   return std::make_shared<const Brief>(std::move(brief));
 }

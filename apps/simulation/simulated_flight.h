@@ -50,6 +50,7 @@ struct SimulatedFlight {
   std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
   std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
   Duration period{};                       ///< Between decisions.
+  bool has_autopilot{};                    ///< That is none of the simulator's.
   std::unique_ptr<Executor> executor;
   std::unique_ptr<MissionLink> link;
   std::unique_ptr<ClosedLoop> loop;

@@ -41,8 +41,6 @@ class SimulatedPilot final : public Pilot {
   }
 
   void follow(const Setpoint& setpoint) override { controller_.follow(setpoint); }
-  /// Its controller flies by the truth, and the path tracker corrects what the localizer errs.
-  void localized(const PoseEstimate& /*where*/) override {}
 
   [[nodiscard]] FlightStatus status() const override {
     return {controller_.mode() != FlightMode::idle, controller_.is_done(vehicle_.state())};

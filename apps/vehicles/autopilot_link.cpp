@@ -3,7 +3,6 @@
 
 #include "flyball/runtime/realtime/cpus.h"
 
-#include "vehicles/odometry_frame.h"
 #include "vehicles/offboard_control.h"
 #include <utility>
 
@@ -29,8 +28,7 @@ AutopilotLink::AutopilotLink(std::unique_ptr<ByteStream> stream,
       tell_{std::move(tell)},
       clock_{std::move(clock)},
       clock_began_{clock_ ? clock_() : Duration::zero()},
-      cpus_{usable_cpus()},
-      frame_{std::make_unique<OdometryFrame>()} {}
+      cpus_{usable_cpus()} {}
 
 AutopilotLink::~AutopilotLink() {
   end_thread();
@@ -158,7 +156,6 @@ void AutopilotLink::step(MissionTime now) {
       exchange(asked_);
     }
     called_ = now_;
-    frame_->note(now, control_->motion(asked_).X_WB);
     if (!control_->failure().empty() && !has_failed_) {
       has_failed_ = true;
       news_.push_back(control_->failure());
@@ -174,14 +171,9 @@ void AutopilotLink::obey(const FlightCommand& command) {
 
 void AutopilotLink::follow(const Setpoint& setpoint) {
   const Lock lock{mutex_};
-  Setpoint shifted = frame_->in_odometry(setpoint);
+  Setpoint shifted = setpoint;
   shifted.stamp = MissionTime{mission_.host(setpoint.stamp)};
   control_->follow(shifted);
-}
-
-void AutopilotLink::localized(const PoseEstimate& where) {
-  const Lock lock{mutex_};
-  frame_->localized(where, !control_->is_in_charge());
 }
 
 ReportedMotion AutopilotLink::motion() const {

@@ -204,10 +204,10 @@ Setpoint Navigator::tick(MissionTime now,
   return path_tracker_->track(follower_.path(), reference, to_correct(here), now);
 }
 
-/// An autopilot corrects by itself.
+/// Nothing where the flight controller does it.
 PoseEstimate Navigator::to_correct(const PoseEstimate& here) const {
   PoseEstimate there = here;
-  if (brief_->has_autopilot) {
+  if (brief_->leaves_errors_to_controller) {
     there.X_WB.translation() = follower_.position_W();
   }
   return there;

@@ -4,6 +4,7 @@
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/records/summary.h"
 
+#include "simulation/judging/delivery_judge.h"
 #include "simulation/judging/map_judge.h"
 #include "simulation/judging/picture_judge.h"
 #include "simulation/judging/sighting_judge.h"
@@ -36,6 +37,11 @@ void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapp
     auto judge = std::make_unique<LocalizationJudge>(executor, *pose);
     loop_.on_navigation([judge = judge.get()](const TruePose& truth) { judge->note(truth); });
     judges_.push_back(std::move(judge));
+  }
+  if (const auto command = graph.find<FlightCommand>("flight_command")) {
+    judges_.push_back(std::make_unique<DeliveryJudge>(
+        executor, *command, link_.brief().site.goal_W,
+        [this]() -> Vec3 { return loop_.vehicle().state().X_WB.translation(); }));
   }
   const auto sightings = graph.find<Sightings>("sightings");
   const auto finding = graph.find<Finding>("finding");

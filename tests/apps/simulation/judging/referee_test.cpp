@@ -7,6 +7,7 @@
 #include "grid_map.h"
 #include "mission_rig.h"
 #include "short_delivery.h"
+#include "simulation/judging/delivery_judge.h"
 #include "simulation/judging/picture_judge.h"
 #include "simulation/judging/sighting_judge.h"
 
@@ -26,6 +27,33 @@ class Judged : public testing::Test {
   Graph graph{"judged"};
   MissionTopics topics{add_mission_topics(graph)};
 };
+
+class Delivered : public Judged {
+ protected:
+  void command(FlightCommand::Kind kind) { executor.publish(commands, FlightCommand{kind, 0.0}); }
+
+  Vec3 where_W{Vec3::Zero()};
+  Topic<FlightCommand> commands{graph.topic<FlightCommand>("command", 8)};
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+  DeliveryJudge judge{executor, commands, {10.0, 0.0, 2.0}, [this] { return where_W; }};
+};
+
+TEST_F(Delivered, a_payload_that_was_never_released_is_not_judged) {
+  where_W = {50.0, 0.0, 2.0};
+  command(FlightCommand::Kind::land);
+  EXPECT_EQ(judge.objection(), MissionFailure::none);
+  EXPECT_TRUE(judge.figures().empty());
+}
+
+TEST_F(Delivered, a_payload_has_to_be_released_within_two_metres_of_the_goal) {
+  where_W = {11.0, 1.0, 0.0};
+  command(FlightCommand::Kind::release_payload);
+  EXPECT_EQ(judge.objection(), MissionFailure::none);
+  EXPECT_NEAR(judge.figures().at("delivery_error_m"), 1.414, 0.001);
+  where_W = {10.0, 2.1, 0.0};
+  command(FlightCommand::Kind::release_payload);
+  EXPECT_EQ(judge.objection(), MissionFailure::misdelivered);
+}
 
 class Sighted : public Judged {
  protected:

@@ -54,10 +54,10 @@ struct Brief {
 
   /// Whether the localizer takes images, so that the place is known from frame to frame only.
   bool sees_its_place{};
-  /// Whether an autopilot keeps the vehicle at its set-points, which are carried over into its own
-  /// frame. A second correction beside its loops is unstable: an ArduCopter swayed by 4 m along its
-  /// path.
-  bool has_autopilot{};
+  /// Whether the flight controller alone corrects errors of the place, because set-points are
+  /// carried over into its frame (`OdometryFrame`). A second correction beside its loops is
+  /// unstable: an ArduCopter swayed by 4 m along its path.
+  bool leaves_errors_to_controller{};
 
   /// The body with its tracking tube at a speed.
   [[nodiscard]] Cylinder body_at(double speed_m_s) const;

@@ -20,6 +20,7 @@ enum class MissionFailure : std::uint8_t {
   not_found,          ///< Everything was searched; the person was not seen.
   incomplete,         ///< Less was covered or mapped than the mission asks for.
   false_alarm,        ///< A person was reported where nobody stands.
+  misdelivered,       ///< The payload was released elsewhere than at the goal.
   autopilot           ///< It refused a command, or somebody took the vehicle over.
 };
 

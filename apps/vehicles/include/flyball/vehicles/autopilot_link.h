@@ -23,7 +23,6 @@
 
 namespace flyball {
 
-class OdometryFrame;    // see apps/vehicles/odometry_frame.h
 class OffboardControl;  // see apps/vehicles/offboard_control.h
 
 /// Owned and called by one thread. After `connect` mission time begins at 0.
@@ -54,11 +53,7 @@ class AutopilotLink {
   /// Ready to arm is the autopilot's affair: a refusal is a `failure`. A payload it cannot release.
   void obey(const FlightCommand& command);
   /// Flown while the vehicle is up, from the end of its take-off on. Not finite: refused.
-  /// @param setpoint  In the localizer's world.
   void follow(const Setpoint& setpoint);
-  /// Where the localizer has the vehicle. Set-points are carried over by it into the autopilot's
-  /// frame (`OdometryFrame`); where nobody says so, the two are the same.
-  void localized(const PoseEstimate& where);
 
   /// At the time of the last step.
   [[nodiscard]] ReportedMotion motion() const;
@@ -108,7 +103,6 @@ class AutopilotLink {
   Duration asked_{};   ///< When the mission was where its last step says.
   Duration called_{};  ///< When the caller was heard last.
   ClockOffset mission_{};
-  std::unique_ptr<OdometryFrame> frame_;
   Duration next_landing_try_{};
   bool is_broken_{};   ///< The stream said so, and people were told.
   bool has_failed_{};  ///< The flight, and people were told.

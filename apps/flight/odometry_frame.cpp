@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vehicles/odometry_frame.h"
+#include "flyball/flight/odometry_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto memory = 1s;  // Chosen: the answer of the slowest localizer takes less.
-// Chosen, as the path tracker corrects a simulated vehicle: slower than an autopilot's position
-// loop (1 /s), and never so fast that the vehicle is thrown.
+// Chosen: slower than a flight controller's position loop (1 /s), and never so fast that the
+// vehicle is thrown.
 constexpr double gain_1_s = 0.8;
 constexpr double max_shift_m_s = 0.5;
 constexpr double max_turn_rad_s = 0.2;
@@ -38,7 +38,7 @@ void OdometryFrame::note(MissionTime now, const Pose& X_OB) {
   }
 }
 
-const Pose* OdometryFrame::autopilot_at(MissionTime at) const {
+const Pose* OdometryFrame::controller_at(MissionTime at) const {
   const auto later =
       std::upper_bound(noted_.begin(), noted_.end(), at,
                        [](MissionTime t, const Noted& noted) { return t < noted.at; });
@@ -46,7 +46,7 @@ const Pose* OdometryFrame::autopilot_at(MissionTime at) const {
 }
 
 void OdometryFrame::localized(const PoseEstimate& where, bool is_standing) {
-  const Pose* X_OB = autopilot_at(where.stamp);
+  const Pose* X_OB = controller_at(where.stamp);
   if (X_OB == nullptr || !where.X_WB.matrix().allFinite()) {
     return;
   }

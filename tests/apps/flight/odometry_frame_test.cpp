@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vehicles/odometry_frame.h"
+#include "flyball/flight/odometry_frame.h"
 
 #include <cmath>
 #include <limits>
