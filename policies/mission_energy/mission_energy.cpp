@@ -36,7 +36,7 @@ class MissionEnergy final : public flyball::Policy,
         {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
         {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
-        {"half_view_nodes", 1.0, 0.0, 1000.0,
+        {"half_view_nodes", 0.35, 0.0, 1000.0,
          "Nodes with which an explorer's view shows half of what the best would; 0: as set."},
         {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
     all.insert(all.end(), own.begin(), own.end());

@@ -37,6 +37,7 @@ std::variant<Scenario, std::vector<Error>> load_to_fly(const std::string& name_o
     return scenario;
   }
   std::vector<std::string> given;
+  given.reserve(overrides.size());
   for (const Override& one : overrides) {
     given.push_back(key_of(one.key_and_value));
   }
