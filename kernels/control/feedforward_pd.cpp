@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The reference's own position, velocity and acceleration go to the autopilot, whose loops supply
-// the proportional and derivative action; a position error adds a little velocity, so that an
-// estimate that has drifted from the autopilot's own is followed.
+// the proportional and derivative action; a position error adds a little velocity. That takes
+// nobody to an estimate that has drifted from the autopilot's own: set-points are carried over for
+// that (flight/odometry_frame.h), and the caller reports no error then.
 
 #include "flyball/kernels/path_tracker.h"
 #include "flyball/runtime/registry.h"
