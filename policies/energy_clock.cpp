@@ -6,14 +6,11 @@
 // by waiting longer for everything else that it computes. While the vehicle is idle, it takes the
 // lowest clock that makes maps soon enough.
 
-#include "flyball/governors/energy_search.h"
-#include "flyball/governors/idle.h"
+#include "flyball/governors/clock_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
-#include "flyball/governors/search_space.h"
-#include "flyball/governors/waiting_share.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
@@ -23,7 +20,6 @@
 
 namespace {
 
-using flyball::MissionPhase;
 using flyball::Observation;
 
 class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency {
@@ -57,54 +53,47 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
                    [&](double one_m) { return cells.is_legal(one_m); });
     }
     range_m_ = knobs.value("map.range_m");
+    flyball::ClockSearchSettings settings;
+    settings.reaction_s = flyball::to_seconds(board.vehicle.reaction_time);
+    settings.rest_s = given.number("rest_s");
     const auto levels = flyball::levels_between(cells_m, given.number("fine_latency_s"),
                                                 given.number("coarse_latency_s"));
-    flyball::EnergySearchSettings settings;
-    settings.reaction_s = flyball::to_seconds(board.vehicle.reaction_time);
-    auto search = flyball::EnergySearch::make(settings, levels, {range_m_}, knobs, *power);
+    auto search = flyball::ClockSearch::make(settings, levels, knobs, *power);
     if (!search) {
       return flyball::Error{search.error().code,
                             "policy \"energy_clock\": " + search.error().message};
     }
     search_.emplace(std::move(*search));
-    idle_.emplace(given.number("rest_s"));
     return flyball::Done{};
   }
 
   [[nodiscard]] flyball::Decision decide(const Observation& seen) noexcept override {
     search_->learn(seen);
-    waiting_.note(seen);
     flyball::Decision wish;
     wish.reason = flyball::Reason::energy;
     wish.set("cpu.frequency_hz", clock_hz(seen));
     return wish;
   }
 
-  [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
+  [[nodiscard]] flyball::BoundCount bounds() const noexcept override {
+    return search_->latency().bounds();
+  }
   [[nodiscard]] std::vector<flyball::LevelBounds> bound_levels() const override {
-    return search_->bound_levels();
+    return search_->latency().bound_levels();
   }
 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
-    const double cells_m = search_->nearest_cells_m(seen.map_resolution_m);
-    if (const auto within_s = idle_->allowed_s(seen)) {
-      return search_->idle(cells_m, range_m_, *within_s, idle_->raised_by(), seen.now).clock_hz;
+    const flyball::MapSetting map{search_->latency().nearest_cells_m(seen.map_resolution_m),
+                                  range_m_, 0.0};
+    if (const auto within_s = search_->idle_map_s(seen)) {
+      return search_->rest(map, *within_s, seen.now).clock_hz;
     }
-    flyball::Surroundings around = flyball::limits_of(seen);
-    // Indoors paths are short and walls end the view, so latency limits the speed long before the
-    // map's range does.
-    around.visibility_m = flyball::shown_free_m(seen);
-    around.coarsest_m = around.finest_m = cells_m;
-    around.needs_top_clock = flyball::is_held_up(seen) || seen.planner_failures > 0;
-    around.waits = waiting_;
-    return search_->choose(around, seen.now).setting.clock_hz;
+    return search_->choose(map, seen, seen.planner_failures > 0).clock_hz;
   }
 
   double range_m_{};
-  std::optional<flyball::EnergySearch> search_{};
-  std::optional<flyball::Idle> idle_{};
-  flyball::WaitingShare waiting_{};
+  std::optional<flyball::ClockSearch> search_{};
 };
 
 }  // namespace

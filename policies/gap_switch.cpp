@@ -6,7 +6,6 @@
 
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
-#include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>

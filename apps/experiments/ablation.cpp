@@ -17,7 +17,6 @@ struct Part {
 };
 
 constexpr std::array parts{
-    Part{"mission_energy_without_search", "search"},
     Part{"mission_energy_without_resolution", "resolution"},
     Part{"mission_energy_without_range", "range"},
     Part{"mission_energy_without_clock", "clock"},

@@ -17,4 +17,12 @@ Status require_knobs(const std::string& owner,
                owner + ": there is no knob " + missing + "; try: flyball list knobs"};
 }
 
+double smallest_cells_m(const KnobSpec& resolution, double given_m) {
+  constexpr double usual_m = 0.15;  // MAVBench's fine cells.
+  if (given_m > 0.0) {
+    return resolution.nearest(given_m);
+  }
+  return resolution.legal.empty() ? usual_m : resolution.legal.front();
+}
+
 }  // namespace flyball

@@ -4,18 +4,19 @@
 /// @file
 /// `mission_energy` without one of its parts, which shows by flights what that part earns.
 
-#include "flyball/governors/energy_search.h"
+#include "flyball/governors/learned_latency.h"
 #include "flyball/runtime/board.h"
 #include "flyball/runtime/observation.h"
 #include "flyball/runtime/parameters.h"
 
+#include "map_rule.h"
 #include <cstdint>
 #include <vector>
 
 namespace flyball {
 
 /// All that is known of a part that is left out stands here, so that the rule itself has no
-/// branches for it: what the rule is told is changed, or what it tells the search. Nothing
+/// branches for it: what the rule is told is changed, or what it takes. Nothing
 /// allocates after construction.
 class Ablation {
  public:
@@ -31,36 +32,30 @@ class Ablation {
   [[nodiscard]] Parameters begins_with(const Parameters& given,
                                        const std::vector<ParameterSpec>& specs) const;
   [[nodiscard]] BoardModel begins_with(BoardModel board) const;
-  [[nodiscard]] EnergySearchSettings begins_with(EnergySearchSettings settings) const;
+  [[nodiscard]] LearnedLatencySettings begins_with(LearnedLatencySettings settings) const;
 
-  /// What the search learns from, and what the limits look at.
+  /// What the policy learns from and looks at.
   [[nodiscard]] Observation seen(Observation seen) const;
-  /// Changes what the search may choose.
-  void limit(Surroundings& around, const EnergySearch& search) const;
-  /// Whether the top clock is kept also while the vehicle is idle.
+  /// The map that the policy takes.
+  [[nodiscard]] MapSetting map(const MapRule& rule, MapNeeds needs) const;
+  /// Whether no lower clock than the highest is taken.
   [[nodiscard]] bool keeps_top_clock() const { return part_ == Part::clock; }
 
  private:
   enum class Part : std::uint8_t {
     none,
-    search,
     resolution,
     range,
     clock,
     latency_learning,
     gaps,
-    visibility,
     ceiling,
     rotor_power,
     declared_zones,
-    detour_prices,
     view_budgets,
     noise_limit,
     wide_first_bound
   };
-  /// Leaves one setting in cruise: the largest cells that the limits allow, with gap_switch's range
-  /// for them.
-  static void leave_one(Surroundings& around, const EnergySearch& search);
   struct Named;
   static const std::vector<Named>& parts();
   Part part_{Part::none};

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The least energy per metre of progress. MissionLimits says which settings the path ahead allows;
-// EnergySearch compares the settings of map and clock, and learns latency and rotor power in
-// flight. While the vehicle is idle, only the clock is chosen. ViewBudget says how long a vehicle
-// that explores looks for its next view.
+// The map by a rule, and the clock with the least energy per metre for that map. MapRule says which
+// cells and which range the path ahead asks for; ClockSearch compares the clocks, and learns
+// latency, its bound and rotor power in flight. While the vehicle is idle, the scenario's map stays
+// and only the clock is chosen. ViewBudget says how long a vehicle that explores looks for its next
+// view.
 
-#include "flyball/governors/energy_search.h"
+#include "flyball/governors/clock_search.h"
 #include "flyball/governors/policy.h"
 #include "flyball/governors/policy_abilities.h"
-#include "flyball/governors/search_space.h"
 #include "flyball/runtime/registry.h"
 
 #include "ablation.h"
-#include "limited_search.h"
+#include "map_and_clock.h"
 #include "view_budget.h"
 #include <cmath>
 #include <optional>
@@ -29,16 +29,13 @@ class MissionEnergy final : public flyball::Policy,
                             public flyball::ComparesOptions {
  public:
   [[nodiscard]] std::vector<flyball::ParameterSpec> parameters() const override {
-    auto all = flyball::MissionLimits::parameters();
+    auto all = flyball::MapAndClock::parameters();
     const std::vector<flyball::ParameterSpec> own{
-        {"fine_latency_s", 0.5, 0.001, 60.0, "Sensor to map, 7 m, top clock; learned later."},
-        {"coarse_latency_s", 0.12, 0.001, 60.0, "The same of the coarse map."},
         {"alpha", 0.05, 0.001, 0.5, "Share of maps that may come later than bounded."},
         {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
         {"half_view_nodes", 0.35, 0.0, 1000.0,
-         "Nodes with which an explorer's view shows half of what the best would; 0: as set."},
-        {"deceleration_m_s2", 0.0, 0.0, 20.0, "Of eq. 2; 0: as the mission brakes."}};
+         "Nodes with which an explorer's view shows half of what the best would; 0: as set."}};
     all.insert(all.end(), own.begin(), own.end());
     all.push_back(flyball::Ablation::parameter());
     return all;
@@ -49,9 +46,8 @@ class MissionEnergy final : public flyball::Policy,
                         const flyball::BoardModel& board) override {
     without_.emplace(all);
     const flyball::Parameters given = without_->begins_with(all, parameters());
-    deceleration_m_s2_ = given.number("deceleration_m_s2");
-    auto made = flyball::LimitedSearch::make(std::string{self}, given, knobs,
-                                             without_->begins_with(board), search_settings(given));
+    auto made = flyball::MapAndClock::make(std::string{self}, given, knobs,
+                                           without_->begins_with(board), latency_settings(given));
     if (!made) {
       return made.error();
     }
@@ -59,23 +55,14 @@ class MissionEnergy final : public flyball::Policy,
     if (const double half = given.number("half_view_nodes"); can_explore && half > 0.0) {
       views_.emplace(half);
     }
-    limits_.emplace(std::move(made->limits));
-    search_.emplace(std::move(made->search));
+    both_.emplace(std::move(*made));
     return flyball::Done{};
   }
 
   [[nodiscard]] flyball::Decision decide(const Observation& all) noexcept override {
-    constexpr std::size_t every_step = 1000;  // More than any computer has clocks.
     const Observation seen = without_->seen(all);
-    search_->learn(seen);
-    const auto within_s = limits_->idle_map_s(seen);
-    const MapSetting& home = limits_->home();
-    const std::size_t raised_by =
-        without_->keeps_top_clock() ? every_step : limits_->idle_raised_by();
-    const MapSetting best =
-        within_s ? search_->idle(home.resolution_m, home.range_m, *within_s, raised_by, seen.now)
-                 : search_->choose(surroundings(seen), seen.now).setting;
-    flyball::Decision wish = flyball::decision_for(best);
+    both_->clock.learn(seen);
+    flyball::Decision wish = flyball::decision_for(chosen(seen));
     if (views_ && flyball::explores(seen)) {
       views_->note(seen);
       wish.set("explore.iterations", views_->nodes());
@@ -83,21 +70,24 @@ class MissionEnergy final : public flyball::Policy,
     return wish;
   }
 
-  [[nodiscard]] flyball::BoundCount bounds() const noexcept override { return search_->bounds(); }
+  [[nodiscard]] flyball::BoundCount bounds() const noexcept override {
+    return both_->clock.latency().bounds();
+  }
   [[nodiscard]] std::vector<flyball::LevelBounds> bound_levels() const override {
-    return search_->bound_levels();
+    return both_->clock.latency().bound_levels();
   }
 
   [[nodiscard]] std::vector<flyball::PolicyOption> options() const override {
-    return flyball::options_of(search_->weighed());
+    return flyball::options_of(both_->clock.weighed());
   }
 
  private:
   static constexpr const char* self = "policy \"mission_energy\"";
 
-  [[nodiscard]] flyball::Result<flyball::EnergySearchSettings> search_settings(
+  [[nodiscard]] flyball::Result<flyball::LearnedLatencySettings> latency_settings(
       const flyball::Parameters& given) const {
-    flyball::EnergySearchSettings settings = without_->begins_with(flyball::EnergySearchSettings{});
+    flyball::LearnedLatencySettings settings =
+        without_->begins_with(flyball::LearnedLatencySettings{});
     settings.bound.alpha = given.number("alpha");
     settings.learn_s = given.number("learn_s");
     if (const double margin = given.number("margin"); margin != 0.0) {
@@ -112,19 +102,20 @@ class MissionEnergy final : public flyball::Policy,
     return settings;
   }
 
-  [[nodiscard]] flyball::Surroundings surroundings(const Observation& seen) noexcept {
-    flyball::Surroundings around = limits_->look(seen, search_->in_force());
-    if (deceleration_m_s2_ > 0.0) {
-      around.deceleration_m_s2 = deceleration_m_s2_;
+  [[nodiscard]] MapSetting chosen(const Observation& seen) noexcept {
+    flyball::ClockSearch& clock = both_->clock;
+    const bool keeps_top = without_->keeps_top_clock();
+    if (const auto within_s = clock.idle_map_s(seen)) {
+      const MapSetting& home = both_->map.home();
+      return keeps_top ? clock.choose(home, seen, true) : clock.rest(home, *within_s, seen.now);
     }
-    without_->limit(around, *search_);
-    return around;
+    const flyball::MapNeeds needs = both_->map.look(seen, clock.in_force().resolution_m);
+    const MapSetting map = without_->map(both_->map, needs);
+    return clock.choose(map, seen, keeps_top || needs.needs_top_clock);
   }
 
-  double deceleration_m_s2_{};
   std::optional<flyball::Ablation> without_{};
-  std::optional<flyball::MissionLimits> limits_{};
-  std::optional<flyball::EnergySearch> search_{};
+  std::optional<flyball::MapAndClock> both_{};
   std::optional<flyball::ViewBudget> views_{};  ///< Empty where that knob is not to be turned.
 };
 

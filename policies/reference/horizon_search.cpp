@@ -1,42 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "horizon_search.h"
 
-#include "flyball/governors/search_space.h"
 #include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace flyball {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// Of what is flown with the setting that is chosen; see EnergySearch.
+// Of what is flown with the setting that is chosen; see ClockSearch.
 constexpr double equal = 1e-3;
 constexpr double rounding = 1e-9;
 
 }  // namespace
 
-HorizonSearch::HorizonSearch(const HorizonSettings& settings, const EnergySearch& search)
+HorizonSearch::HorizonSearch(const HorizonSettings& settings,
+                             const ClockSearch& search,
+                             std::vector<MapSetting> points)
     : settings_{settings},
       price_{search.settings()},
+      points_{std::move(points)},
+      top_clock_hz_{search.clocks_hz().back()},
       speeds_{static_cast<std::size_t>(settings.most_speed_m_s / settings.speed_step_m_s) + 1} {
-  const OperatingPoints& all = search.points();
-  const std::vector<double>& cells_m = search.cells_m();
-  levels_ = cells_m.size();
-  finest_m_ = cells_m.front();
-  top_clock_hz_ = search.clocks_hz().back();
-  for (std::size_t point = 0; point < all.size(); ++point) {
-    const double* at = all.values(point);
-    if (at[1] > search.most_range_m(at[0])) {
-      continue;
-    }
-    points_.push_back({at[0], at[1], at[2]});
-    const auto cell = std::find(cells_m.begin(), cells_m.end(), at[0]);
-    level_of_.push_back(static_cast<std::size_t>(cell - cells_m.begin()));
+  FLYBALL_ASSERT(!points_.empty(), "no settings to compare");
+  finest_m_ = points_.front().resolution_m;
+  double cells_m = finest_m_;
+  for (const MapSetting& one : points_) {
+    levels_ += one.resolution_m != cells_m ? 1 : 0;
+    cells_m = one.resolution_m;
+    level_of_.push_back(levels_);
   }
+  ++levels_;
   rotor_w_.resize(2 * speeds_);
   edge_j_.resize(2 * speeds_);
   computer_w_.resize(points_.size());
@@ -49,27 +48,33 @@ double HorizonSearch::speed(std::size_t index) const {
   return static_cast<double>(index) * settings_.speed_step_m_s;
 }
 
-double HorizonSearch::response_s(double frame_s) const {
-  const double bound_s = settings_.bound_over_true * frame_s;
-  return bound_s + std::max(bound_s, price_.frame_s) + price_.reaction_s;
+double HorizonSearch::bounded_response_s(double frame_s) const {
+  return response_s(price_, settings_.bound_over_true * frame_s);
+}
+
+double HorizonSearch::path_over_line(double resolution_m, double shows_m) const {
+  const double w_m = settings_.half_width_m;
+  const double s_m = std::max(shows_m, 0.0);
+  return 1.0 + (resolution_m + std::hypot(s_m, w_m) - s_m) / settings_.spacing_m;
 }
 
 bool HorizonSearch::is_allowed(std::size_t point, const Stretch& here) const {
   const MapSetting& one = points_[point];
-  const Surroundings& around = *here.around;
-  const bool is_soon = response_s(here.frame_s[point]) <= around.most_response_s;
-  return one.resolution_m <= std::max(around.coarsest_m, finest_m_) + rounding && is_soon &&
-         !(one.range_m < around.least_range_m) &&
-         (!around.needs_top_clock || one.clock_hz == top_clock_hz_);
+  const PlaceLimits& limits = *here.limits;
+  const bool is_soon = bounded_response_s(here.frame_s[point]) <= limits.most_response_s;
+  return one.resolution_m <= std::max(limits.coarsest_m, finest_m_) + rounding && is_soon &&
+         !(one.range_m < limits.least_range_m) &&
+         (!limits.needs_top_clock || one.clock_hz == top_clock_hz_);
 }
 
 /// The last speed that eq. 2 and the mission allow. A crawl always is: somebody else stops.
 std::size_t HorizonSearch::fastest(std::size_t point, const Stretch& here) const {
-  const Surroundings& around = *here.around;
-  const SpeedLimit limit{around.deceleration_m_s2};
-  const double distance_m = free_ahead_m(price_, points_[point], around.visibility_m);
-  const double v_m_s = std::min(limit.speed_m_s(response_s(here.frame_s[point]), distance_m),
-                                around.speed_limit_m_s);
+  const PlaceLimits& limits = *here.limits;
+  const SpeedLimit limit{limits.around.deceleration_m_s2};
+  const double distance_m = free_ahead_m(points_[point], limits.around.visibility_m);
+  const double v_m_s =
+      std::min(limit.speed_m_s(bounded_response_s(here.frame_s[point]), distance_m),
+               limits.around.speed_limit_m_s);
   const auto index = static_cast<std::size_t>(v_m_s / settings_.speed_step_m_s + rounding);
   return std::clamp<std::size_t>(index, 1, speeds_ - 1);
 }
@@ -85,12 +90,12 @@ void HorizonSearch::price_edges(std::size_t point, const Stretch& here, std::siz
 
 /// @param speeds  The sum of both ends' indices.
 double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t speeds) const {
-  const Surroundings& around = *here.around;
+  const PlaceLimits& limits = *here.limits;
   const MapSetting& one = points_[point];
   const double v_m_s = 0.5 * speed(speeds);
-  const double shows_m =
-      free_ahead_m(price_, one, around.visibility_m) - v_m_s * response_s(here.frame_s[point]);
-  const double ratio = path_over_line(price_, one.resolution_m, shows_m);
+  const double shows_m = free_ahead_m(one, limits.around.visibility_m) -
+                         v_m_s * bounded_response_s(here.frame_s[point]);
+  const double ratio = path_over_line(one.resolution_m, shows_m);
   return here.length_m * ratio * (rotor_w_[speeds] + computer_w_[point]) / v_m_s;
 }
 
@@ -98,7 +103,7 @@ double HorizonSearch::edge_j(std::size_t point, const Stretch& here, std::size_t
 double HorizonSearch::onward_j(std::size_t point, const Stretch& here, std::size_t from) const {
   const double v2 = speed(from) * speed(from);
   const double most2 = v2 + 2.0 * settings_.accelerates_m_s2 * here.length_m;
-  const double least2 = v2 - 2.0 * here.around->deceleration_m_s2 * here.length_m;
+  const double least2 = v2 - 2.0 * here.limits->around.deceleration_m_s2 * here.length_m;
   const double* rest_j = &rest_j_[level_of_[point] * speeds_];
   double least_j = never;
   for (std::size_t to = 0; to < speeds_ && speed(to) * speed(to) <= most2 + rounding; ++to) {
@@ -134,13 +139,13 @@ void HorizonSearch::switch_where_it_pays() {
   }
 }
 
-void HorizonSearch::note_computer(const EnergySearch& search, const Stretch& here) {
+void HorizonSearch::note_computer(const ClockSearch& search, const Stretch& here) {
   for (std::size_t point = 0; point < points_.size(); ++point) {
     computer_w_[point] = search.computer_power(points_[point], here.frame_s[point]).value();
   }
 }
 
-void HorizonSearch::go_back_over(const EnergySearch& search, const Stretch& here) {
+void HorizonSearch::go_back_over(const ClockSearch& search, const Stretch& here) {
   note_computer(search, here);
   switch_where_it_pays();
   std::fill(here_j_.begin(), here_j_.end(), never);
@@ -160,7 +165,7 @@ void HorizonSearch::go_back_over(const EnergySearch& search, const Stretch& here
 
 /// From the speed that there is, or the next lower one from which it can go on: a vehicle that is
 /// too fast for a setting brakes.
-void HorizonSearch::weigh_first(const EnergySearch& search, const Stretch& here, double speed_m_s) {
+void HorizonSearch::weigh_first(const ClockSearch& search, const Stretch& here, double speed_m_s) {
   note_computer(search, here);
   switch_where_it_pays();
   const auto now = static_cast<std::size_t>(
@@ -175,8 +180,8 @@ void HorizonSearch::weigh_first(const EnergySearch& search, const Stretch& here,
     }
     const std::size_t most = fastest(point, here);
     price_edges(point, here, most);
-    estimate.response_s = response_s(here.frame_s[point]);
-    estimate.speed_m_s = std::min(speed(most), here.around->speed_limit_m_s);
+    estimate.response_s = bounded_response_s(here.frame_s[point]);
+    estimate.speed_m_s = std::min(speed(most), here.limits->around.speed_limit_m_s);
     for (std::size_t v = std::min(now, most) + 1; v-- > 0 && !(estimate.joules_per_m < never);) {
       estimate.joules_per_m = onward_j(point, here, v);
     }
@@ -200,21 +205,21 @@ std::optional<EnergyEstimate> HorizonSearch::best(double within) const {
   return soonest;
 }
 
-std::optional<EnergyEstimate> HorizonSearch::choose(const EnergySearch& search,
+std::optional<EnergyEstimate> HorizonSearch::choose(const ClockSearch& search,
                                                     const Foresight& truth,
-                                                    const std::vector<Surroundings>& around,
+                                                    const std::vector<PlaceLimits>& limits,
                                                     double speed_m_s) {
   const std::size_t places = truth.places.size();
   FLYBALL_ASSERT(
-      places >= 2 && around.size() >= places && truth.frame_s.size() == places * points_.size(),
-      "%zu places, %zu surroundings, %zu durations of %zu settings", places, around.size(),
+      places >= 2 && limits.size() >= places && truth.frame_s.size() == places * points_.size(),
+      "%zu places, %zu limits, %zu durations of %zu settings", places, limits.size(),
       truth.frame_s.size(), points_.size());
   for (std::size_t i = 0; i < rotor_w_.size(); ++i) {
     rotor_w_[i] = search.rotor_power(0.5 * speed(i)).value();
   }
   const auto stretch = [&](std::size_t place) {
     const double next_m = truth.places[std::min(place + 1, places - 1)].ahead_m;
-    return Stretch{next_m - truth.places[place].ahead_m, &around[place],
+    return Stretch{next_m - truth.places[place].ahead_m, &limits[place],
                    &truth.frame_s[place * points_.size()]};
   };
   end_at(stretch(places - 1));

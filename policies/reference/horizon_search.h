@@ -5,8 +5,9 @@
 /// Which settings of map and clock take the least energy over the next some tens of metres, for
 /// whoever knows how long their jobs will take there.
 
-#include "flyball/governors/energy_search.h"
+#include "flyball/governors/clock_search.h"
 #include "flyball/governors/foresight.h"
+#include "flyball/governors/surroundings.h"
 
 #include <optional>
 #include <vector>
@@ -22,6 +23,20 @@ struct HorizonSettings {
   /// frame. Chosen.
   double switching_s{0.2};
   double bound_over_true{1.1};  ///< The navigator's bound over the largest latency measured.
+  /// Mean length of path from obstacle to obstacle. Chosen: in RoboRun's congestion it is 20 m, in
+  /// a forest less.
+  double spacing_m{10.0};
+  double half_width_m{5.0};  ///< Half the width of such an obstacle: of a room, or of one of
+                             ///< RoboRun's blocks with the space beside it.
+};
+
+/// What limits the choice at a place on the way.
+struct PlaceLimits {
+  Surroundings around{};
+  double coarsest_m{};     ///< The largest cells with which the path ahead is passable.
+  double least_range_m{};  ///< Of the map.
+  double most_response_s{1e9};
+  bool needs_top_clock{};  ///< Something is computed there that the price does not count.
 };
 
 /// Dynamic programming over arc length s, speed v and setting c:
@@ -30,25 +45,32 @@ struct HorizonSettings {
 ///     E = ds (P_rotor(v) + P_computer(c)) / v * l
 ///
 /// v <= v_c(s), eq. 2 for the true duration of a frame at s; v' within braking and acceleration of
-/// v; c no coarser than what is passable at s. l is that of `EnergySearch`. Nothing allocates after
-/// construction.
+/// v; c no coarser than what is passable at s. l is the length of the path over that of the
+/// straight line: an obstacle of half width w that comes into view s ahead makes the path longer by
+/// sqrt(s^2 + w^2) - s, and by the cell that its border fills,
+///
+///     l = 1 + (cell + sqrt(s^2 + w^2) - s) / spacing,  s = min(range - cell, visibility) - v delta
+///
+/// Nothing allocates after construction.
 class HorizonSearch {
  public:
-  /// @param search  Gives the points, and the power of rotors and computer.
-  HorizonSearch(const HorizonSettings& settings, const EnergySearch& search);
+  /// @param points  The settings that are compared, by ascending cells. @pre Not empty.
+  /// @param search  Gives the power of rotors and computer.
+  HorizonSearch(const HorizonSettings& settings,
+                const ClockSearch& search,
+                std::vector<MapSetting> points);
 
   /// The settings whose durations a `Foresight` must tell, in this order.
   [[nodiscard]] const std::vector<MapSetting>& points() const { return points_; }
   /// @param truth   Its places are ascending, the first one here.
-  /// @param around  What limits the search at each of these places.
+  /// @param limits  At each of these places.
   /// @param speed_m_s  Now.
   /// @return        The setting for now, with energy per metre over the whole horizon; empty where
-  /// no
-  ///                setting leads to the end.
+  ///                no setting leads to the end.
   /// @pre Search and settings are those of the construction; two places at least.
-  [[nodiscard]] std::optional<EnergyEstimate> choose(const EnergySearch& search,
+  [[nodiscard]] std::optional<EnergyEstimate> choose(const ClockSearch& search,
                                                      const Foresight& truth,
-                                                     const std::vector<Surroundings>& around,
+                                                     const std::vector<PlaceLimits>& limits,
                                                      double speed_m_s);
   /// What the last `choose` expected of each setting, if it is the first one; infinite joules where
   /// it is not allowed.
@@ -58,10 +80,11 @@ class HorizonSearch {
   /// A stretch of path on which nothing changes but speed.
   struct Stretch {
     double length_m{};
-    const Surroundings* around{};
+    const PlaceLimits* limits{};
     const double* frame_s{};  ///< By point.
   };
-  [[nodiscard]] double response_s(double frame_s) const;
+  [[nodiscard]] double bounded_response_s(double frame_s) const;
+  [[nodiscard]] double path_over_line(double resolution_m, double shows_m) const;
   [[nodiscard]] std::size_t fastest(std::size_t point, const Stretch& here) const;
   [[nodiscard]] bool is_allowed(std::size_t point, const Stretch& here) const;
   [[nodiscard]] double speed(std::size_t index) const;
@@ -71,14 +94,14 @@ class HorizonSearch {
   [[nodiscard]] double onward_j(std::size_t point, const Stretch& here, std::size_t from) const;
   void end_at(const Stretch& last);
   void switch_where_it_pays();
-  void note_computer(const EnergySearch& search, const Stretch& here);
-  void go_back_over(const EnergySearch& search, const Stretch& here);
-  void weigh_first(const EnergySearch& search, const Stretch& here, double speed_m_s);
+  void note_computer(const ClockSearch& search, const Stretch& here);
+  void go_back_over(const ClockSearch& search, const Stretch& here);
+  void weigh_first(const ClockSearch& search, const Stretch& here, double speed_m_s);
   [[nodiscard]] std::optional<EnergyEstimate> best(double within) const;
   double& rest_j(std::size_t level, std::size_t speed) { return rest_j_[level * speeds_ + speed]; }
 
   HorizonSettings settings_;
-  EnergySearchSettings price_;
+  ClockSearchSettings price_;
   std::vector<MapSetting> points_{};
   std::vector<std::size_t> level_of_{};  ///< Of each point's cells.
   std::size_t levels_{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/latency_bound.h"
 
-#include "flyball/governors/energy_search.h"
+#include "flyball/governors/learned_latency.h"
 #include "flyball/runtime/random.h"
 
 #include <cmath>
@@ -100,7 +100,7 @@ double misses_of_short_levels(const std::function<double(RandomStream&)>& error)
   RandomStream draw{10, "bound"};
   std::uint64_t misses = 0;
   for (int flight = 0; flight < 200; ++flight) {
-    QuantileTracker tracker{EnergySearchSettings{}.bound};
+    QuantileTracker tracker{LearnedLatencySettings{}.bound};
     (void)mean_miss(tracker, 50, [&](double) { return error(draw); });
     misses += tracker.misses();
   }

@@ -9,12 +9,12 @@
 namespace flyball {
 namespace {
 
-std::string plugin(const std::string& name) {
+std::string test_library(const std::string& name) {
   return std::string{FLYBALL_TEST_PLUGINS} + "/" + name + ".so";
 }
 
 std::unique_ptr<Policy> opened(const std::string& name, std::uint64_t seed = 1) {
-  auto policy = LibraryPolicy::open(plugin(name), seed);
+  auto policy = LibraryPolicy::open(test_library(name), seed);
   EXPECT_TRUE(policy.ok()) << policy.error().message;
   return policy ? std::move(*policy) : nullptr;
 }
@@ -66,14 +66,14 @@ TEST(LibraryPolicy, says_why_it_does_not_start) {
   const auto policy = opened("culprit");
   const Status refused = kit::start(*policy, {{"crime", 8.0}});
   ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(plugin("culprit") + ": not today", refused.error().message);
+  EXPECT_EQ(test_library("culprit") + ": not today", refused.error().message);
 }
 
 TEST(LibraryPolicy, that_returns_an_error_is_in_trouble_with_its_own_words) {
   const auto policy = opened("culprit");
   ASSERT_TRUE(kit::start(*policy, {{"crime", 7.0}}).ok());
   EXPECT_EQ(0U, policy->decide(at_speed(1.0)).size());
-  EXPECT_EQ(plugin("culprit") + ": I cannot", kit::trouble(*policy));
+  EXPECT_EQ(test_library("culprit") + ": I cannot", kit::trouble(*policy));
 }
 
 TEST(LibraryPolicy, draws_from_the_hosts_stream_and_knows_the_hosts_time) {
@@ -112,7 +112,7 @@ TEST(LibraryPolicy, built_against_the_first_header_still_works) {
 }
 
 TEST(LibraryPolicy, built_against_less_than_that_is_refused_in_one_sentence) {
-  const auto refused = LibraryPolicy::open(plugin("culprit_too_old"), 1);
+  const auto refused = LibraryPolicy::open(test_library("culprit_too_old"), 1);
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(std::string::npos,
             refused.error().message.find("its FlyballPolicy has 56 bytes, the "
@@ -124,9 +124,10 @@ TEST(LibraryPolicy, an_exception_through_the_c_function_is_caught) {
   const auto policy = opened("thrower");
   ASSERT_TRUE(kit::start(*policy).ok());
   EXPECT_EQ(0U, policy->decide(at_speed(4.0)).size());
-  EXPECT_EQ(plugin("thrower") + ": threw: too fast for me", kit::trouble(*policy));
+  EXPECT_EQ(test_library("thrower") + ": threw: too fast for me", kit::trouble(*policy));
   static_cast<void>(policy->decide(at_speed(2.5)));
-  EXPECT_EQ(plugin("thrower") + ": threw an exception of no known type", kit::trouble(*policy));
+  EXPECT_EQ(test_library("thrower") + ": threw an exception of no known type",
+            kit::trouble(*policy));
   static_cast<void>(policy->decide(at_speed(1.0)));
   EXPECT_EQ("", kit::trouble(*policy)) << "of the last decision only";
 }

@@ -7,7 +7,7 @@
 
 namespace flyball::kit {
 
-/// The three knobs that an `EnergySearch` turns; the last clock is the fallback.
+/// The knobs of map and clock; the last clock is the fallback.
 inline KnobSettings search_knobs(const std::vector<double>& clocks_hz) {
   KnobSpec resolution;
   resolution.name = "map.resolution_m";

@@ -61,18 +61,6 @@ TEST(Ablation, starts_without_each_of_the_parts) {
   }
 }
 
-TEST(Ablation, without_search_has_the_largest_cells_that_pass_and_one_range_for_them) {
-  EXPECT_EQ(later("search", cruising(), "map.resolution_m"), 0.6);
-  EXPECT_EQ(later("search", before_a_door(), "map.resolution_m"), 0.15);
-  flyball::Observation slow = cruising();
-  slow.speed_limit_m_s = 1.0;
-  for (const char* knob : {"map.range_m", "cpu.frequency_hz"}) {
-    EXPECT_EQ(later("search", slow, knob), later("search", cruising(), knob)) << knob;
-  }
-  EXPECT_LT(later("search", before_a_door(), "map.range_m"),
-            later("search", cruising(), "map.range_m"));
-}
-
 TEST(Ablation, without_resolution_has_the_finest_cells_everywhere) {
   EXPECT_GT(later("nothing", cruising(), "map.resolution_m"), 0.15);
   EXPECT_EQ(later("resolution", cruising(), "map.resolution_m"), 0.15);

@@ -20,22 +20,34 @@ constexpr double step_m = 4.0;
 constexpr std::size_t places = 16;
 constexpr double deceleration_m_s2 = 3.0;
 
+std::vector<MapSetting> points() {
+  std::vector<MapSetting> all;
+  for (const double cells_m : {0.15, 0.80}) {
+    for (const double clock_hz : {slow_hz, 1e9, search_top_hz}) {
+      all.push_back({cells_m, 12.0, clock_hz});
+    }
+  }
+  return all;
+}
+
+HorizonSettings without_obstacles() {
+  HorizonSettings settings;
+  settings.spacing_m = std::numeric_limits<double>::infinity();
+  return settings;
+}
+
 /// Fine and coarse cells, one range, three clocks.
 struct Made {
-  Made()
-      : search{*EnergySearch::make({},
-                                   {{0.15, 0.5, 2.2, 25.0, 7.0, search_top_hz},
-                                    {0.80, 0.1, 1.0, 25.0, 7.0, search_top_hz}},
-                                   {12.0},
-                                   kit::search_knobs({slow_hz, 1e9, search_top_hz}),
-                                   *conformance_board().power)},
-        horizon{{}, search} {
-    Surroundings open;
-    open.speed_limit_m_s = 6.0;
-    open.visibility_m = 1e9;
+  explicit Made(const HorizonSettings& settings = without_obstacles())
+      : search{*ClockSearch::make({},
+                                  {{0.15, 0.5, 2.2}, {0.80, 0.1, 1.0}},
+                                  kit::search_knobs({slow_hz, 1e9, search_top_hz}),
+                                  *conformance_board().power)},
+        horizon{settings, search, points()} {
+    PlaceLimits open;
+    open.around = {6.0, deceleration_m_s2, 1e9};
     open.coarsest_m = 0.80;
-    open.deceleration_m_s2 = deceleration_m_s2;
-    around.assign(places, open);
+    limits.assign(places, open);
     for (std::size_t i = 0; i < places; ++i) {
       truth.places.push_back({step_m * static_cast<double>(i), 6.0, 24.0, 20.0});
     }
@@ -54,23 +66,21 @@ struct Made {
   }
 
   EnergyEstimate choose(double speed_m_s) {
-    const auto best = horizon.choose(search, truth, around, speed_m_s);
+    const auto best = horizon.choose(search, truth, limits, speed_m_s);
     EXPECT_TRUE(best.has_value());
     return best.value_or(EnergyEstimate{});
   }
 
-  EnergySearch search;
+  ClockSearch search;
   HorizonSearch horizon;
   Foresight truth;
-  std::vector<Surroundings> around;
+  std::vector<PlaceLimits> limits;
 };
 
 /// Eq. 2 with the bound that the vehicle's own speed limit has.
 double fastest_m_s(double frame_s) {
-  const double bound_s = 1.1 * frame_s;
-  const EnergySearchSettings usual;
-  return SpeedLimit{deceleration_m_s2}.speed_m_s(
-      bound_s + std::max(bound_s, usual.frame_s) + usual.reaction_s, 12.0 - usual.margin_m);
+  return SpeedLimit{deceleration_m_s2}.speed_m_s(response_s({}, 1.1 * frame_s),
+                                                 free_ahead_m({0.0, 12.0, 0.0}, 1e9));
 }
 
 TEST(HorizonSearch, in_the_open_holds_the_limit_of_speed_at_the_cheapest_clock_that_does) {
@@ -90,8 +100,8 @@ TEST(HorizonSearch, in_the_open_holds_the_limit_of_speed_at_the_cheapest_clock_t
 // At a speed that does not change, the sum over the path is that of one metre times its length.
 TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
   Made one;
-  one.around.assign(places, [&] {
-    Surroundings only_top = one.around.front();
+  one.limits.assign(places, [&] {
+    PlaceLimits only_top = one.limits.front();
     only_top.needs_top_clock = true;
     return only_top;
   }());
@@ -101,6 +111,27 @@ TEST(HorizonSearch, of_a_straight_at_the_limit_takes_the_joules_of_its_metres) {
   const double watts =
       (one.search.rotor_power(6.0) + one.search.computer_power(best.setting, 0.1)).value();
   EXPECT_NEAR(best.joules_per_m, watts / 6.0, 1e-9 * watts);
+}
+
+// An obstacle of half width 5 m every 10 m comes into view 12 - .8 - .5 m ahead, less 6 m/s times
+// the response.
+TEST(HorizonSearch, a_path_around_obstacles_is_longer_by_cells_and_by_a_late_view) {
+  Made plain;
+  Made among{HorizonSettings{}};
+  for (Made* one : {&plain, &among}) {
+    one->search.put_in_force({0.80, 12.0, search_top_hz}, {});
+    for (PlaceLimits& there : one->limits) {
+      there.needs_top_clock = true;
+      there.coarsest_m = 0.80;
+    }
+    one->set_frames(5.0, 0.1);  // So that fine cells are not worth their time.
+  }
+  const EnergyEstimate straight = plain.choose(6.0);
+  const EnergyEstimate around = among.choose(6.0);
+  ASSERT_EQ(around.setting, straight.setting);
+  const double shows_m = free_ahead_m(around.setting, 1e9) - 6.0 * response_s({}, 1.1 * 0.1);
+  const double longer = 1.0 + (0.80 + std::hypot(shows_m, 5.0) - shows_m) / 10.0;
+  EXPECT_NEAR(around.joules_per_m, longer * straight.joules_per_m, 1e-6 * straight.joules_per_m);
 }
 
 // From rest at 3 m/s^2 the limit of 6 m/s is reached within 6 m: two steps.
@@ -126,7 +157,7 @@ double refines_at_m(double fine_s) {
   for (double at_m = 0.0; at_m < gap_m; at_m += 1.0) {
     for (std::size_t i = 0; i < places; ++i) {
       const double on_m = gap_m - at_m - one.truth.places[i].ahead_m;
-      one.around[i].coarsest_m = on_m >= -3.0 && on_m <= look_m ? 0.15 : 0.80;
+      one.limits[i].coarsest_m = on_m >= -3.0 && on_m <= look_m ? 0.15 : 0.80;
     }
     const EnergyEstimate best = one.choose(6.0);
     if (best.setting.resolution_m < 0.5) {
@@ -149,16 +180,16 @@ TEST(HorizonSearch, weighs_what_lies_farther_on) {
   one.search.put_in_force({0.15, 12.0, search_top_hz}, {});
   EXPECT_EQ(one.choose(4.0).setting.resolution_m, 0.80);
   for (std::size_t i = 1; i < places; ++i) {
-    one.around[i].coarsest_m = 0.15;
+    one.limits[i].coarsest_m = 0.15;
   }
   EXPECT_EQ(one.choose(4.0).setting.resolution_m, 0.15);
 }
 
 TEST(HorizonSearch, never_takes_cells_that_are_too_coarse_or_maps_that_come_too_late) {
   Made one;
-  one.around.front().coarsest_m = 0.15;
+  one.limits.front().coarsest_m = 0.15;
   EXPECT_EQ(one.choose(6.0).setting.resolution_m, 0.15);
-  one.around.front().most_response_s = 3.0;  // At .5 GHz a fine map takes 2 s, the next 2 more.
+  one.limits.front().most_response_s = 3.0;  // At .5 GHz a fine map takes 2 s, the next 2 more.
   EXPECT_GT(one.choose(0.0).setting.clock_hz, slow_hz);
   const auto& all = one.horizon.weighed();
   for (const EnergyEstimate& other : all) {
@@ -169,10 +200,10 @@ TEST(HorizonSearch, never_takes_cells_that_are_too_coarse_or_maps_that_come_too_
 
 TEST(HorizonSearch, says_so_where_no_setting_leads_on) {
   Made one;
-  for (Surroundings& there : one.around) {
+  for (PlaceLimits& there : one.limits) {
     there.most_response_s = 0.0;
   }
-  EXPECT_FALSE(one.horizon.choose(one.search, one.truth, one.around, 1.0).has_value());
+  EXPECT_FALSE(one.horizon.choose(one.search, one.truth, one.limits, 1.0).has_value());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using flyball::kit::cruising;
 using flyball::kit::top_hz;
 using flyball::kit::wish_for;
 
-/// Frames take what the cells ask for, as 1 / f, wherever they are taken.
+/// Frames take what cells and range ask for, as 1 / f, wherever they are taken.
 flyball::Foresight told(const flyball::Policy& policy, double finest_s, double gap_at_m) {
   flyball::Foresight truth;
   for (int i = 0; i < 16; ++i) {
@@ -23,7 +23,9 @@ flyball::Foresight told(const flyball::Policy& policy, double finest_s, double g
     truth.places.push_back({ahead_m, 6.0, is_gap ? 0.9 : 24.0, is_gap ? 0.45 : 20.0});
     for (const flyball::MapSetting& one :
          dynamic_cast<const flyball::UsesForesight&>(policy).foresees()) {
-      truth.frame_s.push_back(finest_s * 0.15 / one.resolution_m * top_hz / one.clock_hz);
+      const double range = one.range_m / 12.0;
+      truth.frame_s.push_back(finest_s * range * range * 0.15 / one.resolution_m * top_hz /
+                              one.clock_hz);
     }
   }
   return truth;

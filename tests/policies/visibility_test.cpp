@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mission_energy/visibility.h"
+#include "reference/visibility.h"
 
 #include <limits>
 

@@ -18,4 +18,9 @@ namespace flyball {
                                    const KnobSettings& knobs,
                                    const std::vector<std::string>& names);
 
+/// The smallest cells that a policy uses: those nearest to `given_m` or, where that is 0, the
+/// finest of the mapper, which a mission chooses for its narrowest gap. A mapper without a lattice
+/// has none, and gets .15 m.
+[[nodiscard]] double smallest_cells_m(const KnobSpec& resolution, double given_m);
+
 }  // namespace flyball

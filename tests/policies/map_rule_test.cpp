@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mission_energy/mission_limits.h"
+#include "mission_energy/map_rule.h"
 
 #include "flyball/governors/policy_conformance.h"
 
 #include "cruising.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -14,16 +15,16 @@ using namespace std::chrono_literals;
 
 using Given = std::map<std::string, ParameterValue>;
 
-Result<MissionLimits> made(const Given& given = {},
-                           const KnobSettings& knobs = conformance_knobs(),
-                           const VehicleModel& vehicle = {}) {
-  const auto resolved = Parameters::resolve("policy", MissionLimits::parameters(), given);
-  return MissionLimits::make("policy \"mine\"", std::get<Parameters>(resolved), knobs, vehicle);
+Result<MapRule> made(const Given& given = {},
+                     const KnobSettings& knobs = conformance_knobs(),
+                     const VehicleModel& vehicle = {}) {
+  const auto resolved = Parameters::resolve("policy", MapRule::parameters(), given);
+  return MapRule::make("policy \"mine\"", std::get<Parameters>(resolved), knobs, vehicle);
 }
 
 std::string refusal(const Given& given, const KnobSettings& knobs = conformance_knobs()) {
-  auto limits = made(given, knobs);
-  return limits ? "" : limits.error().message;
+  auto rule = made(given, knobs);
+  return rule ? "" : rule.error().message;
 }
 
 /// Of a mapper that takes any cells from these on.
@@ -34,22 +35,22 @@ KnobSettings any_resolution(double least_m = 0.15) {
   return KnobSettings{specs};
 }
 
-std::vector<double> cells_of(const MissionLimits& limits) {
+std::vector<double> cells_of(const MapRule& rule) {
   std::vector<double> all_m;
-  for (const SearchLevel& level : limits.levels(0.5, 0.1)) {
+  for (const LatencyLevel& level : rule.levels(0.5, 0.1)) {
     all_m.push_back(level.resolution_m);
   }
   return all_m;
 }
 
-TEST(MissionLimits, has_all_cells_of_a_lattice_between_its_ends) {
-  auto limits = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
-  ASSERT_TRUE(limits.ok());
-  EXPECT_EQ(cells_of(*limits), (std::vector<double>{0.30, 0.60, 0.80}));
+TEST(MapRule, has_all_cells_of_a_lattice_between_its_ends) {
+  auto rule = made({{"fine_m", 0.30}, {"coarse_m", 0.80}});
+  ASSERT_TRUE(rule.ok());
+  EXPECT_EQ(cells_of(*rule), (std::vector<double>{0.30, 0.60, 0.80}));
 }
 
 // By hand: sqrt(.15 * .8) = .3464.
-TEST(MissionLimits, has_cells_with_equal_ratios_near_two_where_the_mapper_takes_any) {
+TEST(MapRule, has_cells_with_equal_ratios_near_two_where_the_mapper_takes_any) {
   const auto cells = cells_of(*made({{"coarse_m", 0.8}}, any_resolution()));
   ASSERT_EQ(cells.size(), 3U);
   EXPECT_EQ(cells.front(), 0.15);
@@ -59,7 +60,7 @@ TEST(MissionLimits, has_cells_with_equal_ratios_near_two_where_the_mapper_takes_
             (std::vector<double>{0.15, 0.20}));
 }
 
-TEST(MissionLimits, begins_with_the_finest_cells_that_the_mapper_has) {
+TEST(MapRule, begins_with_the_finest_cells_that_the_mapper_has) {
   EXPECT_EQ(made({})->levels(0.5, 0.1).front().resolution_m, 0.15);
   std::vector<KnobSpec> specs = conformance_knobs().specs();
   ASSERT_EQ(specs.front().name, "map.resolution_m");
@@ -68,7 +69,7 @@ TEST(MissionLimits, begins_with_the_finest_cells_that_the_mapper_has) {
   EXPECT_EQ(made({}, any_resolution())->levels(0.5, 0.1).front().resolution_m, 0.15);
 }
 
-TEST(MissionLimits, has_smaller_cells_for_doors_where_the_mapper_takes_any) {
+TEST(MapRule, has_smaller_cells_for_doors_where_the_mapper_takes_any) {
   EXPECT_EQ(cells_of(*made({}, any_resolution(0.02))),
             (std::vector<double>{0.05, 0.15, 0.30, 0.60}));
   EXPECT_EQ(cells_of(*made({{"door_m", 0.0}}, any_resolution(0.02))).front(), 0.15);
@@ -87,14 +88,9 @@ Observation in_a_room(std::uint32_t planner_failures) {
   return seen;
 }
 
-TEST(MissionLimits, takes_cells_for_doors_after_two_plans_have_failed_in_a_room) {
-  auto limits = made({}, any_resolution(0.02));
-  const MapSetting fine{0.15, 7.0, 2e9};
-  const auto cells_m = [&](const Observation& seen) {
-    const Surroundings around = limits->look(seen, fine);
-    EXPECT_LE(around.finest_m, around.coarsest_m);
-    return around.coarsest_m;
-  };
+TEST(MapRule, takes_cells_for_doors_after_two_plans_have_failed_in_a_room) {
+  auto rule = made({}, any_resolution(0.02));
+  const auto cells_m = [&](const Observation& seen) { return rule->look(seen, 0.15).cells_m; };
   EXPECT_EQ(cells_m(in_a_room(1)), 0.15);
   EXPECT_EQ(cells_m(in_a_room(2)), 0.05);
   EXPECT_EQ(cells_m(in_a_room(0)), 0.05) << "larger ones would close the door behind it";
@@ -109,21 +105,24 @@ TEST(MissionLimits, takes_cells_for_doors_after_two_plans_have_failed_in_a_room)
   EXPECT_EQ(cells_m(exploring), 0.15) << "all rooms would have to be seen anew";
 }
 
-/// The longest range of each level that the search may choose.
+/// The longest range of each level, of 30 m at most.
 std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
                                      const KnobSettings& knobs = conformance_knobs()) {
   VehicleModel vehicle;
   vehicle.depth_camera = camera;
-  auto limits = made({}, knobs, vehicle);
+  auto rule = made({}, knobs, vehicle);
   std::vector<double> ranges_m;
-  for (const SearchLevel& level : limits->levels(0.5, 0.1)) {
-    ranges_m.push_back(std::min(level.most_range_m, limits->ranges_m().back()));
+  for (const LatencyLevel& level : rule->levels(0.5, 0.1)) {
+    MapNeeds far;
+    far.cells_m = level.resolution_m;
+    far.least_range_m = 30.0;
+    ranges_m.push_back(rule->setting(far).range_m);
   }
   return ranges_m;
 }
 
 // By hand: (r / 2 + .4193) / .0657 is 7.5 and 8.7 m; (.71 / 4 + .4193) / .0657 is 9.1 m.
-TEST(MissionLimits, looks_no_farther_than_noise_leaves_gaps_in_a_lattice) {
+TEST(MapRule, looks_no_farther_than_noise_leaves_gaps_in_a_lattice) {
   const auto ranges_m = longest_ranges_m(DepthCameraSpec{});
   const std::vector<double> expected_m{7.52, 8.67, 9.08};
   ASSERT_EQ(ranges_m.size(), expected_m.size());
@@ -133,7 +132,7 @@ TEST(MissionLimits, looks_no_farther_than_noise_leaves_gaps_in_a_lattice) {
 }
 
 // By hand: (.6 / 2 + .4193) / .0657 is 10.9 m.
-TEST(MissionLimits, looks_as_far_as_noise_is_half_a_cell_without_a_lattice) {
+TEST(MapRule, looks_as_far_as_noise_is_half_a_cell_without_a_lattice) {
   const auto ranges_m = longest_ranges_m(DepthCameraSpec{}, any_resolution());
   EXPECT_NEAR(ranges_m.front(), 7.52, 0.051);
   EXPECT_NEAR(ranges_m.back(), 10.95, 0.051);
@@ -148,12 +147,12 @@ Observation between_trees(double gap_m) {
 }
 
 // By hand: ((3 - .71) / 4 + .4193) / .0657 is 15.1 m.
-TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
+TEST(MapRule, looks_farther_where_the_gaps_that_it_sees_are_wide) {
   VehicleModel vehicle;
   vehicle.depth_camera = DepthCameraSpec{};
-  auto limits = made({}, conformance_knobs(), vehicle);
+  auto rule = made({}, conformance_knobs(), vehicle);
   const auto clear_m = [&](const Observation& seen) {
-    return limits->look(seen, {0.60, 7.0, 2e9}).clear_range_m;
+    return rule->look(seen, 0.60).clear_range_m;
   };
   EXPECT_NEAR(clear_m(between_trees(3.0)), 15.1, 0.051);
   EXPECT_NEAR(clear_m(between_trees(6.0)), 15.1, 0.051) << "nothing is seen; as the last one";
@@ -170,28 +169,57 @@ TEST(MissionLimits, looks_farther_where_the_gaps_that_it_sees_are_wide) {
   slow.speed_limit_m_s = 1.0;
   EXPECT_EQ(clear_m(slow), 0.0) << "narrow places are declared";
   EXPECT_EQ(clear_m(between_trees(6.0)), 0.0) << "none was seen since then";
-  EXPECT_EQ(limits->ranges_m().back(), 20.0);
-  EXPECT_EQ(made({})->look(between_trees(3.0), {0.60, 7.0, 2e9}).clear_range_m, 0.0);
+  EXPECT_EQ(made({})->look(between_trees(3.0), 0.60).clear_range_m, 0.0);
 }
 
-TEST(MissionLimits, may_look_nearer_where_the_mission_is_slow) {
-  auto limits = made();
-  const MapSetting setting{0.60, 7.0, 2e9};
+TEST(MapRule, looks_as_far_as_noise_lets_it_where_wide_gaps_are_seen) {
+  VehicleModel vehicle;
+  vehicle.depth_camera = DepthCameraSpec{};
+  auto rule = made({}, conformance_knobs(), vehicle);
+  MapNeeds needs;
+  needs.cells_m = 0.60;
+  EXPECT_NEAR(rule->setting(needs).range_m, 9.08, 0.051);
+  needs.clear_range_m = 15.1;
+  EXPECT_EQ(rule->setting(needs).range_m, 15.1);
+}
+
+double range_m(double cells_m, const Given& given = {}) {
+  MapNeeds needs;
+  needs.cells_m = cells_m;
+  return made(given, any_resolution(0.02))->setting(needs).range_m;
+}
+
+// Those of gap_switch are 10, 15 and 22 m.
+TEST(MapRule, looks_farther_with_larger_cells_whose_maps_take_less_time) {
+  EXPECT_NEAR(range_m(0.15), 10.0, 1e-9);
+  EXPECT_NEAR(range_m(0.30), 15.0, 0.2);
+  EXPECT_NEAR(range_m(0.60), 22.0, 0.1);
+  EXPECT_NEAR(range_m(0.60, {{"range_m", 5.0}}), 11.0, 0.1);
+  EXPECT_EQ(range_m(0.60, {{"most_range_m", 12.0}}), 12.0);
+}
+
+// Time grows with R^2.2 / r^3.
+TEST(MapRule, looks_as_far_with_smaller_cells_as_takes_the_same_time) {
+  for (const double cells_m : {0.05, 0.075, 0.10}) {
+    EXPECT_NEAR(std::pow(range_m(cells_m) / 10.0, 2.2), std::pow(cells_m / 0.15, 3.0), 1e-9);
+  }
+}
+
+TEST(MapRule, may_look_nearer_where_the_mission_is_slow) {
+  auto rule = made();
   Observation seen = between_trees(0.8);
-  EXPECT_EQ(limits->ranges_m().front(), 2.0);
-  EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0);
+  EXPECT_EQ(rule->look(seen, 0.60).least_range_m, 7.0);
   seen.speed_limit_m_s = 1.0;
-  EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
+  EXPECT_EQ(rule->look(seen, 0.60).least_range_m, 0.0);
   for (const ProgressUnit unit : {ProgressUnit::cubic_metre, ProgressUnit::square_metre}) {
     seen.progress_unit = unit;
-    EXPECT_EQ(limits->look(seen, setting).least_range_m, 7.0) << "progress is what a view shows";
+    EXPECT_EQ(rule->look(seen, 0.60).least_range_m, 7.0) << "progress is what a view shows";
   }
   seen.progress_unit = ProgressUnit::metre;
-  EXPECT_EQ(limits->look(seen, setting).least_range_m, 0.0);
-  EXPECT_EQ(made({{"slow_range_m", 7.0}})->ranges_m().front(), 7.0);
+  EXPECT_EQ(rule->look(seen, 0.60).least_range_m, 0.0);
 }
 
-TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
+TEST(MapRule, looks_as_far_as_a_camera_without_noise) {
   DepthCameraSpec camera;
   camera.rgbd_noise = false;
   for (const double range_m : longest_ranges_m(camera)) {
@@ -199,7 +227,7 @@ TEST(MissionLimits, looks_as_far_as_a_camera_without_noise) {
   }
 }
 
-TEST(MissionLimits, keeps_the_shortest_range_with_a_camera_that_cannot_tell_a_cell) {
+TEST(MapRule, keeps_the_shortest_range_with_a_camera_that_cannot_tell_a_cell) {
   DepthCameraSpec noisy;
   noisy.extra_noise_m = 0.5;
   DepthCameraSpec short_sighted;
@@ -211,7 +239,7 @@ TEST(MissionLimits, keeps_the_shortest_range_with_a_camera_that_cannot_tell_a_ce
   }
 }
 
-TEST(MissionLimits, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) {
+TEST(MapRule, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) {
   const auto coarsest_m = [](double clearance_m, const KnobSettings& knobs, const Given& given) {
     VehicleModel vehicle;
     vehicle.ground_clearance_m = clearance_m;
@@ -226,27 +254,26 @@ TEST(MissionLimits, has_no_cells_in_which_the_ground_reaches_up_to_the_vehicle) 
   }
 }
 
-TEST(MissionLimits, has_no_cells_which_the_ceiling_fills_down_to_the_vehicle) {
-  auto limits = made();
-  const MapSetting fine{0.15, 7.0, 2e9};
+TEST(MapRule, has_no_cells_which_the_ceiling_fills_down_to_the_vehicle) {
+  auto rule = made();
   Observation seen = kit::cruising();
   seen.map_resolution_m = 0.15;
   for (const auto& [headroom_m, coarsest_m] :
        {std::pair{0.0, 0.6}, std::pair{0.5, 0.6}, std::pair{0.4, 0.3}, std::pair{0.1, 0.15}}) {
     seen.now += 10s;
     seen.headroom_m = headroom_m;
-    EXPECT_EQ(limits->look(seen, fine).coarsest_m, coarsest_m) << headroom_m;
+    EXPECT_EQ(rule->look(seen, 0.15).cells_m, coarsest_m) << headroom_m;
   }
 }
 
-TEST(MissionLimits, takes_the_body_of_its_vehicle) {
+TEST(MapRule, takes_the_body_of_its_vehicle) {
   VehicleModel small;
   small.narrow_width_m = 0.35;
   EXPECT_EQ(made({}, conformance_knobs(), small)->body_m(), 0.35);
   EXPECT_EQ(made({{"body_m", 0.5}}, conformance_knobs(), small)->body_m(), 0.5);
 }
 
-TEST(MissionLimits, says_what_contradicts_what) {
+TEST(MapRule, says_what_contradicts_what) {
   EXPECT_NE(refusal({{"fine_m", 0.80}, {"coarse_m", 0.15}}).find("below coarse_m"),
             std::string::npos);
   EXPECT_NE(refusal({{"least_range_m", 20.0}, {"most_range_m", 10.0}}).find("below most_range_m"),
@@ -256,74 +283,70 @@ TEST(MissionLimits, says_what_contradicts_what) {
             "list knobs");
 }
 
-TEST(MissionLimits, needs_the_top_clock_where_a_gap_holds_the_vehicle_up) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
-  const MapSetting coarse{0.60, 7.0, 2e9};
+TEST(MapRule, needs_the_top_clock_where_only_the_finest_cells_leave_a_gap_open) {
+  auto rule = made();
   Observation seen = kit::cruising();
-  EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
+  EXPECT_FALSE(rule->look(seen, 0.60).needs_top_clock);
   seen.now += 250ms;
-  seen.speed_m_s = 4.0;
-  EXPECT_FALSE(limits->look(seen, coarse).needs_top_clock);
-  seen.now += 250ms;
-  seen.narrowest_gap_m = 5.0;
-  EXPECT_TRUE(limits->look(seen, coarse).needs_top_clock);
+  seen.narrowest_gap_m = 0.8;
+  seen.gap_distance_m = 4.0;
+  EXPECT_TRUE(rule->look(seen, 0.60).needs_top_clock);
 }
 
-TEST(MissionLimits, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
+TEST(MapRule, while_it_waits_for_a_plan_has_no_larger_cells_than_the_map) {
+  auto rule = made();
+  ASSERT_TRUE(rule.ok());
   Observation seen = kit::cruising();
-  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.60);
+  EXPECT_EQ(rule->look(seen, 0.30).cells_m, 0.60);
   seen.speed_m_s = 0.0;
-  EXPECT_EQ(limits->look(seen, {0.30, 7.0, 2e9}).coarsest_m, 0.30);
+  EXPECT_EQ(rule->look(seen, 0.30).cells_m, 0.30);
 }
 
-TEST(MissionLimits, takes_the_finest_cells_where_a_plan_has_failed) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
+TEST(MapRule, takes_the_finest_cells_where_a_plan_has_failed) {
+  auto rule = made();
+  ASSERT_TRUE(rule.ok());
   Observation seen = kit::cruising();
-  EXPECT_GT(limits->look(seen, {0.60, 7.0, 2e9}).coarsest_m, 0.15);
+  EXPECT_GT(rule->look(seen, 0.60).cells_m, 0.15);
   seen.now += 250ms;
   seen.planner_failures = 2;
-  EXPECT_EQ(limits->look(seen, {0.60, 7.0, 2e9}).coarsest_m, 0.15);
+  EXPECT_EQ(rule->look(seen, 0.60).cells_m, 0.15);
 }
 
-constexpr MapSetting finest{0.15, 7.0, 2e9};
-constexpr MapSetting next_finest{0.30, 13.0, 2e9};
+constexpr double finest_m = 0.15;
+constexpr double next_finest_m = 0.30;
 
 // Nothing near says so: the mission's limit of speed does, 20 m ahead.
-TEST(MissionLimits, leaves_finest_cells_only_where_the_mission_is_fast_again) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
+TEST(MapRule, leaves_finest_cells_only_where_the_mission_is_fast_again) {
+  auto rule = made();
+  ASSERT_TRUE(rule.ok());
   Observation seen = kit::cruising();
   seen.speed_m_s = seen.speed_limit_m_s = 1.0;
-  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30);
-  EXPECT_EQ(limits->look(seen, finest).coarsest_m, 0.15);
+  EXPECT_GE(rule->look(seen, next_finest_m).cells_m, 0.30);
+  EXPECT_EQ(rule->look(seen, finest_m).cells_m, 0.15);
   seen.speed_limit_m_s = 6.0;
-  EXPECT_GE(limits->look(seen, finest).coarsest_m, 0.30);
+  EXPECT_GE(rule->look(seen, finest_m).cells_m, 0.30);
 }
 
-TEST(MissionLimits, leaves_finest_cells_again_before_it_reaches_a_slow_place) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
+TEST(MapRule, leaves_finest_cells_again_before_it_reaches_a_slow_place) {
+  auto rule = made();
+  ASSERT_TRUE(rule.ok());
   Observation seen = kit::cruising();
   seen.speed_limit_m_s = 1.0;
-  EXPECT_GE(limits->look(seen, finest).coarsest_m, 0.30);
+  EXPECT_GE(rule->look(seen, finest_m).cells_m, 0.30);
 }
 
-TEST(MissionLimits, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has_failed) {
-  auto limits = made();
-  ASSERT_TRUE(limits.ok());
+TEST(MapRule, has_finest_cells_up_to_a_slow_place_after_a_plan_towards_it_has_failed) {
+  auto rule = made();
+  ASSERT_TRUE(rule.ok());
   Observation seen = kit::cruising();
   seen.planner_failures = 1;
-  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30) << "it may be far off in the open";
+  EXPECT_GE(rule->look(seen, next_finest_m).cells_m, 0.30) << "it may be far off in the open";
   seen.speed_limit_m_s = 1.0;
-  EXPECT_EQ(limits->look(seen, next_finest).coarsest_m, 0.15);
+  EXPECT_EQ(rule->look(seen, next_finest_m).cells_m, 0.15);
   seen.planner_failures = 0;
-  EXPECT_EQ(limits->look(seen, next_finest).coarsest_m, 0.15);
+  EXPECT_EQ(rule->look(seen, next_finest_m).cells_m, 0.15);
   seen.speed_limit_m_s = 6.0;
-  EXPECT_GE(limits->look(seen, next_finest).coarsest_m, 0.30);
+  EXPECT_GE(rule->look(seen, next_finest_m).cells_m, 0.30);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mission_limits.h"
+#include "map_rule.h"
 
 #include "flyball/governors/required_knobs.h"
-#include "flyball/governors/search_space.h"
+#include "flyball/governors/surroundings.h"
 #include "flyball/governors/waiting_share.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ bool explores(const Observation& seen) {
          seen.progress_unit == ProgressUnit::square_metre;
 }
 
-std::vector<ParameterSpec> MissionLimits::parameters() {
+std::vector<ParameterSpec> MapRule::parameters() {
   return {
       {"fine_m", 0.0, 0.0, 2.0, "Cells that pass every gap; 0: the mapper's finest, or .15 m."},
       {"coarse_m", 0.0, 0.0, 2.0,
@@ -71,21 +71,19 @@ std::vector<ParameterSpec> MissionLimits::parameters() {
       // A door of .82 m (MAVBench's) stays open to a body of .71 m wherever it stands.
       {"door_m", 0.05, 0.0, 2.0,
        "Where plans keep failing near narrow gaps, if the mapper takes any cells; 0: none."},
-      {"least_range_m", 7.0, 0.5, 100.0, "Shortest range of the map, but for slow_range_m."},
-      {"slow_range_m", 2.0, 0.5, 100.0, "Shortest where narrow gaps are declared."},
+      {"range_m", 10.0, 0.5, 100.0, "With cells of .15 m; larger ones reach farther."},
+      {"least_range_m", 7.0, 0.5, 100.0, "Shortest, but where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
       {"body_m", 0.0, 0.0, 5.0, "Width with the tube at a crawl; 0: the vehicle's own."},
       {"min_fine_s", 2.0, 0.0, 3600.0, "Finer cells last at least this long."},
-      {"rest_s", 1.0, 0.01, 3600.0,
-       "While the vehicle waits, a map may take so long, unless the mission says."},
       {"patience_s", 3.0, 0.1, 3600.0, "After standing for so long, the map gets fine cells."}};
 }
 
-Result<MissionLimits> MissionLimits::make(const std::string& owner,
-                                          const Parameters& given,
-                                          const KnobSettings& knobs,
-                                          const VehicleModel& vehicle) {
+Result<MapRule> MapRule::make(const std::string& owner,
+                              const Parameters& given,
+                              const KnobSettings& knobs,
+                              const VehicleModel& vehicle) {
   const auto refused = [&owner](const std::string& why) {
     return Error{ErrorCode::invalid_input, owner + ": " + why};
   };
@@ -93,36 +91,28 @@ Result<MissionLimits> MissionLimits::make(const std::string& owner,
       !status) {
     return status.error();
   }
-  MissionLimits limits{given, knobs, vehicle};
-  if (limits.levels_m_.front() >= limits.levels_m_.back()) {
-    return refused("fine_m = " + std::to_string(limits.levels_m_.front()) +
-                   " must be below coarse_m = " + std::to_string(limits.levels_m_.back()));
+  MapRule rule{given, knobs, vehicle};
+  if (rule.levels_m_.front() >= rule.levels_m_.back()) {
+    return refused("fine_m = " + std::to_string(rule.levels_m_.front()) +
+                   " must be below coarse_m = " + std::to_string(rule.levels_m_.back()));
   }
-  const double given_m = given.number("most_range_m");
-  if (given_m > 0.0 && limits.least_range_m_ >= given_m) {
-    return refused("least_range_m = " + std::to_string(limits.least_range_m_) +
-                   " must be below most_range_m = " + std::to_string(given_m));
+  if (rule.most_range_m_ > 0.0 && rule.least_range_m_ >= rule.most_range_m_) {
+    return refused("least_range_m = " + std::to_string(rule.least_range_m_) +
+                   " must be below most_range_m = " + std::to_string(rule.most_range_m_));
   }
-  const double most_m = given_m > 0.0 ? given_m : limits.longest_m(knobs);
-  limits.ranges_m_ = most_m > limits.least_range_m_ ? ranges_between(limits.least_range_m_, most_m)
-                                                    : std::vector<double>{limits.least_range_m_};
-  if (given_m == 0.0 && vehicle.depth_camera) {
-    limits.add_ranges_beyond(knobs.spec("map.range_m")->nearest(vehicle.depth_camera->max_range_m));
-  }
-  limits.add_ranges_from(knobs.spec("map.range_m")->nearest(given.number("slow_range_m")));
   const KnobSpec& resolution = *knobs.spec("map.resolution_m");
   if (const double door_m = given.number("door_m"); door_m > 0.0 && resolution.legal.empty()) {
     const double nearest_m = resolution.nearest(door_m);
-    limits.door_m_ = nearest_m < limits.levels_m_.front() ? nearest_m : 0.0;
+    rule.door_m_ = nearest_m < rule.levels_m_.front() ? nearest_m : 0.0;
   }
-  return limits;
+  return rule;
 }
 
-MissionLimits::MissionLimits(const Parameters& given,
-                             const KnobSettings& knobs,
-                             const VehicleModel& vehicle)
+MapRule::MapRule(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle)
     : keeps_hits_{!knobs.spec("map.resolution_m")->legal.empty()},
+      range_m_{given.number("range_m")},
       least_range_m_{given.number("least_range_m")},
+      most_range_m_{given.number("most_range_m")},
       narrow_m_s_{given.number("narrow_m_s")},
       patience_s_{given.number("patience_s")},
       body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
@@ -130,11 +120,9 @@ MissionLimits::MissionLimits(const Parameters& given,
       camera_{vehicle.depth_camera},
       home_{knobs.value("map.resolution_m"), knobs.value("map.range_m"), 0.0},
       levels_m_{levels_of(given, *knobs.spec("map.resolution_m"), vehicle)},
-      idle_{given.number("rest_s")},
-      passability_{passability(given)},
-      visibility_{least_range_m_} {}
+      passability_{passability(given)} {}
 
-Passability MissionLimits::passability(const Parameters& given) const {
+Passability MapRule::passability(const Parameters& given) const {
   PassabilitySettings passable;
   passable.body_m = body_m_;
   passable.least = from_seconds(given.number("min_fine_s"));
@@ -151,11 +139,11 @@ Passability MissionLimits::passability(const Parameters& given) const {
 // finest cells, where they still are when the vehicle comes to a gap, whatever cells it had before.
 // So with a lattice noise also stays below a quarter of the body's width on each side: a gap of one
 // and a half bodies stays passable.
-double MissionLimits::noise_free_m(double resolution_m) const {
-  return range_with_m(std::min(0.5 * resolution_m, keeps_hits_ ? 0.25 * body_m_ : 1e9));
+double MapRule::noise_free_m(double cells_m) const {
+  return range_with_m(std::min(0.5 * cells_m, keeps_hits_ ? 0.25 * body_m_ : 1e9));
 }
 
-double MissionLimits::range_with_m(double noise_m) const {
+double MapRule::range_with_m(double noise_m) const {
   constexpr double step_m = 0.05;  // A fraction of the finest cells.
   double range_m = camera_->max_range_m;
   while (range_m > 0.0 && camera_->noise_m(range_m) > noise_m) {
@@ -168,7 +156,7 @@ double MissionLimits::range_with_m(double noise_m) const {
 // may be a quarter of what the narrowest gap ahead leaves beside the body. Where none is seen, the
 // next one is taken to be as wide as the last one was. The range ends before a zone where the
 // vehicle must be slower, because noise of that distance would close the doors of a house.
-double MissionLimits::clear_range_m(const Observation& seen, bool near) {
+double MapRule::clear_range_m(const Observation& seen, bool near) {
   if (!camera_ || near || seen.phase != MissionPhase::cruise) {
     last_gap_m_.reset();
     return 0.0;
@@ -182,42 +170,12 @@ double MissionLimits::clear_range_m(const Observation& seen, bool near) {
                      : 0.0;
 }
 
-void MissionLimits::add_ranges_beyond(double most_m) {
-  constexpr int steps = 3;
-  const double from_m = ranges_m_.back();
-  if (most_m < 1.1 * from_m) {
-    return;
-  }
-  for (int i = 1; i < steps; ++i) {
-    ranges_m_.push_back(from_m * std::pow(most_m / from_m, i / double{steps}));
-  }
-  ranges_m_.push_back(most_m);
-}
-
-void MissionLimits::add_ranges_from(double slow_m) {
-  if (slow_m < least_range_m_) {
-    ranges_m_.insert(ranges_m_.begin(), {slow_m, std::sqrt(slow_m * least_range_m_)});
-  }
-}
-
-// A camera that nobody knows is trusted as far as the mission trusts it.
-double MissionLimits::longest_m(const KnobSettings& knobs) const {
-  constexpr double usual_m = 12.0;  // Chosen: where an RGB-D camera's noise is half a cell of .7 m.
-  return knobs.spec("map.range_m")
-      ->nearest(camera_ ? noise_free_m(levels_m_.back())
-                        : std::max(usual_m, knobs.value("map.range_m")));
-}
-
-double MissionLimits::near_m() const {
+double MapRule::near_m() const {
   return least_range_m_ + 1.0;
 }
 
-std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) const {
+std::vector<LatencyLevel> MapRule::levels(double fine_s, double coarse_s) const {
   auto levels = levels_between(levels_m_, fine_s, coarse_s);
-  for (SearchLevel& level : levels) {
-    level.most_range_m =
-        camera_ ? std::max(least_range_m_, noise_free_m(level.resolution_m)) : ranges_m_.back();
-  }
   if (door_m_ > 0.0) {
     levels.insert(levels.begin(), door_level(levels));
   }
@@ -225,48 +183,64 @@ std::vector<SearchLevel> MissionLimits::levels(double fine_s, double coarse_s) c
 }
 
 // Its latency is on the line through those of the others, in log latency over log cells.
-SearchLevel MissionLimits::door_level(const std::vector<SearchLevel>& others) const {
-  const SearchLevel& fine = others.front();
-  const SearchLevel& coarse = others.back();
+LatencyLevel MapRule::door_level(const std::vector<LatencyLevel>& others) const {
+  const LatencyLevel& fine = others.front();
+  const LatencyLevel& coarse = others.back();
   const double slope = std::log(fine.latency_s / coarse.latency_s) /
                        std::log(coarse.resolution_m / fine.resolution_m);
-  SearchLevel door = fine;
+  LatencyLevel door = fine;
   door.resolution_m = door_m_;
   door.latency_s *= std::pow(fine.resolution_m / door_m_, slope);
-  door.most_range_m = camera_ ? noise_free_m(door_m_) : least_range_m_;
   return door;
 }
 
-Surroundings MissionLimits::look(const Observation& seen, const MapSetting& in_force) {
+// A camera that nobody knows is trusted as far as the rule reaches.
+double MapRule::most_range_m(double cells_m) const {
+  if (most_range_m_ > 0.0) {
+    return most_range_m_;
+  }
+  return camera_ ? std::max(least_range_m_, noise_free_m(cells_m)) : 1e9;
+}
+
+// With larger cells than these, `range_m` grows as tuning has found it (gap_switch's 10, 15 and 22
+// m with cells of .15, .30 and .60 m). With smaller ones, it shrinks so that a map takes as long as
+// one of these: its time grows with R^2.2 / r^3.
+double MapRule::usual_range_m(double cells_m) const {
+  constexpr double tuned_m = 0.15;
+  const double power = cells_m < tuned_m ? 3.0 / 2.2 : 0.57;
+  return range_m_ * std::pow(cells_m / tuned_m, power);
+}
+
+MapSetting MapRule::setting(const MapNeeds& needs) const {
+  const double most_m = std::max(most_range_m(needs.cells_m), needs.clear_range_m);
+  const double range_m = std::max(usual_range_m(needs.cells_m), needs.least_range_m);
+  return {needs.cells_m, std::min(range_m, most_m), 0.0};
+}
+
+MapNeeds MapRule::look(const Observation& seen, double cells_m) {
   const Passability::Verdict gaps = passability_.judge(seen);
   const bool near = seen.speed_limit_m_s <= narrow_m_s_;
-  Surroundings around = limits_of(seen);
-  around.finest_m = levels_m_.front();
-  around.coarsest_m = std::min(levels_m_[gaps.coarsest_level], coarsest_m(seen, near, in_force));
-  around.coarsest_m = std::max(around.coarsest_m, around.finest_m);
+  MapNeeds needs;
+  needs.cells_m = std::min(levels_m_[gaps.coarsest_level], coarsest_m(seen, near, cells_m));
+  needs.cells_m = std::max(needs.cells_m, levels_m_.front());
   if (needs_door_cells(seen, near)) {
-    around.finest_m = around.coarsest_m = door_m_;
+    needs.cells_m = door_m_;
   }
-  around.least_range_m = gaps.look_m;
+  needs.least_range_m = gaps.look_m;
   if (!near || explores(seen)) {  // A vehicle that may be fast needs to see farther, too.
-    around.least_range_m = std::max(around.least_range_m, least_range_m_);
+    needs.least_range_m = std::max(needs.least_range_m, least_range_m_);
   }
-  around.clear_range_m = clear_range_m(seen, near);
-  visibility_.note(seen, in_force.range_m);
-  around.visibility_m = visibility_.distance_m();
-  around.most_response_s = patience_s_;  // Later responses would make the vehicle look stuck.
-  around.is_enclosed = near;
-  around.needs_top_clock =
-      gaps.coarsest_level == 0 || near || seen.phase != MissionPhase::cruise || is_held_up(seen);
-  return around;
+  needs.clear_range_m = clear_range_m(seen, near);
+  needs.needs_top_clock = gaps.coarsest_level == 0 || near;
+  return needs;
 }
 
 // Cells are limited where the mission's speed limit tells of narrow gaps, before any of them can be
 // seen. A vehicle that stands waits for a plan, and the map must keep its cells until that plan is
 // there. On the ground, cells are those of the flight, because a path that was planned in smaller
 // ones is blocked as soon as larger ones come.
-double MissionLimits::coarsest_m(const Observation& seen, bool near, const MapSetting& in_force) {
-  if (needs_finest(seen, near, in_force)) {
+double MapRule::coarsest_m(const Observation& seen, bool near, double cells_m) {
+  if (needs_finest(seen, near, cells_m)) {
     return levels_m_.front();
   }
   double coarsest_m = under_ceiling_m(seen);
@@ -274,18 +248,18 @@ double MissionLimits::coarsest_m(const Observation& seen, bool near, const MapSe
     coarsest_m = std::min(coarsest_m, large_m_);
   }
   if (stands_in_cruise(seen)) {
-    coarsest_m = std::min(coarsest_m, in_force.resolution_m);
+    coarsest_m = std::min(coarsest_m, cells_m);
   }
   return coarsest_m;
 }
 
 // In cells that the ceiling fills down to the vehicle, every plan would begin in an occupied cell.
 // Cells of size r >= q reach at most r - q farther down than the map's own cells of q.
-double MissionLimits::under_ceiling_m(const Observation& seen) const {
+double MapRule::under_ceiling_m(const Observation& seen) const {
   double largest_m = levels_m_.front();
-  for (const double cells_m : levels_m_) {
-    const double lost_m = std::max(0.0, cells_m - seen.map_resolution_m);
-    largest_m = seen.headroom_m == 0.0 || seen.headroom_m > lost_m ? cells_m : largest_m;
+  for (const double one_m : levels_m_) {
+    const double lost_m = std::max(0.0, one_m - seen.map_resolution_m);
+    largest_m = seen.headroom_m == 0.0 || seen.headroom_m > lost_m ? one_m : largest_m;
   }
   return largest_m;
 }
@@ -294,17 +268,16 @@ double MissionLimits::under_ceiling_m(const Observation& seen) const {
 // plan is made in the finest cells. Inside, they are kept even when the space looks clear for a
 // moment: larger cells would close the door through which the path leads, and at this speed the
 // finest ones cost no time.
-bool MissionLimits::needs_finest(const Observation& seen, bool near, const MapSetting& in_force) {
+bool MapRule::needs_finest(const Observation& seen, bool near, double cells_m) {
   seeks_door_ = near && (seeks_door_ || seen.planner_failures > 0);
-  const bool is_within =
-      near && seen.speed_m_s <= narrow_m_s_ && !(in_force.resolution_m > levels_m_.front());
+  const bool is_within = near && seen.speed_m_s <= narrow_m_s_ && !(cells_m > levels_m_.front());
   return seeks_door_ || is_within;
 }
 
 // A plan that fails in the finest level may fail because a door has lost too much of its width.
 // Inside, such cells are kept: larger ones would close the door that the path leads through. Who
 // explores would have to see all rooms anew in them, and has other doors to try.
-bool MissionLimits::needs_door_cells(const Observation& seen, bool near) {
+bool MapRule::needs_door_cells(const Observation& seen, bool near) {
   constexpr std::uint32_t enough = 2;  // One fails now and then where larger cells would do.
   const bool is_place = near && door_m_ > 0.0 && !explores(seen);
   has_door_cells_ = is_place && (has_door_cells_ || seen.planner_failures >= enough);
