@@ -41,6 +41,12 @@ class TreeStore {
     shown_.show(record_.write(masks, *tree_));
   }
 
+  void show(const flyball::BrickStates& brick) { shown_.show({brick}); }
+
+  [[nodiscard]] bool is_occupied(const flyball::CellKey& cell) const {
+    const octomap::OcTreeNode* node = tree_->search(key_of(cell));
+    return node != nullptr && tree_->isNodeOccupied(node);
+  }
   [[nodiscard]] bool is_confirmed(const flyball::CellKey& cell) const {
     const octomap::OcTreeNode* node = tree_->search(key_of(cell));
     return node != nullptr && node->getLogOdds() >= flyball::confirmed_log_odds;

@@ -21,10 +21,14 @@ class BrickStore {
 
   void write(const std::vector<BrickMasks>& masks) { map_.apply(masks); }
 
+  void show(const BrickStates& brick) { map_.show({brick}); }
+
+  [[nodiscard]] bool is_occupied(const CellKey& cell) const {
+    return log_odds::is_occupied(log_odds_of(cell));
+  }
   [[nodiscard]] bool is_confirmed(const CellKey& cell) const {
     constexpr auto steps = static_cast<std::int8_t>(confirmed_log_odds * log_odds_steps);
-    const Chunk& chunk = map_.cells().chunk_at(cell.above(chunk_level));
-    return chunk.bricks[brick_number(cell.above(brick_level))].cells[bit_in_brick(cell)] >= steps;
+    return log_odds_of(cell) >= steps;
   }
   void confirm(const CellKey& cell) {
     const BrickMasks hit{cell.above(brick_level), 0, std::uint64_t{1} << bit_in_brick(cell)};
@@ -49,6 +53,12 @@ class BrickStore {
 
  private:
   explicit BrickStore(BrickMap map) : map_{std::move(map)} {}
+
+  /// Of a cell that is known.
+  [[nodiscard]] std::int8_t log_odds_of(const CellKey& cell) const {
+    const Chunk& chunk = map_.cells().chunk_at(cell.above(chunk_level));
+    return chunk.bricks[brick_number(cell.above(brick_level))].cells[bit_in_brick(cell)];
+  }
 
   BrickMap map_;
 };

@@ -4,12 +4,15 @@
 /// @file
 /// Stock OctoMap's map of several resolutions: each has cells of its own, which every ray that
 /// crosses them frees, and `LayeredView` makes one map of them. Trees or bricks keep the cells: a
-/// `Store`. The work is counted as stock does it.
+/// `Store`. The work is counted as stock does it. What questions find is stock's map with the walls
+/// that it would lose (`KeptWalls`).
 ///
 /// A store has
 ///   Store(cell_m), cells()             what LayeredView looks at; empty at first
 ///   revision()                         the cells as they are now, which stay so: a shared pointer
 ///   write(masks)                       of one scan
+///   show(brick)                        sets what questions find in a brick, until it is written
+///   is_occupied(cell)                  by its log-odds, whatever is shown
 ///   is_confirmed(cell), confirm(cell)  whether a cell is occupied beyond doubt; makes it so
 ///   counts(), bytes()                  as in MapContents
 ///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
@@ -17,6 +20,7 @@
 #include "flyball/kernels/mapper.h"
 
 #include "bricks/bits.h"
+#include "maps/kept_walls.h"
 #include "maps/layered_view.h"
 #include "maps/octomap_tree.h"
 #include "maps/shown_cells.h"
@@ -56,14 +60,19 @@ class LayeredMapper final : public Mapper {
       pending_ = nullptr;
       return status.error();
     }
-    return integrate(X_WC, settings, [&](ExactScan& exact) -> const ScanMasks& {
-      return exact.compute(frame, X_WC, settings.range_m);
-    });
+    const WholeView view{*frame.pixels, X_WC, settings.range_m};
+    return integrate(
+        X_WC, settings,
+        [&](ExactScan& exact) -> const ScanMasks& {
+          return exact.compute(frame, X_WC, settings.range_m);
+        },
+        &view);
   }
 
   void commit() override {
     if (pending_ != nullptr) {
       pending_->store.write(masks_->bricks);
+      pending_->kept.restore(pending_->store);
       if (pending_->is_coarse()) {
         pending_->clear.add(masks_->bricks);
         for (const auto& [centre_W, space] : view_.declared().all()) {
@@ -152,9 +161,10 @@ class LayeredMapper final : public Mapper {
     LayeredView view{};
   };
 
-  /// The cells of one resolution as stock insertion makes them, and for wide cells the walls in
-  /// it: those cells that were once occupied beyond doubt. The view asks the walls first; obstacles
-  /// are static. For coarse cells also which of them surely hold no wall at all.
+  /// The cells of one resolution as stock insertion makes them. Questions find the walls that it
+  /// would lose: in wide cells those that were once occupied beyond doubt, for obstacles are
+  /// static, and the view asks them first; in others what no scan has seen through. For coarse
+  /// cells also which of them surely hold no wall at all.
   struct Layer {
     explicit Layer(Store of_cells)
         : cell_m{of_cells.cell_m()},
@@ -200,12 +210,17 @@ class LayeredMapper final : public Mapper {
     ExactScan exact;
     Store store;
     ClearCells clear;
+    KeptWalls kept{};
     Store walls;
   };
 
   /// @param masks_of  What a front-end makes of the scan.
+  /// @param view      Of its image, if it has one.
   template <class MasksOf>
-  Result<Work> integrate(const Pose& X_WC, const MapperSettings& settings, MasksOf&& masks_of) {
+  Result<Work> integrate(const Pose& X_WC,
+                         const MapperSettings& settings,
+                         MasksOf&& masks_of,
+                         const WholeView* view = nullptr) {
     pending_ = nullptr;
     constexpr double half_keys = 32768.0;  // OctoMap's keys have 16 bits
     const double edge_m = (half_keys - 4.0) * settings.resolution_m - settings.range_m;
@@ -216,6 +231,9 @@ class LayeredMapper final : public Mapper {
       Layer& layer = layer_of(settings.resolution_m);
       masks_ = &masks_of(layer.exact);
       pending_ = &layer;
+      if (!layer.is_wide()) {
+        layer.kept.look(masks_->bricks, layer.store.cells(), view);
+      }
       Work work;
       work.add("frame", 1.0);
       work.add("rays", masks_->rays);
