@@ -53,9 +53,9 @@ class KeptWalls {
  private:
   /// The occupied cells of a brick.
   struct Wall {
-    CellKey brick;
-    std::uint64_t occupied;
-    std::uint64_t seen_through;
+    CellKey brick{};
+    std::uint64_t occupied{};
+    std::uint64_t seen_through{};
   };
   std::vector<Wall> walls_{};  ///< Of the scan that is to be written.
 };
