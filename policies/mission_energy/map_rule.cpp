@@ -164,10 +164,13 @@ double MapRule::clear_range_m(const Observation& seen, bool near) {
   if (seen.narrowest_gap_m < open_path_m) {
     last_gap_m_ = seen.narrowest_gap_m;
   }
+  if (!last_gap_m_) {
+    return 0.0;
+  }
   const double flown_m = next_maps_s * std::max(0.0, seen.speed_m_s);
   const double zone_m = seen.slower_zone_m > 0.0 ? seen.slower_zone_m : limit_ahead_m;
-  return last_gap_m_ ? std::min(zone_m - flown_m, range_with_m(0.25 * (*last_gap_m_ - body_m_)))
-                     : 0.0;
+  // Whole metres, so that a range stays for some maps: a bound on latency is one of a setting.
+  return std::floor(std::min(zone_m - flown_m, range_with_m(0.25 * (*last_gap_m_ - body_m_))));
 }
 
 double MapRule::near_m() const {
