@@ -23,6 +23,10 @@ bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
 }
 
+bool is_finite(const EnergyEstimate& one) {
+  return std::isfinite(one.joules_per_m);
+}
+
 }  // namespace
 
 double free_ahead_m(const MapSetting& setting, double visibility_m) {
@@ -154,11 +158,17 @@ MapSetting ClockSearch::choose(const MapSetting& map, const Observation& seen, b
       [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
   FLYBALL_ASSERT(std::isfinite(cheapest->joules_per_m), "no clock of %zu is finite",
                  estimates_.size());
-  const double most_j = (1.0 + equal) * cheapest->joules_per_m;
-  MapSetting best = cheapest->setting;
-  for (const EnergyEstimate& one : estimates_) {
-    best = one.joules_per_m <= most_j ? one.setting : best;  // The last one is the highest.
-  }
+  const auto is_at_most = [&](double share) {
+    return [most_j = (1.0 + share) * cheapest->joules_per_m](const EnergyEstimate& one) {
+      return one.joules_per_m <= most_j;
+    };
+  };
+  // The highest clock that is allowed, if no other saves enough, or else the highest of the equals.
+  const auto highest = std::find_if(estimates_.rbegin(), estimates_.rend(), is_finite);
+  const MapSetting best =
+      is_at_most(settings_.least_saving)(*highest)
+          ? highest->setting
+          : std::find_if(estimates_.rbegin(), estimates_.rend(), is_at_most(equal))->setting;
   put_in_force(best, seen.now);
   return best;
 }

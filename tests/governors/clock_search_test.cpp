@@ -7,6 +7,7 @@
 #include "flyball/governors/speed_limit.h"
 
 #include "search_knobs.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,6 +75,25 @@ TEST(ClockSearch, takes_no_more_than_a_thousandth_above_the_least_energy_of_a_me
       EXPECT_TRUE(clock_hz <= best.clock_hz || other_j > best_j) << "the highest of its equals";
     }
   }
+}
+
+TEST(ClockSearch, keeps_the_top_where_no_lower_clock_saves_as_much_as_it_is_told) {
+  const Observation seen = in_the_open(1.0);
+  const ClockSearch one = search();
+  double least_j = std::numeric_limits<double>::infinity();
+  for (const double clock_hz : one.clocks_hz()) {
+    const MapSetting other{coarse.resolution_m, coarse.range_m, clock_hz};
+    least_j = std::min(least_j, one.estimate(other, surroundings_of(seen)).joules_per_m);
+  }
+  const MapSetting top{coarse.resolution_m, coarse.range_m, top_hz};
+  const double saving = one.estimate(top, surroundings_of(seen)).joules_per_m / least_j - 1.0;
+  ASSERT_GT(saving, 0.001);
+  ClockSearchSettings settings;
+  settings.least_saving = 1.01 * saving;
+  EXPECT_EQ(search(settings).choose(coarse, seen, false).clock_hz, top_hz);
+  settings.least_saving = 0.99 * saving;
+  EXPECT_EQ(search(settings).choose(coarse, seen, false), search().choose(coarse, seen, false));
+  EXPECT_LT(search().choose(coarse, seen, false).clock_hz, top_hz);
 }
 
 TEST(ClockSearch, its_speed_is_that_of_equation_2_for_its_response) {

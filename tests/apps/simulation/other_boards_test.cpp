@@ -85,20 +85,24 @@ class Truth {
         platform_.power({4, Hertz{setting.clock_hz}}, busy_cores(setting.clock_hz));
     return joules_per_metre(Watts{vehicle_.rotor_w}, computer, speed_m_s);
   }
-  /// All clocks are gone through: of those within a thousandth of the least energy, the one that
-  /// responds soonest, which is the highest.
+  /// All clocks are gone through. The highest one, if no other takes 2 % less; else, of those
+  /// within a thousandth of the least energy, the one that responds soonest, which is the highest.
   [[nodiscard]] double best_hz(MapSetting setting) const {
     double least_j = std::numeric_limits<double>::infinity();
     for (const Hertz clock : platform_.frequencies()) {
       setting.clock_hz = clock.value();
       least_j = std::min(least_j, joules_per_m(setting));
     }
-    double best = 0.0;
-    for (const Hertz clock : platform_.frequencies()) {
-      setting.clock_hz = clock.value();
-      best = joules_per_m(setting) <= 1.001 * least_j ? clock.value() : best;
-    }
-    return best;
+    const auto highest_within = [&](double share) {
+      double best = 0.0;
+      for (const Hertz clock : platform_.frequencies()) {
+        setting.clock_hz = clock.value();
+        best = joules_per_m(setting) <= (1.0 + share) * least_j ? clock.value() : best;
+      }
+      return best;
+    };
+    const double top_hz = platform_.frequencies().back().value();
+    return highest_within(0.02) == top_hz ? top_hz : highest_within(0.001);
   }
 
  private:
@@ -177,7 +181,7 @@ TEST(MissionEnergyOnOtherBoards, chooses_lower_clocks_where_cores_take_more) {
     EXPECT_LE(hungry_hz, usual_hz) << vehicle.rotor_w << " W";
     lower += hungry_hz < usual_hz ? 1 : 0;
   }
-  EXPECT_EQ(lower, 2) << "the light vehicles have the lowest clock anyway";
+  EXPECT_EQ(lower, 1) << "the light ones have the lowest clock anyway, the heavy one the highest";
 }
 
 TEST(MissionEnergyOnOtherBoards, chooses_the_top_clock_where_it_is_free) {

@@ -27,6 +27,8 @@ struct ClockSearchSettings {
   double reaction_s{to_seconds(GuardSettings{}.reaction_time())};
   /// While the vehicle waits, a map may take so long, unless the mission says.
   double rest_s{1.0};
+  /// Share of the energy of a metre that a lower clock must save at least, or the highest stays.
+  double least_saving{};
   LearnedLatencySettings latency{};
 };
 
