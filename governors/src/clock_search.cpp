@@ -51,7 +51,7 @@ Decision decision_for(const MapSetting& setting) {
 std::vector<PolicyOption> options_of(const std::vector<EnergyEstimate>& weighed) {
   std::vector<PolicyOption> all;
   for (const EnergyEstimate& one : weighed) {
-    if (std::isfinite(one.joules_per_m)) {
+    if (is_finite(one)) {
       PolicyOption option;
       option.setting = decision_for(one.setting);
       option.speed_m_s = one.speed_m_s;
@@ -156,8 +156,7 @@ MapSetting ClockSearch::choose(const MapSetting& map, const Observation& seen, b
   const auto cheapest = std::min_element(
       estimates_.begin(), estimates_.end(),
       [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
-  FLYBALL_ASSERT(std::isfinite(cheapest->joules_per_m), "no clock of %zu is finite",
-                 estimates_.size());
+  FLYBALL_ASSERT(is_finite(*cheapest), "no clock of %zu is finite", estimates_.size());
   const auto is_at_most = [&](double share) {
     return [most_j = (1.0 + share) * cheapest->joules_per_m](const EnergyEstimate& one) {
       return one.joules_per_m <= most_j;

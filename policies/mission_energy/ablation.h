@@ -16,8 +16,8 @@
 namespace flyball {
 
 /// All that is known of a part that is left out stands here, so that the rule itself has no
-/// branches for it: what the rule is told is changed, or what it takes. Nothing
-/// allocates after construction.
+/// branches for it: what the rule is told is changed, or what it takes. Nothing allocates after
+/// construction.
 class Ablation {
  public:
   /// A text parameter `without`, whose choices are the parts; `flyball tournament --ablate` reads

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 namespace flyball {
 namespace {
@@ -71,7 +72,8 @@ std::vector<ParameterSpec> MapRule::parameters() {
       // A door of .82 m (MAVBench's) stays open to a body of .71 m wherever it stands.
       {"door_m", 0.05, 0.0, 2.0,
        "Where plans keep failing near narrow gaps, if the mapper takes any cells; 0: none."},
-      {"range_m", 10.0, 0.5, 100.0, "With cells of .15 m; larger ones reach farther."},
+      {"range_m", 10.0, 0.5, 100.0,
+       "With cells of .15 m; larger ones reach farther, smaller ones less."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest, but where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},

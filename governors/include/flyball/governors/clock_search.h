@@ -18,6 +18,7 @@
 #include "flyball/runtime/observation.h"
 #include "flyball/runtime/result.h"
 
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -64,7 +65,8 @@ struct EnergyEstimate {
 /// Here v is the speed of MAVBench's eq. 2 for the predicted latency, and W what the mission may
 /// lose by waiting longer for everything else that it computes (`WaitingShare`). The calibrated
 /// bound does not count here: it is for single maps, while energy adds up over all of them. A lower
-/// clock is compared only where nothing but the map holds the vehicle up (`is_held_up`).
+/// clock is compared only where nothing but the map holds the vehicle up (`is_held_up`), and taken
+/// only where it saves `least_saving`.
 ///
 /// While the vehicle is idle (`Idle`), it takes the lowest clock whose maps come soon enough. The
 /// computer takes a constant power, a part in proportion to its clock, and more per operation the
