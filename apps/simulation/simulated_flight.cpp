@@ -89,12 +89,6 @@ std::shared_ptr<const Brief> SimulatedFlight::adapted_brief(const Scenario& scen
 
 void SimulatedFlight::add_governing(const Scenario& scenario, MissionSetup& setup) {
   GovernorInputs inputs = governor_inputs(graph);
-  std::vector<MapSetting> settings = setup.governor->foresees();
-  if (!settings.empty() && inputs.navigator && parts.brief->maps_obstacles) {
-    future = std::make_unique<FutureFrames>(parts.brief, scenario.plugins, setup.things.world,
-                                            computer, std::move(settings));
-    inputs.future = future.get();
-  }
   period = setup.governor->period().value_or(from_seconds(scenario.governor.period_s));
   inputs.period = period;
   governor =

@@ -13,7 +13,6 @@
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
 #include "simulation/flight_recorder.h"
-#include "simulation/future_frames.h"
 #include "simulation/judging/referee.h"
 #include "simulation/mission_link.h"
 #include "simulation/mission_setup.h"
@@ -47,7 +46,6 @@ struct SimulatedFlight {
   SimulatedBoard board;
   FlightParts parts;
   int record_node{};
-  std::unique_ptr<FutureFrames> future;    ///< Null for a policy that does not ask.
   std::shared_ptr<GovernorLoop> governor;  ///< Owners: its node and this.
   Duration period{};                       ///< Between decisions.
   bool has_autopilot{};                    ///< That is none of the simulator's.

@@ -100,8 +100,8 @@ double ClockSearch::busy_cores(const MapSetting& setting, double latency_s) cons
   return map_cores + other_core_ghz_ / (setting.clock_hz * 1e-9);
 }
 
-Watts ClockSearch::computer_power(const MapSetting& setting, double map_s) const {
-  return computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, map_s));
+Watts ClockSearch::computer_power(const MapSetting& setting, double latency_s) const {
+  return computer_.power(Hertz{setting.clock_hz}, busy_cores(setting, latency_s));
 }
 
 void ClockSearch::learn(const Observation& seen) {
@@ -168,7 +168,7 @@ MapSetting ClockSearch::choose(const MapSetting& map, const Observation& seen, b
       is_at_most(settings_.least_saving)(*highest)
           ? highest->setting
           : std::find_if(estimates_.rbegin(), estimates_.rend(), is_at_most(equal))->setting;
-  put_in_force(best, seen.now);
+  latency_.put_in_force(best, seen.now);
   return best;
 }
 
@@ -184,7 +184,7 @@ MapSetting ClockSearch::rest(const MapSetting& map, double within_s, MissionTime
   }
   const MapSetting best{map.resolution_m, map.range_m,
                         std::min(clocks_hz_[chosen], most_clock_hz_)};
-  put_in_force(best, now);
+  latency_.put_in_force(best, now);
   return best;
 }
 

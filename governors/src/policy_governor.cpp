@@ -57,7 +57,6 @@ PolicyGovernor::PolicyGovernor(std::unique_ptr<Policy> policy,
       bounds_latency_{dynamic_cast<const BoundsLatency*>(policy_.get())},
       compares_options_{dynamic_cast<const ComparesOptions*>(policy_.get())},
       hosts_code_{dynamic_cast<const HostsCode*>(policy_.get())},
-      uses_foresight_{dynamic_cast<UsesForesight*>(policy_.get())},
       knobs_{std::move(knobs)},
       settings_{settings},
       clock_{std::move(clock)},
@@ -141,16 +140,6 @@ void PolicyGovernor::write_why(char* text, std::size_t size) const noexcept {
 
 std::string_view PolicyGovernor::remark() const {
   return was_asked_ && hosts_code_ != nullptr ? hosts_code_->remark() : std::string_view{};
-}
-
-std::vector<MapSetting> PolicyGovernor::foresees() const {
-  return uses_foresight_ != nullptr ? uses_foresight_->foresees() : std::vector<MapSetting>{};
-}
-
-void PolicyGovernor::foretell(const Foresight& truth) noexcept {
-  if (uses_foresight_ != nullptr) {
-    uses_foresight_->foretell(truth);
-  }
 }
 
 std::optional<Duration> PolicyGovernor::period() const {

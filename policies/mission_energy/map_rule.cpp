@@ -130,7 +130,7 @@ Passability MapRule::passability(const Parameters& given) const {
   passable.least = from_seconds(given.number("min_fine_s"));
   passable.patience = from_seconds(patience_s_);
   passable.retry_m = large_m_;
-  passable.near_m = near_m();
+  passable.near_m = least_range_m_ + 1.0;
   // They are sorted here although `make` may refuse them afterwards.
   std::vector<double> levels_m = levels_m_;
   std::sort(levels_m.begin(), levels_m.end());
@@ -173,10 +173,6 @@ double MapRule::clear_range_m(const Observation& seen, bool near) {
   const double zone_m = seen.slower_zone_m > 0.0 ? seen.slower_zone_m : limit_ahead_m;
   // Whole metres, so that a range stays for some maps: a bound on latency is one of a setting.
   return std::floor(std::min(zone_m - flown_m, range_with_m(0.25 * (*last_gap_m_ - body_m_))));
-}
-
-double MapRule::near_m() const {
-  return least_range_m_ + 1.0;
 }
 
 std::vector<LatencyLevel> MapRule::levels(double fine_s, double coarse_s) const {

@@ -4,8 +4,8 @@
 /// @file
 /// Which cells and which range the map has, by what lies ahead.
 
-#include "flyball/governors/foresight.h"
 #include "flyball/governors/learned_latency.h"
+#include "flyball/governors/map_setting.h"
 #include "flyball/runtime/board.h"
 #include "flyball/runtime/knob.h"
 #include "flyball/runtime/parameters.h"
@@ -64,19 +64,11 @@ class MapRule {
   [[nodiscard]] MapNeeds look(const Observation& seen, double cells_m);
   /// What the rule takes, without a clock.
   [[nodiscard]] MapSetting setting(const MapNeeds& needs) const;
-  /// Up to here depth noise leaves any gap open that these cells do.
-  [[nodiscard]] double most_range_m(double cells_m) const;
 
-  /// Larger cells may close openings that nobody has seen yet.
-  [[nodiscard]] double large_m() const { return large_m_; }
   [[nodiscard]] double body_m() const { return body_m_; }
-  [[nodiscard]] double narrow_m_s() const { return narrow_m_s_; }
   [[nodiscard]] double finest_m() const { return levels_m_.front(); }
   /// Of cells of .15 m.
   [[nodiscard]] double range_m() const { return range_m_; }
-  [[nodiscard]] double least_range_m() const { return least_range_m_; }
-  [[nodiscard]] double patience_s() const { return patience_s_; }
-  [[nodiscard]] double near_m() const;
 
  private:
   MapRule(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle);
@@ -87,6 +79,8 @@ class MapRule {
   [[nodiscard]] Passability passability(const Parameters& given) const;
   [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
   [[nodiscard]] double usual_range_m(double cells_m) const;
+  /// Up to here depth noise leaves any gap open that these cells do.
+  [[nodiscard]] double most_range_m(double cells_m) const;
   [[nodiscard]] double noise_free_m(double cells_m) const;
   /// The range up to which the camera's noise is at most this. @pre The camera is known.
   [[nodiscard]] double range_with_m(double noise_m) const;
@@ -100,7 +94,7 @@ class MapRule {
   double narrow_m_s_;
   double patience_s_;
   double body_m_;
-  double large_m_;
+  double large_m_;  ///< Larger cells may close openings that nobody has seen yet.
   std::optional<DepthCameraSpec> camera_;
   MapSetting home_;
   std::vector<double> levels_m_;  ///< Finest first.

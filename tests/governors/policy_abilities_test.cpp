@@ -14,8 +14,7 @@ namespace {
 class Able final : public Policy,
                    public ChoosesPeriod,
                    public ComparesOptions,
-                   public BoundsLatency,
-                   public UsesForesight {
+                   public BoundsLatency {
  public:
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
   Status start(const Parameters& /*given*/,
@@ -25,7 +24,7 @@ class Able final : public Policy,
   }
   [[nodiscard]] Decision decide(const Observation& /*seen*/) noexcept override {
     Decision wish;
-    wish.set("map.range_m", told_m_);
+    wish.set("map.range_m", 5.0);
     return wish;
   }
   [[nodiscard]] std::optional<Duration> period() const override {
@@ -38,13 +37,6 @@ class Able final : public Policy,
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const override {
     return {{0.15, 10, 1, 2.0}};
   }
-  [[nodiscard]] std::vector<MapSetting> foresees() const override { return {{0.15, 7.0, 1e9}}; }
-  void foretell(const Foresight& truth) noexcept override {
-    told_m_ = truth.places.front().ahead_m;
-  }
-
- private:
-  double told_m_{2.0};
 };
 
 TEST(PolicyAbilities, are_found_by_the_governor) {
@@ -54,13 +46,6 @@ TEST(PolicyAbilities, are_found_by_the_governor) {
   ASSERT_TRUE(governor.bounds());
   EXPECT_EQ(governor.bounds()->late, 1U);
   EXPECT_EQ(governor.bound_levels().size(), 1U);
-  EXPECT_EQ(governor.foresees().size(), 1U);
-  Foresight truth;
-  truth.places.push_back({5.0, 1.0, 1.0, 1.0});
-  governor.foretell(truth);
-  Observation seen;
-  seen.phase = MissionPhase::cruise;
-  EXPECT_EQ(governor.decide(seen).begin()->value, 5.0);
 }
 
 TEST(PolicyAbilities, need_not_be_there) {
@@ -73,8 +58,6 @@ TEST(PolicyAbilities, need_not_be_there) {
   EXPECT_TRUE(governor.options().empty());
   EXPECT_FALSE(governor.bounds());
   EXPECT_TRUE(governor.bound_levels().empty());
-  EXPECT_TRUE(governor.foresees().empty());
-  governor.foretell({});
   EXPECT_EQ(governor.remark(), "");
 }
 

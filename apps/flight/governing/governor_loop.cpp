@@ -166,10 +166,6 @@ void GovernorLoop::look_around(JobContext& job, Work& asked) {
     const CountedMap counted{*navigator->map};
     observe_map(*navigator, counted);
     counted.add_to(asked);
-    if (inputs_.future != nullptr) {
-      governor_.foretell(
-          inputs_.future->look(*navigator, {*parts_.brief, knobs_, *navigator->map}));
-    }
   }
 }
 

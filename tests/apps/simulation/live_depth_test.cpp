@@ -2,6 +2,7 @@
 // test-label: closed_loop
 //
 // An autopilot and a depth camera that are not the simulator's: its own world is empty ground.
+#include "flyball/flight/perception/perception_nodes.h"
 #include "flyball/runtime/modeled/virtual_executor.h"
 #include "flyball/sim/depth_camera.h"
 

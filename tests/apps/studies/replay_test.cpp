@@ -172,17 +172,6 @@ TEST(Replay, explains_one_decision) {
   EXPECT_FALSE(explain(flight, MissionTime{from_seconds(1e5)}).ok());
 }
 
-TEST(Replay, does_not_repeat_what_only_the_simulator_knew) {
-  const ScratchFolder folder;
-  RecordedFlight flight = flown_with("fixed_coarse", folder);
-  const auto other = shadow(flight, "reference");
-  ASSERT_FALSE(other.ok());
-  EXPECT_EQ(other.error().message,
-            "policy \"reference\" is told what no record holds; fly it instead");
-  flight.scenario.governor.policy = "reference";
-  EXPECT_FALSE(replay(flight).ok());
-}
-
 TEST(Replay, loads_the_library_of_a_record_only_when_it_is_trusted) {
   const ScratchFolder folder;
   RecordedFlight flight = flown_with("fixed_coarse", folder);

@@ -27,10 +27,6 @@ TEST(EmbeddedPolicy, is_refused_with_the_names_that_there_are) {
   EXPECT_EQ("settings need a policy: a file, or one of " + names, refusal(""));
 }
 
-TEST(EmbeddedPolicy, that_only_a_simulator_can_serve_is_not_there) {
-  EXPECT_NE(std::string::npos, refusal("reference").find("policy \"reference\""));
-}
-
 TEST(EmbeddedPolicy, needs_the_knobs_that_it_turns) {
   EXPECT_EQ("policy \"performance\": there is no knob cpu.frequency_hz with a list of clocks",
             refusal("performance"));

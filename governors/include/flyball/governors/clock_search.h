@@ -4,9 +4,9 @@
 /// @file
 /// Which clock takes the least energy for the next metre, with a map that somebody else has set.
 
-#include "flyball/governors/foresight.h"
 #include "flyball/governors/idle.h"
 #include "flyball/governors/learned_latency.h"
+#include "flyball/governors/map_setting.h"
 #include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/power_model.h"
 #include "flyball/governors/surroundings.h"
@@ -97,22 +97,13 @@ class ClockSearch {
   /// The clock of the least energy per metre. It counts as in force from now on.
   /// @param needs_top  Something is computed that the price does not count.
   MapSetting choose(const MapSetting& map, const Observation& seen, bool needs_top);
-  /// For a policy that has chosen a setting by another rule.
-  void put_in_force(const MapSetting& setting, MissionTime now) {
-    latency_.put_in_force(setting, now);
-  }
 
   [[nodiscard]] EnergyEstimate estimate(const MapSetting& setting,
                                         const Surroundings& around) const;
   /// What the last decision expected of each clock; infinite energy where it was not allowed.
   [[nodiscard]] const std::vector<EnergyEstimate>& weighed() const { return estimates_; }
-  /// The power of the computer while maps with this setting take `map_s` each.
-  [[nodiscard]] Watts computer_power(const MapSetting& setting, double map_s) const;
-  /// The learned power of the rotors in level flight.
-  [[nodiscard]] Watts rotor_power(double speed_m_s) const { return rotors_.power(speed_m_s); }
   [[nodiscard]] const LearnedLatency& latency() const { return latency_; }
   [[nodiscard]] const MapSetting& in_force() const { return latency_.in_force(); }
-  [[nodiscard]] const ClockSearchSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<double>& clocks_hz() const { return clocks_hz_; }  ///< Ascending.
 
  private:
@@ -122,6 +113,7 @@ class ClockSearch {
               const std::vector<double>& clocks_hz,
               const PowerCost& computer);
   [[nodiscard]] double busy_cores(const MapSetting& setting, double latency_s) const;
+  [[nodiscard]] Watts computer_power(const MapSetting& setting, double latency_s) const;
   void weigh(const MapSetting& map, const Surroundings& around, double least_clock_hz);
 
   ClockSearchSettings settings_;

@@ -4,9 +4,9 @@
 /// @file
 /// How long the next map will take with each setting, and an upper bound of it, learned in flight.
 
-#include "flyball/governors/foresight.h"
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
+#include "flyball/governors/map_setting.h"
 #include "flyball/governors/policy_abilities.h"
 #include "flyball/runtime/observation.h"
 

@@ -5,7 +5,6 @@
 /// What only some policies can do: interfaces that a policy implements beside `Policy`. Its
 /// governor asks for them once, when it takes the policy over.
 
-#include "flyball/governors/foresight.h"
 #include "flyball/runtime/decision.h"
 #include "flyball/runtime/time.h"
 
@@ -69,16 +68,6 @@ class BoundsLatency : public PolicyAbility {
   [[nodiscard]] virtual BoundCount bounds() const noexcept = 0;
   /// Level by level; may allocate.
   [[nodiscard]] virtual std::vector<LevelBounds> bound_levels() const = 0;
-};
-
-/// It wants to be told how long a frame will take with certain settings, here and farther on. Only
-/// a simulator can answer, and its records cannot: a vehicle in the field must do without.
-class UsesForesight : public PolicyAbility {
- public:
-  /// The settings. Asked once, when it has started.
-  [[nodiscard]] virtual std::vector<MapSetting> foresees() const = 0;
-  /// The answer, before a decision; stays as it is until that is made.
-  virtual void foretell(const Foresight& truth) noexcept = 0;
 };
 
 /// A policy that hosts code from outside, whose faults show only when it is asked.

@@ -62,10 +62,6 @@ class PolicyGovernor final {
   /// it. Allocates nothing.
   /// @post Every wish names an existing knob and a legal value of it.
   [[nodiscard]] Decision decide(const Observation& seen) noexcept;
-  /// Settings of which the policy wants to be told how long a frame will take; empty: it does not.
-  [[nodiscard]] std::vector<MapSetting> foresees() const;
-  /// For a policy that asks for it, before `decide`.
-  void foretell(const Foresight& truth) noexcept;
   /// What the policy asked for at the last decision, before it was made legal; empty after a fault.
   [[nodiscard]] const Decision& wished() const { return wished_; }
   /// How often the policy wants to be asked; empty: as often as the scenario says.
@@ -111,7 +107,6 @@ class PolicyGovernor final {
   const BoundsLatency* bounds_latency_;
   const ComparesOptions* compares_options_;
   const HostsCode* hosts_code_;
-  UsesForesight* uses_foresight_;
   KnobSettings knobs_;
   PolicyGovernorSettings settings_;
   HostClock clock_;

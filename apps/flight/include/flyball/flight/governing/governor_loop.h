@@ -9,7 +9,6 @@
 #include "flyball/flight/governing/node_places.h"
 #include "flyball/flight/navigation/guidance.h"
 #include "flyball/flight/navigation/situation.h"
-#include "flyball/governors/foresight.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
 #include "flyball/runtime/work.h"
@@ -24,27 +23,11 @@
 
 namespace flyball {
 
-/// Tells policies that ask for it how long future jobs will take. Only a simulator can implement
-/// it.
-class ForesightSource {
- public:
-  ForesightSource() = default;
-  ForesightSource(const ForesightSource&) = delete;
-  ForesightSource& operator=(const ForesightSource&) = delete;
-  virtual ~ForesightSource() = default;
-
-  /// Along the path and, beyond its end, straight to the goal. The result stays valid until the
-  /// next call.
-  [[nodiscard]] virtual const Foresight& look(const NavigatorState& navigator,
-                                              const Situation& situation) = 0;
-};
-
 /// What the governor looks at; without a navigator it sees the computer alone.
 struct GovernorInputs {
   std::optional<Topic<NavigatorState>> navigator{};
   std::array<std::vector<int>, stage_count> stages{};  ///< The nodes of each.
   Duration period{};                                   ///< Between decisions.
-  ForesightSource* future{};  ///< Outlives the loop; null: nobody knows the future.
 };
 
 /// The topic `navigator` of a graph and the nodes of its stages, where it has them.
