@@ -17,13 +17,14 @@ struct Setting {
 };
 
 constexpr Setting frequency{"frequency_hz", "cpu.frequency_hz", 1e8, 1e10, "Clock of those cores."};
-constexpr std::array<Setting, 8> settings{{
+constexpr std::array<Setting, 9> settings{{
     {"resolution_m", "map.resolution_m", 0.05, 2.0, "Edge of a map cell."},
     {"range_m", "map.range_m", 0.5, 100.0, "How far depth is integrated into the map."},
     {"rate_hz", "map.rate_hz", 0.1, 100.0, "How often depth is integrated into the map."},
     {"planner_budget", "planner.budget", 1.0, 1e7,
      "Iterations that one search for a path may take."},
     {"view_nodes", "explore.iterations", 1.0, 1e4, "Nodes in which a next view is looked for."},
+    {"view_threads", "explore.threads", 1.0, 16.0, "Threads that look for it at once."},
     {"cores", "cpu.cores", 1.0, 64.0, "Cores that kernels may use."},
     {"max_speed_m_s", "mission.max_speed_m_s", 0.1, 50.0, "Upper limit of the speed."},
     frequency,

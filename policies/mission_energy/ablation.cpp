@@ -35,6 +35,7 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"rotor_power", Part::rotor_power},
       {"declared_zones", Part::declared_zones, "narrow_m_s", 0.0},  // No limit is as low.
       {"view_budgets", Part::view_budgets, "half_view_nodes", 0.0},
+      {"view_threads", Part::view_threads, "view_threads", 1.0},
       {"noise_limit", Part::noise_limit},
       {"wide_first_bound", Part::wide_first_bound},
   };

@@ -53,6 +53,7 @@ class Ablation {
     rotor_power,
     declared_zones,
     view_budgets,
+    view_threads,
     noise_limit,
     wide_first_bound
   };

@@ -4,7 +4,7 @@
 // cells and which range the path ahead asks for; ClockSearch compares the clocks, and learns
 // latency, its bound and rotor power in flight. While the vehicle is idle, the scenario's map stays
 // and only the clock is chosen. ViewBudget says how long a vehicle that explores looks for its next
-// view.
+// view, and all cores look for it: those that other jobs need are theirs first.
 
 #include "flyball/governors/clock_search.h"
 #include "flyball/governors/policy.h"
@@ -46,7 +46,8 @@ class MissionEnergy final : public flyball::Policy,
         {"margin", 0.0, 0.0, 100.0, "Bound over prediction; 0: calibrated in flight."},
         {"learn_s", 0.0, 0.0, 1e6, "Latency is learned for so long; 0: all the time."},
         {"half_view_nodes", 0.35, 0.0, 1000.0,
-         "Nodes with which an explorer's view shows half of what the best would; 0: as set."}};
+         "Nodes with which an explorer's view shows half of what the best would; 0: as set."},
+        {"view_threads", 0.0, 0.0, 16.0, "So many look for a view at once; 0: one for each core."}};
     all.insert(all.end(), own.begin(), own.end());
     all.push_back(flyball::Ablation::parameter());
     return all;
@@ -80,10 +81,12 @@ class MissionEnergy final : public flyball::Policy,
     if (!clock) {
       return flyball::Error{clock.error().code, std::string{self} + ": " + clock.error().message};
     }
-    const bool can_explore = knobs.spec("explore.iterations") != nullptr;
-    if (const double half = given.number("half_view_nodes"); can_explore && half > 0.0) {
+    const double half = given.number("half_view_nodes");
+    if (knobs.spec("explore.iterations") != nullptr && half > 0.0) {
       views_.emplace(half);
     }
+    shares_views_ = knobs.spec("explore.threads") != nullptr;
+    view_threads_ = given.number("view_threads");
     map_.emplace(std::move(*map));
     clock_.emplace(std::move(*clock));
     return flyball::Done{};
@@ -93,9 +96,8 @@ class MissionEnergy final : public flyball::Policy,
     const Observation seen = without_->seen(all);
     clock_->learn(seen);
     flyball::Decision wish = flyball::decision_for(chosen(seen));
-    if (views_ && flyball::explores(seen)) {
-      views_->note(seen);
-      wish.set("explore.iterations", views_->nodes());
+    if (flyball::explores(seen)) {
+      look_for_views(seen, wish);
     }
     return wish;
   }
@@ -135,6 +137,17 @@ class MissionEnergy final : public flyball::Policy,
     return settings;
   }
 
+  void look_for_views(const Observation& seen, flyball::Decision& wish) noexcept {
+    if (views_) {
+      views_->note(seen);
+      wish.set("explore.iterations", views_->nodes());
+    }
+    const double threads = view_threads_ > 0.0 ? view_threads_ : seen.cores;
+    if (shares_views_ && threads >= 1.0) {
+      wish.set("explore.threads", threads);
+    }
+  }
+
   [[nodiscard]] MapSetting chosen(const Observation& seen) noexcept {
     const bool keeps_top = without_->keeps_top_clock();
     if (const auto within_s = clock_->idle_map_s(seen)) {
@@ -150,6 +163,8 @@ class MissionEnergy final : public flyball::Policy,
   std::optional<flyball::MapRule> map_{};
   std::optional<flyball::ClockSearch> clock_{};
   std::optional<flyball::ViewBudget> views_{};  ///< Empty where that knob is not to be turned.
+  bool shares_views_{};
+  double view_threads_{};
 };
 
 }  // namespace

@@ -138,7 +138,11 @@ std::vector<int> VirtualComputer::nodes_by_urgency(ComputePlace place) const {
 
 double VirtualComputer::useful_cores(int node) const {
   // A second core that brings nothing is left to others.
-  return speed_on(node, 2.0) > 1.0 ? spec(node).threads : 1.0;
+  if (!(speed_on(node, 2.0) > 1.0)) {
+    return 1.0;
+  }
+  const std::optional<int> threads = nodes[index(node)].job->record.work.threads();
+  return std::min(spec(node).threads, threads.value_or(spec(node).threads));
 }
 
 // Of a job that has not computed yet, nobody knows how much of it is shared.

@@ -36,6 +36,7 @@ TEST(Fixed, reaches_every_knob_of_a_mission) {
                                             {"rate_hz", 20.0},
                                             {"planner_budget", 40000.0},
                                             {"view_nodes", 15.0},
+                                            {"view_threads", 1.0},
                                             {"cores", 4.0},
                                             {"frequency_hz", 2035.2e6},
                                             {"max_speed_m_s", 10.0}});

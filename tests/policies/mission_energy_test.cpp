@@ -37,7 +37,8 @@ double rule_wished(const flyball::Decision& decision, const std::string& knob) {
 }
 
 struct EnergyRule {
-  EnergyRule() : started{flyball::start_policy("mission_energy", {})} {}
+  explicit EnergyRule(const std::map<std::string, flyball::ParameterValue>& given = {})
+      : started{flyball::start_policy("mission_energy", given)} {}
   double wish(const flyball::Observation& seen, const std::string& knob) {
     return rule_wished(started.policy->decide(seen), knob);
   }
@@ -159,8 +160,22 @@ TEST(MissionEnergy, looks_for_the_first_view_for_less_long_than_explorers_do) {
   EXPECT_LT(EnergyRule{}.wish(exploring(), "explore.iterations"), explorers_nodes);
 }
 
+TEST(MissionEnergy, looks_for_views_with_all_cores_that_are_granted) {
+  flyball::Observation seen = exploring();
+  for (const int cores : {4, 2}) {
+    seen.cores = cores;
+    EXPECT_EQ(EnergyRule{}.wish(seen, "explore.threads"), cores);
+    EXPECT_EQ(EnergyRule({{"view_threads", 1.0}}).wish(seen, "explore.threads"), 1.0) << "as set";
+  }
+  seen.cores = 0;
+  EXPECT_FALSE(has_wish(EnergyRule{}.started.policy->decide(seen), "explore.threads"))
+      << "nobody says how many there are";
+}
+
 TEST(MissionEnergy, leaves_the_search_for_views_alone_where_there_is_none_or_it_shall) {
-  EXPECT_FALSE(has_wish(EnergyRule{}.started.policy->decide(cruising()), "explore.iterations"));
+  for (const char* knob : {"explore.iterations", "explore.threads"}) {
+    EXPECT_FALSE(has_wish(EnergyRule{}.started.policy->decide(cruising()), knob)) << knob;
+  }
   EXPECT_FALSE(has_wish(after_searches(1s, 0.0), "explore.iterations")) << "as set";
 }
 

@@ -48,6 +48,7 @@ struct RigJob {
   std::size_t capacity{1};
   double stop_latency_ms{};
   std::optional<double> shared_ms{};  ///< Of `time_ms`, what several cores can share.
+  int fewer_threads{};                ///< Of `threads`, that share it; 0: all.
 };
 
 /// Nodes that a message starts. Each publishes, as an output, how many jobs it has computed.
@@ -78,6 +79,9 @@ struct ComputerRig {
       work.add("ms", job.time_ms - job.shared_ms.value_or(0.0));
       if (job.shared_ms) {
         work.add_shared("ms", *job.shared_ms);
+      }
+      if (job.fewer_threads > 0) {
+        work.shared_among(job.fewer_threads);
       }
       return work;
     });

@@ -157,6 +157,23 @@ TEST(JobScheduling, a_race_takes_the_time_of_one_search_where_each_has_a_core) {
   }
 }
 
+TEST(JobScheduling, a_job_that_fewer_threads_shared_leaves_the_other_cores_free) {
+  ComputerRig rig;
+  RigJob by_two = race(1);
+  by_two.fewer_threads = 2;
+  const int job = rig.add(by_two);
+  const int other = rig.add(race(0));
+  rig.start(4);
+  rig.trigger(job, 0.0);
+  rig.trigger(other, 0.0);
+  rig.run();
+  EXPECT_NEAR(rig.end_ms(job), 20.0 + 160.0 / 2.0, end_tolerance_ms);
+  // On two cores, and on all four as soon as the first job is over.
+  const double on_two = 1.0 / (1.0 / 9.0 + 8.0 / 9.0 / 2.0);
+  const double on_four = 1.0 / (1.0 / 9.0 + 8.0 / 9.0 / 4.0);
+  EXPECT_NEAR(rig.end_ms(other), 100.0 + (180.0 - 100.0 * on_two) / on_four, end_tolerance_ms);
+}
+
 TEST(JobScheduling, a_race_goes_on_with_the_cores_that_others_leave_idle) {
   ComputerRig rig;
   const int other = rig.add({50.0, 1});

@@ -61,7 +61,7 @@ void ExplorationFlight::add_explore(Graph& graph) {
   spec.trigger = OnMessage{explore_.request.index};
   spec.priority = 15;
   spec.deadline = 30s;
-  spec.threads = parts_.brief->settings.explore.threads;
+  spec.threads = Explorer::most_threads;
   spec.reads = {perception_.map.index, parts_.mission.knobs.index};
   spec.writes = {explore_.response.index};
   graph.node(std::move(spec), [service = explore_, map = perception_.map, mission = parts_.mission,
@@ -75,8 +75,10 @@ void ExplorationFlight::add_explore(Graph& graph) {
     explorer->apply(knobs->knobs);
     ExploreRequest request = query->request;
     request.settings.iterations = static_cast<int>(knobs->value("explore.iterations"));
+    request.settings.threads = static_cast<int>(knobs->value("explore.threads"));
     ExploreStep step = explorer->explore(request, *revision->map);
     Work work = step.work;
+    work.shared_among(request.settings.threads);
     job.publish(service.response, ExploreAnswer{query->id, std::move(step)});
     return work;
   });

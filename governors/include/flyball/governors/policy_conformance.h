@@ -27,6 +27,7 @@ namespace flyball {
       {"map.rate_hz", "Hz", "mapper", {}, 1.0, 30.0, 20.0, ""},
       {"planner.budget", "iterations", "plan", {}, 100.0, 1e6, 40000.0, ""},
       {"explore.iterations", "nodes", "explore", {}, 1.0, 10000.0, 15.0, ""},
+      {"explore.threads", "threads", "explore", {1, 2, 3, 4}, 1.0, 4.0, 1.0, ""},
       {"cpu.cores", "", "platform", {1, 2, 3, 4}, 1.0, 4.0, 4.0, ""},
       {"cpu.frequency_hz", "Hz", "platform", {806.4e6, 1574.4e6, 2035.2e6}, 0.0, 0.0, 2035.2e6, ""},
       {"mission.max_speed_m_s", "m/s", "mission", {}, 0.5, 10.0, 10.0, ""},

@@ -62,8 +62,22 @@ struct ExploreStep {
 
 class Explorer : public Kernel {
  public:
-  /// How much one step may cost: `ExploreSettings::iterations`.
+  static constexpr int most_threads = 16;
+
+  /// How much one step may cost, and how many cores may share it: `ExploreSettings::iterations` and
+  /// `threads`.
   [[nodiscard]] std::vector<KnobSpec> knobs() const override {
+    KnobSpec threads{"explore.threads",
+                     "threads",
+                     "explore",
+                     {},
+                     1.0,
+                     most_threads,
+                     1.0,
+                     "so many look for the next view at once"};
+    for (int n = 1; n <= most_threads; ++n) {
+      threads.legal.push_back(n);
+    }
     return {{"explore.iterations",
              "nodes",
              "explore",
@@ -71,7 +85,8 @@ class Explorer : public Kernel {
              1.0,
              10000.0,
              15.0,
-             "nodes of the tree in which the next view is looked for"}};
+             "nodes of the tree in which the next view is looked for"},
+            threads};
   }
   /// May remember earlier steps of the same mission. Same requests and maps, same steps. From a
   /// place, or in a volume, that is not finite nothing can be seen.

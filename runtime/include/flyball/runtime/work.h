@@ -49,6 +49,11 @@ class Work {
     return part;
   }
 
+  /// How many threads have shared it, where the node does not always use all that it may
+  /// (`NodeSpec::threads`); empty: so many.
+  [[nodiscard]] std::optional<int> threads() const { return threads_; }
+  void shared_among(int threads) { threads_ = threads; }
+
   /// The kernel whose price list counts, where a node's kernel may change between two jobs. Empty:
   /// the one that the node names (`NodeSpec::cost`).
   [[nodiscard]] const std::string& charged_as() const { return charged_as_; }
@@ -67,6 +72,7 @@ class Work {
 
   std::vector<WorkItem> items_;
   std::optional<std::vector<WorkItem>> shared_{};
+  std::optional<int> threads_{};
   std::string charged_as_{};
 };
 

@@ -21,7 +21,7 @@ class ExplorerConformance : public KernelConformance<Explorer> {
   using KernelConformance::KernelConformance;
 
   [[nodiscard]] std::vector<std::string> breaches() {
-    return checked({"explore.iterations"}, [this] {
+    return checked({"explore.iterations", "explore.threads"}, [this] {
       check_steps();
       check_nothing_left();
       check_taken();
