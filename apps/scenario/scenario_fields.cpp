@@ -263,8 +263,6 @@ Fields computer_fields() {
        "frames integrated a second, at most"},
       {"planner.budget", &at<&Scenario::planner, &PlannerSettings::budget>, 100, 1e6,
        "iterations that one search for a path may take"},
-      {"planner.searches", &at<&Scenario::planner, &PlannerSettings::searches>, 1, 16,
-       "searches that race each other and share the budget; each can use a core"},
       {"planner.horizon_m", &at<&Scenario::planner, &PlannerSettings::horizon_m>, 0, 10000,
        "a farther goal is approached through intermediate places; 0: planned to at once"},
       {"platform.name", &at<&Scenario::platform, &PlatformSettings::name>, 0, 0,

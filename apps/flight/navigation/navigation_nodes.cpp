@@ -103,7 +103,6 @@ void add_plan(Graph& graph,
   spec.trigger = OnMessage{topics.plan.request.index};
   spec.priority = 15;
   spec.deadline = 10s;
-  spec.threads = parts.brief->settings.planner.searches;
   spec.reads = {perception.map.index, parts.mission.knobs.index};
   spec.writes = {topics.plan.response.index};
   graph.node(std::move(spec), [=, brief = parts.brief, knobs_topic = parts.mission.knobs,

@@ -3,7 +3,6 @@
 
 #include "flyball/flight/navigation/gap_scan.h"
 #include "flyball/flight/navigation/known_path.h"
-#include "flyball/flight/navigation/plan_race.h"
 #include "flyball/flight/perception/counted_map.h"
 #include "flyball/runtime/random.h"
 
@@ -11,6 +10,13 @@
 
 namespace flyball {
 namespace {
+
+void add(Work& sum, const Work& more) {
+  for (const WorkItem& item : more.items()) {
+    sum.add(item.name, item.count);
+  }
+  sum.charge_as(more.charged_as());
+}
 
 // The room beside the tube of cruise speed is two of the cells with which that speed can be flown
 // (.30 m): an obstacle fills one of them by its border, and the other must be known free. A map of
@@ -128,8 +134,7 @@ class Search {
   bool try_with(const Cylinder& body, int iterations) {
     request_.body = body;
     request_.max_iterations = iterations;
-    const int searches = situation_.brief.settings.planner.searches;
-    Plan plan = race_of(searches, planner_, request_, situation_.map);
+    Plan plan = planner_.plan(request_, situation_.map);
     add(work_, plan.work);
     const bool found = !plan.waypoints_W.empty();
     if (found || plan_.waypoints_W.empty()) {

@@ -126,10 +126,7 @@ Plan plan_with(const PlanRequest& request, const TreeSearch& search, MotionCheck
   } else {
     found.points_W = free_way(request, checker);
     if (found.points_W.empty()) {
-      const double before = checker.queries();
       found = search_all(request, search, checker);
-      plan.searching.add("iterations", found.iterations);
-      plan.searching.add("collision_queries", checker.queries() - before);
     }
     if (!found.points_W.empty()) {
       plan.waypoints_W = simplify(std::move(found.points_W), checker, request);

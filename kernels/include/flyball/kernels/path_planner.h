@@ -47,10 +47,7 @@ struct PlanRequest {
 
 struct Plan {
   std::vector<Vec3> waypoints_W{};  ///< From start to goal; empty when none was found.
-  Work work{};  ///< `iterations`, `collision_queries`; also when none was found.
-  /// The part of `work` that is the search itself, without what comes before and after it; empty
-  /// where a planner does not tell them apart.
-  Work searching{};
+  Work work{};            ///< `iterations`, `collision_queries`; also when none was found.
   std::string failure{};  ///< Empty on success; else why: `not finite` (a place, the bounds or the
                           ///< body), `start blocked`, `goal blocked`, `no path within N
                           ///< iterations`, `no path shorter than L m`.

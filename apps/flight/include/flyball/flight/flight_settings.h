@@ -87,9 +87,6 @@ struct PlannerSettings {
   /// Most iterations of one search. More would be spent on a map that is seconds old; a new search
   /// on the newest map is worth more. The first of several takes fewer (`plan_with_tubes`).
   int budget{4000};
-  /// So many searches, which differ in their random draws, race each other on cores of their own;
-  /// the first that finds a path ends them all. They share the iterations of one.
-  int searches{1};
   /// A goal farther away is approached through intermediate places; 0: it is planned to at once.
   double horizon_m{};
 };
