@@ -37,7 +37,7 @@ struct ExploreSettings {
   int most_iterations{80};        ///< ... as many as this while none of them has a gain.
   double discount_1_m{0.5};       ///< lambda of Bircher et al. 2016, its code's default.
   double coverage_percent{85.0};  ///< Of the reachable volume, to be mapped (MAVBench).
-  int threads{1};                 ///< So many look at views at once. The step is the same.
+  int threads{1};                 ///< So many look at views at once until a policy sets it.
 };
 
 struct ExploreRequest {

@@ -97,9 +97,10 @@ struct NodeSpec {
   /// Under `skip`, how long a job that was told to stop goes on at most: the longest time between
   /// two questions of its body (`JobContext::should_stop`). A modeled computer works so long on it.
   Duration stop_latency{};
-  /// Cores that the job can use at once; every shipped kernel uses one, unless planners race. The
-  /// modeled computer then gives it so many, and `Platform::speedup` says what they bring to the
-  /// part of the work that they share (`Work::add_shared`).
+  /// Cores that the job can use at once; every shipped kernel uses one, but for explorers. The
+  /// modeled computer gives it at most so many, or as many threads as have shared its work
+  /// (`Work::threads`), and `Platform::speedup` says what they bring to the part of the work that
+  /// they share (`Work::add_shared`).
   int threads{1};
   /// Topics besides the trigger. A job that touches one that is not declared is a broken
   /// precondition: the printed graph tells the truth. Each node reads a queue at its own pace.
