@@ -3,10 +3,7 @@
 // Whether a mission can need a clock that is turned in flight: one that flies and watches, at every
 // fixed clock of the computer and with policies that turn it.
 
-#include "flyball/studies/hindsight.h"
-
 #include "experiments/framework/papers.h"
-#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -34,28 +31,11 @@ std::string ghz(const std::string& clock_hz) {
   return text;
 }
 
-Candidate flown_at(const Evidence& evidence,
-                   const std::string& clock_hz,
-                   const std::string& policy) {
-  Candidate candidate{{{"platform.frequency_hz", std::stod(clock_hz)}}, {}};
-  for (const Summary* flight : evidence.at("fixed", {clock_hz}, policy).flights) {
-    candidate.flights.push_back(*flight);
-  }
-  return candidate;
-}
-
-std::string best_clock_hz(const Evidence& evidence, const std::string& policy) {
-  const std::vector<std::string> all = clocks_hz();
-  return *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-    return is_better_in_hindsight(flown_at(evidence, a, policy), flown_at(evidence, b, policy));
-  });
-}
-
 Result<Findings> evaluate(const Evidence& evidence) {
   Findings findings;
   for (const Pair& pair : pairs) {
     const Point turned = evidence.at("turned", {}, pair.turned);
-    const std::string best_hz = best_clock_hz(evidence, pair.fixed);
+    const std::string best_hz = best_in_hindsight(evidence, "fixed", clocks_hz(), pair.fixed);
     const auto over = [&](const std::string& clock_hz) {
       return ratio(turned, evidence.at("fixed", {clock_hz}, pair.fixed),
                    flight_figure("energy_total_kj"));

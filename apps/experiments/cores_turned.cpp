@@ -4,10 +4,8 @@
 // at the best fixed number of them, which is more than turning it ever can gain.
 
 #include "flyball/scenario/shipped_platform.h"
-#include "flyball/studies/hindsight.h"
 
 #include "experiments/framework/papers.h"
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,21 +29,6 @@ std::vector<Watch> watches() {
 
 std::vector<std::string> numbers_of_cores() {
   return {"1", "2", "3", "4"};
-}
-
-Candidate flown_with(const Evidence& evidence, const Watch& watch, const std::string& cores) {
-  Candidate candidate{{{"platform.cores", std::stod(cores)}}, {}};
-  for (const Summary* flight : evidence.at(watch.scenario, {cores}).flights) {
-    candidate.flights.push_back(*flight);
-  }
-  return candidate;
-}
-
-std::string best_number(const Evidence& evidence, const Watch& watch) {
-  const std::vector<std::string> all = numbers_of_cores();
-  return *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-    return is_better_in_hindsight(flown_with(evidence, watch, a), flown_with(evidence, watch, b));
-  });
 }
 
 /// Energy over that with the best number of cores.
@@ -96,7 +79,7 @@ Result<Findings> evaluate(const Evidence& evidence) {
   }
   Findings findings;
   for (const Watch& watch : watches()) {
-    const std::string best = best_number(evidence, watch);
+    const std::string best = best_in_hindsight(evidence, watch.scenario, numbers_of_cores());
     compare_numbers(evidence, watch, best, findings);
     if (watch.flies) {  // Else the work is the same from beginning to end.
       bound_gain(evidence, watch, model->power, findings);

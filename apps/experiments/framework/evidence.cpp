@@ -3,6 +3,7 @@
 #include "experiments/framework/evidence.h"
 
 #include "flyball/runtime/assert.h"
+#include "flyball/studies/hindsight.h"
 
 #include "studies/sweep/flight_figures.h"
 #include <algorithm>
@@ -82,6 +83,23 @@ Point Evidence::at(const std::string& name,
     }
   }
   return point;
+}
+
+std::string best_in_hindsight(const Evidence& evidence,
+                              const std::string& sweep,
+                              const std::vector<std::string>& values,
+                              const std::string& policy) {
+  FLYBALL_ASSERT(!values.empty(), "no values of %s", sweep.c_str());
+  const auto flown = [&](const std::string& value) {
+    Candidate candidate;
+    for (const Summary* flight : evidence.at(sweep, {value}, policy).flights) {
+      candidate.flights.push_back(*flight);
+    }
+    return candidate;
+  };
+  return *std::min_element(values.begin(), values.end(), [&](const auto& a, const auto& b) {
+    return is_better_in_hindsight(flown(a), flown(b));
+  });
 }
 
 Measured median(const Point& point, const FlightFigure& of) {

@@ -47,6 +47,15 @@ class Evidence {
   std::map<std::string, Sweep> sweeps_;
 };
 
+/// Of the values of a sweep's only axis, the one with the most successes and then the least energy,
+/// as `is_better_in_hindsight` has it; the first of equals.
+/// @param policy  As `Evidence::at`.
+/// @pre `values` is not empty.
+[[nodiscard]] std::string best_in_hindsight(const Evidence& evidence,
+                                            const std::string& sweep,
+                                            const std::vector<std::string>& values,
+                                            const std::string& policy = {});
+
 /// The median over the point's flights.
 [[nodiscard]] Measured median(const Point& point, const FlightFigure& of);
 /// The median of one point's number over the other's, seed by seed. Seeds that one of them lacks

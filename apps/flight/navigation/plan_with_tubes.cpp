@@ -11,13 +11,6 @@
 namespace flyball {
 namespace {
 
-void add(Work& sum, const Work& more) {
-  for (const WorkItem& item : more.items()) {
-    sum.add(item.name, item.count);
-  }
-  sum.charge_as(more.charged_as());
-}
-
 // The room beside the tube of cruise speed is two of the cells with which that speed can be flown
 // (.30 m): an obstacle fills one of them by its border, and the other must be known free. A map of
 // such cells stays passable along a path with so much room. A path that cuts a corner more closely
@@ -39,6 +32,13 @@ constexpr int most_doublings = 10;      // More than any budget.
 // motion loses this share of the time that it searches, because it flies on meanwhile.
 constexpr double finds_one = 0.1;
 constexpr double lost_in_motion = 0.37;
+
+void add(Work& sum, const Work& more) {
+  for (const WorkItem& item : more.items()) {
+    sum.add(item.name, item.count);
+  }
+  sum.charge_as(more.charged_as());
+}
 
 class Search {
  public:

@@ -2,7 +2,6 @@
 // tested-in: governor_policy
 #include "embedded_policy.h"
 
-#include "flyball/governors/policy_abilities.h"
 #include "flyball/governors/policy_file.h"
 #include "flyball/governors/preset.h"
 #include "flyball/runtime/registry.h"

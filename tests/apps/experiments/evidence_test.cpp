@@ -23,6 +23,21 @@ TEST(Evidence, finds_the_flights_of_a_point) {
   EXPECT_EQ(evidence.sweep("made").plan.axes.front().key, "a");
 }
 
+TEST(Evidence, finds_the_value_with_the_least_energy_among_those_that_succeed_most_often) {
+  for (const bool cheaper_fails : {false, true}) {
+    Sweep sweep = made_sweep();
+    for (SweepFlight& flight : sweep.flights) {
+      const bool is_cheaper = flight.point == 1;
+      flight.summary.energy_rotor_j = is_cheaper ? 100.0 : 200.0;
+      flight.summary.policy_faults = 0;
+      flight.summary.status =
+          is_cheaper && cheaper_fails ? MissionStatus::failed : MissionStatus::succeeded;
+    }
+    const Evidence evidence{{{"made", sweep}}};
+    EXPECT_EQ(best_in_hindsight(evidence, "made", {"1", "2"}), cheaper_fails ? "1" : "2");
+  }
+}
+
 TEST(Evidence, pairs_flights_by_their_seeds) {
   const Evidence evidence = made_evidence();
   const Measured found = ratio(evidence.at("made", {"2"}), evidence.at("made", {"1"}),

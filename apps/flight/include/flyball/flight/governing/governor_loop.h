@@ -8,7 +8,6 @@
 #include "flyball/flight/governing/choice_text.h"
 #include "flyball/flight/governing/node_places.h"
 #include "flyball/flight/navigation/guidance.h"
-#include "flyball/flight/navigation/situation.h"
 #include "flyball/governors/policy_governor.h"
 #include "flyball/runtime/board.h"
 #include "flyball/runtime/work.h"
