@@ -39,7 +39,10 @@ LearnedLatency::LearnedLatency(const LearnedLatencySettings& settings,
                                const std::vector<LatencyLevel>& levels,
                                const MapSetting& in_force,
                                Hertz top_clock)
-    : settings_{settings}, bound_{levels.size(), 1, settings.bound}, in_force_{in_force} {
+    : settings_{settings},
+      bound_{levels.size(), 1, settings.bound},
+      top_clock_{top_clock},
+      in_force_{in_force} {
   for (const LatencyLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;

@@ -100,11 +100,11 @@ Observation Ablation::seen(Observation seen) const {
   return seen;
 }
 
-MapSetting Ablation::map(const MapRule& rule, MapNeeds needs) const {
+MapSetting Ablation::map(const MapRule& rule, MapNeeds needs, const LearnedLatency& latency) const {
   if (part_ == Part::resolution) {
     needs.cells_m = rule.finest_m();  // They pass every gap, so they are the ones to keep.
   }
-  MapSetting setting = rule.setting(needs);
+  MapSetting setting = rule.setting(needs, latency);
   if (part_ == Part::range) {
     setting.range_m = rule.range_m();
   }

@@ -37,7 +37,9 @@ class Ablation {
   /// What the policy learns from and looks at.
   [[nodiscard]] Observation seen(Observation seen) const;
   /// The map that the policy takes.
-  [[nodiscard]] MapSetting map(const MapRule& rule, MapNeeds needs) const;
+  [[nodiscard]] MapSetting map(const MapRule& rule,
+                               MapNeeds needs,
+                               const LearnedLatency& latency) const;
   /// Whether no lower clock than the highest is taken.
   [[nodiscard]] bool keeps_top_clock() const { return part_ == Part::clock; }
 

@@ -73,7 +73,10 @@ std::vector<ParameterSpec> MapRule::parameters() {
       {"door_m", 0.05, 0.0, 2.0,
        "Where plans keep failing near narrow gaps, if the mapper takes any cells; 0: none."},
       {"range_m", 10.0, 0.5, 100.0,
-       "With cells of .15 m; larger ones reach farther, smaller ones less."},
+       "With cells of .15 m; larger ones reach farther, smaller ones never do."},
+      // A TX2 takes .27 s for a map of stock OctoMap with cells of .15 m and a range of 10 m.
+      {"small_cells_s", 0.25, 0.001, 60.0,
+       "Cells below .15 m reach as far as a map takes so long."},
       {"least_range_m", 7.0, 0.5, 100.0, "Shortest, but where narrow gaps are declared."},
       {"most_range_m", 0.0, 0.0, 100.0, "Longest; 0: as far as the camera can tell a cell."},
       {"narrow_m_s", 2.0, 0.0, 50.0, "A speed limit, up to 20 m ahead, that means narrow gaps."},
@@ -115,6 +118,7 @@ MapRule::MapRule(const Parameters& given, const KnobSettings& knobs, const Vehic
       range_m_{given.number("range_m")},
       least_range_m_{given.number("least_range_m")},
       most_range_m_{given.number("most_range_m")},
+      small_cells_s_{given.number("small_cells_s")},
       narrow_m_s_{given.number("narrow_m_s")},
       patience_s_{given.number("patience_s")},
       body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
@@ -204,19 +208,32 @@ double MapRule::most_range_m(double cells_m) const {
 }
 
 // With larger cells than these, `range_m` grows as tuning has found it (gap_switch's 10, 15 and 22
-// m with cells of .15, .30 and .60 m). With smaller ones, it shrinks so that a map takes as long as
-// one of these: its time grows with R^2.2 / r^3. Where the mission is slow, 5 m would take .93 of
-// the energy in building_079 (n 30), but 1.03 to 1.06 in other buildings (n 12), which 10 m show
-// better.
-double MapRule::usual_range_m(double cells_m) const {
+// m with cells of .15, .30 and .60 m). Where the mission is slow, 5 m would take .93 of the energy
+// in building_079 (n 30), but 1.03 to 1.06 in other buildings (n 12), which 10 m show better.
+double MapRule::usual_range_m(double cells_m, const LearnedLatency& latency) const {
   constexpr double tuned_m = 0.15;
-  const double power = cells_m < tuned_m ? 3.0 / 2.2 : 0.57;
-  return range_m_ * std::pow(cells_m / tuned_m, power);
+  return cells_m < tuned_m ? quick_range_m(cells_m, latency)
+                           : range_m_ * std::pow(cells_m / tuned_m, 0.57);
 }
 
-MapSetting MapRule::setting(const MapNeeds& needs) const {
+// Far maps of small cells come too late on one computer and cost nothing on another: with cells of
+// .05 m, stock OctoMap has time for 2 m on a TX2, and our own map for 10 m, which takes .87 of the
+// energy in an office (n 16). The steps are so large that a range stays for some maps, because a
+// bound on latency is one of a setting.
+double MapRule::quick_range_m(double cells_m, const LearnedLatency& latency) const {
+  constexpr double step = 0.8;
+  constexpr double least_m = 2.0;  // Chosen: a vehicle in rooms must see the next door.
+  double range_m = range_m_;
+  while (range_m > least_m &&
+         latency.predicted_s({cells_m, range_m, latency.top_clock_hz()}) > small_cells_s_) {
+    range_m *= step;
+  }
+  return range_m;
+}
+
+MapSetting MapRule::setting(const MapNeeds& needs, const LearnedLatency& latency) const {
   const double most_m = std::max(most_range_m(needs.cells_m), needs.clear_range_m);
-  const double range_m = std::max(usual_range_m(needs.cells_m), needs.least_range_m);
+  const double range_m = std::max(usual_range_m(needs.cells_m, latency), needs.least_range_m);
   return {needs.cells_m, std::min(range_m, most_m), 0.0};
 }
 

@@ -38,7 +38,8 @@ struct MapNeeds {
 ///   such maps take long.
 /// - The ceiling above the vehicle, which larger cells would fill down to it, is not reached.
 ///
-/// The range follows from the cells, because maps of larger ones take less time. It ends earlier
+/// The range follows from the cells, because maps of larger ones take less time; that of the
+/// smallest ones from how long a map takes on the computer at hand. It ends earlier
 /// where the camera's noise is half a cell. A mapper with a lattice keeps all hits, also those far
 /// off, so there noise stays below a quarter of the body's width, too. Where wide gaps are seen
 /// there may be more noise.
@@ -63,7 +64,7 @@ class MapRule {
   /// @param cells_m  In force.
   [[nodiscard]] MapNeeds look(const Observation& seen, double cells_m);
   /// What the rule takes, without a clock.
-  [[nodiscard]] MapSetting setting(const MapNeeds& needs) const;
+  [[nodiscard]] MapSetting setting(const MapNeeds& needs, const LearnedLatency& latency) const;
 
   [[nodiscard]] double body_m() const { return body_m_; }
   [[nodiscard]] double finest_m() const { return levels_m_.front(); }
@@ -78,7 +79,8 @@ class MapRule {
   [[nodiscard]] LatencyLevel door_level(const std::vector<LatencyLevel>& others) const;
   [[nodiscard]] Passability passability(const Parameters& given) const;
   [[nodiscard]] double under_ceiling_m(const Observation& seen) const;
-  [[nodiscard]] double usual_range_m(double cells_m) const;
+  [[nodiscard]] double usual_range_m(double cells_m, const LearnedLatency& latency) const;
+  [[nodiscard]] double quick_range_m(double cells_m, const LearnedLatency& latency) const;
   /// Up to here depth noise leaves any gap open that these cells do.
   [[nodiscard]] double most_range_m(double cells_m) const;
   [[nodiscard]] double noise_free_m(double cells_m) const;
@@ -91,6 +93,7 @@ class MapRule {
   double range_m_;
   double least_range_m_;
   double most_range_m_;
+  double small_cells_s_;
   double narrow_m_s_;
   double patience_s_;
   double body_m_;

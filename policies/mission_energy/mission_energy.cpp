@@ -155,7 +155,7 @@ class MissionEnergy final : public flyball::Policy,
       return keeps_top ? clock_->choose(home, seen, true) : clock_->rest(home, *within_s, seen.now);
     }
     const flyball::MapNeeds needs = map_->look(seen, clock_->in_force().resolution_m);
-    const MapSetting map = without_->map(*map_, needs);
+    const MapSetting map = without_->map(*map_, needs, clock_->latency());
     return clock_->choose(map, seen, keeps_top || needs.needs_top_clock);
   }
 

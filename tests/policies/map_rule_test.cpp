@@ -105,6 +105,11 @@ TEST(MapRule, takes_cells_for_doors_after_two_plans_have_failed_in_a_room) {
   EXPECT_EQ(cells_m(exploring), 0.15) << "all rooms would have to be seen anew";
 }
 
+/// What a computer is expected to take before the first map: .5 s with the smallest cells and 7 m.
+LearnedLatency expected_of(const MapRule& rule) {
+  return {{}, rule.levels(0.5, 0.1), rule.home(), Hertz{2e9}};
+}
+
 /// The longest range of each level, of 30 m at most.
 std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
                                      const KnobSettings& knobs = conformance_knobs()) {
@@ -116,7 +121,7 @@ std::vector<double> longest_ranges_m(const DepthCameraSpec& camera,
     MapNeeds far;
     far.cells_m = level.resolution_m;
     far.least_range_m = 30.0;
-    ranges_m.push_back(rule->setting(far).range_m);
+    ranges_m.push_back(rule->setting(far, expected_of(*rule)).range_m);
   }
   return ranges_m;
 }
@@ -178,15 +183,16 @@ TEST(MapRule, looks_as_far_as_noise_lets_it_where_wide_gaps_are_seen) {
   auto rule = made({}, conformance_knobs(), vehicle);
   MapNeeds needs;
   needs.cells_m = 0.60;
-  EXPECT_NEAR(rule->setting(needs).range_m, 9.08, 0.051);
+  EXPECT_NEAR(rule->setting(needs, expected_of(*rule)).range_m, 9.08, 0.051);
   needs.clear_range_m = 15.1;
-  EXPECT_EQ(rule->setting(needs).range_m, 15.1);
+  EXPECT_EQ(rule->setting(needs, expected_of(*rule)).range_m, 15.1);
 }
 
 double range_m(double cells_m, const Given& given = {}) {
   MapNeeds needs;
   needs.cells_m = cells_m;
-  return made(given, any_resolution(0.02))->setting(needs).range_m;
+  const auto rule = made(given, any_resolution(0.02));
+  return rule->setting(needs, expected_of(*rule)).range_m;
 }
 
 // Those of gap_switch are 10, 15 and 22 m.
@@ -198,11 +204,20 @@ TEST(MapRule, looks_farther_with_larger_cells_whose_maps_take_less_time) {
   EXPECT_EQ(range_m(0.60, {{"most_range_m", 12.0}}), 12.0);
 }
 
-// Time grows with R^2.2 / r^3.
-TEST(MapRule, looks_as_far_with_smaller_cells_as_takes_the_same_time) {
-  for (const double cells_m : {0.05, 0.075, 0.10}) {
-    EXPECT_NEAR(std::pow(range_m(cells_m) / 10.0, 2.2), std::pow(cells_m / 0.15, 3.0), 1e-9);
-  }
+// Time grows with R^2.2, and each step of the range is a fifth.
+TEST(MapRule, looks_as_far_with_smaller_cells_as_the_computer_has_time_for) {
+  const auto rule = made({}, any_resolution(0.02));
+  MapNeeds doors;
+  doors.cells_m = 0.05;
+  const auto range_where_7_m_take = [&](double seconds) {
+    const LearnedLatency latency{
+        {}, {{0.05, seconds, 2.2}, {0.15, 0.1, 2.2}}, rule->home(), Hertz{2e9}};
+    return rule->setting(doors, latency).range_m;
+  };
+  EXPECT_EQ(range_where_7_m_take(0.1), 10.0) << "no farther than with larger cells";
+  EXPECT_NEAR(range_where_7_m_take(0.2), 8.0 * 0.8, 1e-9) << "8 m take .27 s, 6.4 m .16 s";
+  EXPECT_NEAR(range_where_7_m_take(1.0), 10.0 * std::pow(0.8, 5), 1e-9) << "3.7 m take .25 s";
+  EXPECT_NEAR(range_where_7_m_take(50.0), 10.0 * std::pow(0.8, 8), 1e-9) << "the next door is seen";
 }
 
 TEST(MapRule, may_look_nearer_where_the_mission_is_slow) {

@@ -60,6 +60,7 @@ class LearnedLatency {
   /// The level nearest to these cells, which somebody else may have set.
   [[nodiscard]] double nearest_cells_m(double any_m) const { return cells_m_[level(any_m)]; }
 
+  [[nodiscard]] double top_clock_hz() const { return top_clock_.value(); }
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
   /// The setting of the frames to come.
   void put_in_force(const MapSetting& setting, MissionTime now);
@@ -79,6 +80,7 @@ class LearnedLatency {
   std::vector<double> cells_m_{};  ///< Of the levels, ascending.
   LatencyModels models_{};         ///< One for each level.
   LatencyBound bound_;
+  Hertz top_clock_;
   MapSetting in_force_;
   MissionTime in_force_since_{};
   MissionTime cells_since_{};  ///< Since when these cells have been in force, with any range.
