@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Search and rescue: the vehicle explores as in 3-D mapping, while a detector looks for people.
-// When enough sightings agree that somebody is found, it flies home and lands. The dataflow is that
-// of MAVBench (MICRO 2018), figure of search and rescue.
+// When enough sightings agree that somebody is found, it flies home and lands. When no view is left
+// that shows anything new, it goes through all of them once more before it flies home without. The
+// dataflow is that of MAVBench (MICRO 2018), figure of search and rescue.
 
 #include "flyball/flight/exploration/exploration_flight.h"
 #include "flyball/flight/exploration/known_share.h"
@@ -67,9 +68,18 @@ class SearchAndRescue final : public Workload {
     tell_area(job, asked);
     flight_->step(job);
     if (flight_->state() == ExplorationFlight::State::exhausted) {
-      end(job, MissionStatus::failed, MissionFailure::not_found);
+      look_again_or_give_up(job);
     } else if (flight_->state() == ExplorationFlight::State::landed) {
-      end(job, MissionStatus::succeeded, MissionFailure::none);
+      end(job);
+    }
+  }
+
+  void look_again_or_give_up(JobContext& job) {
+    if (flight_->look_again()) {
+      log_event(job, mission_, "nobody found: looks again");
+    } else {
+      log_event(job, mission_, "nobody found: gives up");
+      flight_->go_home(job);
     }
   }
 
@@ -88,14 +98,19 @@ class SearchAndRescue final : public Workload {
     map.add_to(asked);
   }
 
-  void end(JobContext& job, MissionStatus status, MissionFailure failure) {
-    end_mission(job, mission_, status, failure);
+  void end(JobContext& job) {
+    if (has_found_) {
+      end_mission(job, mission_, MissionStatus::succeeded, MissionFailure::none);
+    } else {
+      end_mission(job, mission_, MissionStatus::failed, MissionFailure::not_found);
+    }
     is_done_ = true;
   }
 
   void look_at(JobContext& job, const Sightings& seen) {
     for (const Sighting& sighting : seen.people) {
       if (auto found = finding_->add(job.now(), sighting, seen.frame, seen.from_W)) {
+        has_found_ = true;
         log_event(job, mission_, "person found");
         job.publish(found_, std::move(*found));
         flight_->go_home(job);
@@ -110,6 +125,7 @@ class SearchAndRescue final : public Workload {
   Topic<Sightings> sightings_{};
   Topic<Finding> found_{};
   MissionTime next_estimate_{};
+  bool has_found_{};
   bool is_done_{};
 };
 

@@ -14,18 +14,7 @@
 namespace flyball {
 namespace {
 
-/// Whether the trace has this text.
-bool says(const MissionRecord& record, const std::string& what) {
-  for (const auto& row : record.trace->rows()) {
-    for (const auto& field : row.fields) {
-      const auto* text = std::get_if<std::string>(&field.value);
-      if (text != nullptr && *text == what) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
+using kit::says;
 
 TEST(Delivery, flies_there_and_back_and_leaves_the_payload) {
   const MissionRecord record = kit::flown(kit::short_delivery(30.0));

@@ -2,9 +2,14 @@
 #pragma once
 
 /// @file
-/// A delivery over open ground that flies in a second or two of host time.
+/// A delivery over open ground that flies in a second or two of host time; and a flight's record,
+/// with what its trace says.
 
 #include "flyball/simulation/mission.h"
+
+#include <string>
+#include <utility>
+#include <variant>
 
 namespace flyball::kit {
 
@@ -22,6 +27,19 @@ inline MissionRecord flown(const Scenario& scenario) {
   auto record = fly(scenario, {});
   FLYBALL_ASSERT(record.ok(), "%s", record.error().message.c_str());
   return std::move(*record);
+}
+
+/// Whether the trace has this text.
+inline bool says(const MissionRecord& record, const std::string& what) {
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& field : row.fields) {
+      const auto* text = std::get_if<std::string>(&field.value);
+      if (text != nullptr && *text == what) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace flyball::kit

@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/random.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flyball {
@@ -16,6 +17,8 @@ constexpr double facing_rad = 0.05;  // ... and turned this near to its heading.
 constexpr double moving_m_s = 0.05;
 constexpr int most_failures = 3;     // After so many failed plans in a row a view is given up, ...
 constexpr double patience_s = 40.0;  // ... or after standing for so long before it is reached.
+// A camera of 90 degrees sees three quarters of what is around a place with both, and a view.
+constexpr double third_rad = 2.0943951023931953;
 
 }  // namespace
 
@@ -158,6 +161,10 @@ void ExplorationFlight::think(JobContext& job) {
   if (!revision || revision->captured < since_ || !navigator) {
     return;
   }
+  if (looks_again_) {
+    fly_to_next_view_again(job, navigator->position_W);
+    return;
+  }
   ExploreQuery query;
   query.id = ++asked_;
   query.request = explore_request(*parts_.brief, {navigator->position_W, navigator->yaw_rad});
@@ -186,10 +193,43 @@ void ExplorationFlight::take_answer(JobContext& job) {
     state_ = State::exhausted;
     return;
   }
-  view_ = *step.next;
+  fly_to(job, *step.next);
+}
+
+void ExplorationFlight::fly_to(JobContext& job, const Viewpoint& view) {
+  view_ = view;
   guidance_.go_to_view(job, view_.p_W, view_.yaw_rad);
   stage_ = Stage::flying;
   since_ = job.now();
+}
+
+bool ExplorationFlight::look_again() {
+  if (looks_again_ || taken_.empty()) {
+    return false;
+  }
+  for (const Viewpoint& view : taken_) {
+    for (const double turn_rad : {third_rad, -third_rad}) {
+      again_.push_back({view.p_W, wrap_angle(view.yaw_rad + turn_rad)});
+    }
+  }
+  looks_again_ = true;
+  state_ = State::exploring;
+  stage_ = Stage::mapping;
+  return true;
+}
+
+void ExplorationFlight::fly_to_next_view_again(JobContext& job, const Vec3& from_W) {
+  const auto nearest =
+      std::min_element(again_.begin(), again_.end(), [&](const Viewpoint& a, const Viewpoint& b) {
+        return (a.p_W - from_W).squaredNorm() < (b.p_W - from_W).squaredNorm();
+      });
+  if (nearest == again_.end()) {
+    state_ = State::exhausted;
+    return;
+  }
+  const Viewpoint next = *nearest;
+  again_.erase(nearest);
+  fly_to(job, next);
 }
 
 void ExplorationFlight::watch_flight(JobContext& job) {
@@ -229,7 +269,9 @@ void ExplorationFlight::give_up_view(JobContext& job) {
 void ExplorationFlight::watch_turn(JobContext& job) {
   const auto navigator = guidance_.state(job);
   if (navigator && std::abs(wrap_angle(navigator->yaw_rad - view_.yaw_rad)) < facing_rad) {
-    taken_.push_back(view_);
+    if (!looks_again_) {
+      taken_.push_back(view_);
+    }
     await_map(job.now());
   }
 }

@@ -54,6 +54,9 @@ class ExplorationFlight {
   void declare(NodeSpec& spec) const;
   /// Advances the flight by one step; called by the mission's node.
   void step(JobContext& job);
+  /// Somebody may stand behind where the camera looked: flies to all views once more, turned away
+  /// from how it had them. False when that has been done, or no view was had.
+  [[nodiscard]] bool look_again();
   /// The mission is done with exploring: flies home and lands.
   void go_home(JobContext& job);
 
@@ -68,6 +71,8 @@ class ExplorationFlight {
   void take_off(JobContext& job, const PoseEstimate& pose);
   void await_map(MissionTime now);
   void think(JobContext& job);
+  void fly_to_next_view_again(JobContext& job, const Vec3& from_W);
+  void fly_to(JobContext& job, const Viewpoint& view);
   void take_answer(JobContext& job);
   void watch_flight(JobContext& job);
   void watch_turn(JobContext& job);
@@ -88,6 +93,8 @@ class ExplorationFlight {
   std::uint64_t asked_{};
   Viewpoint view_{};
   std::vector<Viewpoint> taken_{};
+  bool looks_again_{};
+  std::vector<Viewpoint> again_{};  ///< That are left then.
   std::vector<Vec3> unreachable_W_{};
 };
 
