@@ -33,6 +33,7 @@ TEST(SearchAndRescue, finds_the_person_who_is_there_and_comes_home) {
   const MissionRecord record = kit::flown(small_search());
   const Summary& summary = record.summary;
   EXPECT_EQ(summary.status, MissionStatus::succeeded) << to_string(summary.failure);
+  EXPECT_TRUE(kit::says(record, "perhaps somebody: looks from another place"));
   EXPECT_LE(summary.quality.at("position_error_m"), 1.0);
   EXPECT_LT(summary.quality.at("time_to_find_s"), summary.mission_time_s);
   EXPECT_GE(summary.kernels.at("hog").calls, 1U);

@@ -203,6 +203,15 @@ void ExplorationFlight::fly_to(JobContext& job, const Viewpoint& view) {
   since_ = job.now();
 }
 
+bool ExplorationFlight::look_from(JobContext& job, const Viewpoint& view) {
+  const bool explores = state_ == State::exploring && stage_ >= Stage::mapping;
+  if (!explores || !guidance_.state(job)) {
+    return false;
+  }
+  fly_to(job, view);
+  return true;
+}
+
 bool ExplorationFlight::look_again() {
   if (looks_again_ || taken_.empty()) {
     return false;

@@ -14,6 +14,16 @@ PersonFinding::Place& PersonFinding::place_near(const Vec3& p_W) {
   return places_.emplace_back();
 }
 
+std::optional<Vec3> PersonFinding::take_doubtful_W() {
+  const auto place =
+      std::find_if(places_.begin(), places_.end(), [](const Place& one) { return !one.is_taken; });
+  if (has_found_ || place == places_.end()) {
+    return std::nullopt;
+  }
+  place->is_taken = true;
+  return place->mean_W();
+}
+
 std::optional<Finding> PersonFinding::add(MissionTime now,
                                           const Sighting& sighting,
                                           const ColourFrame& frame,

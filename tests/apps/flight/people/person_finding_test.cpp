@@ -45,6 +45,22 @@ TEST_F(Search, sightings_of_two_places_do_not_agree) {
   EXPECT_EQ(finding.places(), 2U);
 }
 
+TEST_F(Search, each_place_that_was_seen_once_is_doubtful_once) {
+  EXPECT_FALSE(finding.take_doubtful_W());
+  (void)see({5, 0, 1}, {0, 0, 1});
+  (void)see({8, 0, 1}, {0, 0, 1});
+  EXPECT_EQ(finding.take_doubtful_W(), Vec3(5, 0, 1));
+  EXPECT_EQ(finding.take_doubtful_W(), Vec3(8, 0, 1));
+  EXPECT_FALSE(finding.take_doubtful_W());
+}
+
+TEST_F(Search, nothing_is_doubtful_once_somebody_is_found) {
+  (void)see({5, 0, 1}, {0, 0, 1});
+  (void)see({8, 0, 1}, {0, 0, 1});
+  EXPECT_TRUE(see({5, 0, 1}, {1, 0, 1}));
+  EXPECT_FALSE(finding.take_doubtful_W());
+}
+
 TEST_F(Search, somebody_is_found_once) {
   (void)see({5, 0, 1}, {0, 0, 1});
   EXPECT_TRUE(see({5, 0, 1}, {1, 0, 1}));

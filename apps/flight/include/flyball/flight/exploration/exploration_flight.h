@@ -54,12 +54,16 @@ class ExplorationFlight {
   void declare(NodeSpec& spec) const;
   /// Advances the flight by one step; called by the mission's node.
   void step(JobContext& job);
+  /// Flies to this view next, instead of the one that it was about to have. False while it does not
+  /// explore, or the navigator has not heard the last command.
+  [[nodiscard]] bool look_from(JobContext& job, const Viewpoint& view);
   /// Somebody may stand behind where the camera looked: flies to all views once more, turned away
   /// from how it had them. False when that has been done, or no view was had.
   [[nodiscard]] bool look_again();
   /// The mission is done with exploring: flies home and lands.
   void go_home(JobContext& job);
 
+  [[nodiscard]] const Guidance& guidance() const { return guidance_; }
   [[nodiscard]] const PerceptionTopics& perception() const { return perception_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] int views() const { return static_cast<int>(taken_.size()); }

@@ -35,12 +35,15 @@ class PersonFinding {
                                            const Sighting& sighting,
                                            const ColourFrame& frame,
                                            const Vec3& from_W);
+  /// A place with too few sightings so far, where to look once more; each place once.
+  [[nodiscard]] std::optional<Vec3> take_doubtful_W();
   [[nodiscard]] std::size_t places() const { return places_.size(); }
 
  private:
   struct Place {
     Vec3 sum_W{Vec3::Zero()};
     std::vector<Vec3> from_W{};
+    bool is_taken{};
     [[nodiscard]] Vec3 mean_W() const { return sum_W / static_cast<double>(from_W.size()); }
   };
   [[nodiscard]] Place& place_near(const Vec3& p_W);
