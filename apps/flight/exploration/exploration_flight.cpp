@@ -17,7 +17,7 @@ constexpr double facing_rad = 0.05;  // ... and turned this near to its heading.
 constexpr double moving_m_s = 0.05;
 constexpr int most_failures = 3;     // After so many failed plans in a row a view is given up, ...
 constexpr double patience_s = 40.0;  // ... or after standing for so long before it is reached.
-// A camera of 90 degrees sees three quarters of what is around a place with both, and a view.
+// With a view and one to each side of it, a camera of 90 degrees sees most of what is around.
 constexpr double third_rad = 2.0943951023931953;
 
 }  // namespace

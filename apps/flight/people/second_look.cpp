@@ -8,8 +8,7 @@ namespace {
 
 // Chosen: two sightings must be made .25 m apart, and the vehicle arrives to .3 m.
 constexpr double step_m = 0.75;
-constexpr double nearest_m =
-    2.0;  // Nearer than this a camera does not see a standing person whole.
+constexpr double nearest_m = 2.0;  // From nearer, a camera does not see the whole of a person.
 constexpr double quarter_rad = 1.5707963267948966;
 
 }  // namespace
