@@ -81,19 +81,18 @@ class SearchAndRescue final : public Workload {
   /// A sighting alone finds nobody. Left to chance, the next one of the same person came 18 s later
   /// in the mean of seven flights of search_collapsed_building, or never.
   void look_once_more(JobContext& job, Work& asked) {
-    doubtful_W_ = doubtful_W_ ? doubtful_W_ : finding_->take_doubtful_W();
-    const auto navigator = flight_->guidance().state(job);
+    doubt_ = doubt_ ? doubt_ : finding_->take_doubt();
     const auto revision = job.latest(flight_->perception().map);
-    if (has_found_ || !doubtful_W_ || !navigator || !revision) {
+    if (has_found_ || !doubt_ || !revision) {
       return;
     }
     const CountedMap map{*revision->map};
-    const Viewpoint view = second_look(map, brief_->narrow_body(), brief_->site.bounds_W,
-                                       navigator->position_W, *doubtful_W_);
+    const Viewpoint view =
+        second_look(map, brief_->narrow_body(), brief_->site.bounds_W, doubt_->from_W, doubt_->p_W);
     map.add_to(asked);
     if (flight_->look_from(job, view)) {
       log_event(job, mission_, "perhaps somebody: looks from another place");
-      doubtful_W_.reset();
+      doubt_.reset();
     }
   }
 
@@ -148,7 +147,7 @@ class SearchAndRescue final : public Workload {
   Topic<Sightings> sightings_{};
   Topic<Finding> found_{};
   MissionTime next_estimate_{};
-  std::optional<Vec3> doubtful_W_{};  ///< To be looked at from another place.
+  std::optional<Doubt> doubt_{};  ///< To be looked at from another place.
   bool has_found_{};
   bool is_done_{};
 };

@@ -14,14 +14,14 @@ PersonFinding::Place& PersonFinding::place_near(const Vec3& p_W) {
   return places_.emplace_back();
 }
 
-std::optional<Vec3> PersonFinding::take_doubtful_W() {
+std::optional<Doubt> PersonFinding::take_doubt() {
   const auto place =
       std::find_if(places_.begin(), places_.end(), [](const Place& one) { return !one.is_taken; });
   if (has_found_ || place == places_.end()) {
     return std::nullopt;
   }
   place->is_taken = true;
-  return place->mean_W();
+  return Doubt{place->mean_W(), place->from_W.back()};
 }
 
 std::optional<Finding> PersonFinding::add(MissionTime now,

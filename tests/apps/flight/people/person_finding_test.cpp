@@ -46,19 +46,22 @@ TEST_F(Search, sightings_of_two_places_do_not_agree) {
 }
 
 TEST_F(Search, each_place_that_was_seen_once_is_doubtful_once) {
-  EXPECT_FALSE(finding.take_doubtful_W());
+  EXPECT_FALSE(finding.take_doubt());
   (void)see({5, 0, 1}, {0, 0, 1});
   (void)see({8, 0, 1}, {0, 0, 1});
-  EXPECT_EQ(finding.take_doubtful_W(), Vec3(5, 0, 1));
-  EXPECT_EQ(finding.take_doubtful_W(), Vec3(8, 0, 1));
-  EXPECT_FALSE(finding.take_doubtful_W());
+  const auto first = finding.take_doubt();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->p_W, Vec3(5, 0, 1));
+  EXPECT_EQ(first->from_W, Vec3(0, 0, 1));
+  EXPECT_EQ(finding.take_doubt().value_or(Doubt{}).p_W, Vec3(8, 0, 1));
+  EXPECT_FALSE(finding.take_doubt());
 }
 
 TEST_F(Search, nothing_is_doubtful_once_somebody_is_found) {
   (void)see({5, 0, 1}, {0, 0, 1});
   (void)see({8, 0, 1}, {0, 0, 1});
   EXPECT_TRUE(see({5, 0, 1}, {1, 0, 1}));
-  EXPECT_FALSE(finding.take_doubtful_W());
+  EXPECT_FALSE(finding.take_doubt());
 }
 
 TEST_F(Search, somebody_is_found_once) {

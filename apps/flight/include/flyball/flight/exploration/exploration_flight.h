@@ -63,7 +63,6 @@ class ExplorationFlight {
   /// The mission is done with exploring: flies home and lands.
   void go_home(JobContext& job);
 
-  [[nodiscard]] const Guidance& guidance() const { return guidance_; }
   [[nodiscard]] const PerceptionTopics& perception() const { return perception_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] int views() const { return static_cast<int>(taken_.size()); }

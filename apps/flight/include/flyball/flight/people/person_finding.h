@@ -22,6 +22,12 @@ struct Finding {
   ColourFrame frame{};  ///< Of the last sighting.
 };
 
+/// Somebody whom too few sightings show.
+struct Doubt {
+  Vec3 p_W{Vec3::Zero()};
+  Vec3 from_W{Vec3::Zero()};  ///< Where the camera was when it showed them.
+};
+
 /// Counts sightings that agree. A finding takes `SearchSettings::sightings` of them within
 /// `within_m` of each other along the ground, each made at least `apart_m` away from where the
 /// earlier ones were made.
@@ -35,8 +41,8 @@ class PersonFinding {
                                            const Sighting& sighting,
                                            const ColourFrame& frame,
                                            const Vec3& from_W);
-  /// A place with too few sightings so far, where to look once more; each place once.
-  [[nodiscard]] std::optional<Vec3> take_doubtful_W();
+  /// Where to look once more; each place once.
+  [[nodiscard]] std::optional<Doubt> take_doubt();
   [[nodiscard]] std::size_t places() const { return places_.size(); }
 
  private:
