@@ -83,7 +83,7 @@ class SearchAndRescue final : public Workload {
   void look_once_more(JobContext& job, Work& asked) {
     doubt_ = doubt_ ? doubt_ : finding_->take_doubt();
     const auto revision = job.latest(flight_->perception().map);
-    if (has_found_ || !doubt_ || !revision) {
+    if (finding_->has_found() || !doubt_ || !revision) {
       return;
     }
     const CountedMap map{*revision->map};
@@ -121,7 +121,7 @@ class SearchAndRescue final : public Workload {
   }
 
   void end(JobContext& job) {
-    if (has_found_) {
+    if (finding_->has_found()) {
       end_mission(job, mission_, MissionStatus::succeeded, MissionFailure::none);
     } else {
       end_mission(job, mission_, MissionStatus::failed, MissionFailure::not_found);
@@ -132,7 +132,6 @@ class SearchAndRescue final : public Workload {
   void look_at(JobContext& job, const Sightings& seen) {
     for (const Sighting& sighting : seen.people) {
       if (auto found = finding_->add(job.now(), sighting, seen.frame, seen.from_W)) {
-        has_found_ = true;
         log_event(job, mission_, "person found");
         job.publish(found_, std::move(*found));
         flight_->go_home(job);
@@ -148,7 +147,6 @@ class SearchAndRescue final : public Workload {
   Topic<Finding> found_{};
   MissionTime next_estimate_{};
   std::optional<Doubt> doubt_{};  ///< To be looked at from another place.
-  bool has_found_{};
   bool is_done_{};
 };
 

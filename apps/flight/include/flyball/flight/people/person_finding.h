@@ -43,6 +43,7 @@ class PersonFinding {
                                            const Vec3& from_W);
   /// Where to look once more; each place once.
   [[nodiscard]] std::optional<Doubt> take_doubt();
+  [[nodiscard]] bool has_found() const { return has_found_; }
   [[nodiscard]] std::size_t places() const { return places_.size(); }
 
  private:
