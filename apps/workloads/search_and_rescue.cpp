@@ -83,17 +83,16 @@ class SearchAndRescue final : public Workload {
   void look_once_more(JobContext& job, Work& asked) {
     doubt_ = doubt_ ? doubt_ : finding_->take_doubt();
     const auto revision = job.latest(flight_->perception().map);
-    if (finding_->has_found() || !doubt_ || !revision) {
+    if (finding_->has_found() || !doubt_ || !revision || !flight_->takes_view(job)) {
       return;
     }
     const CountedMap map{*revision->map};
     const Viewpoint view =
         second_look(map, brief_->narrow_body(), brief_->site.bounds_W, doubt_->from_W, doubt_->p_W);
     map.add_to(asked);
-    if (flight_->look_from(job, view)) {
-      log_event(job, mission_, "perhaps somebody: looks from another place");
-      doubt_.reset();
-    }
+    flight_->fly_to(job, view);
+    log_event(job, mission_, "perhaps somebody: looks from another place");
+    doubt_.reset();
   }
 
   void look_again_or_give_up(JobContext& job) {

@@ -203,13 +203,9 @@ void ExplorationFlight::fly_to(JobContext& job, const Viewpoint& view) {
   since_ = job.now();
 }
 
-bool ExplorationFlight::look_from(JobContext& job, const Viewpoint& view) {
+bool ExplorationFlight::takes_view(JobContext& job) const {
   const bool explores = state_ == State::exploring && stage_ >= Stage::mapping;
-  if (!explores || !guidance_.state(job)) {
-    return false;
-  }
-  fly_to(job, view);
-  return true;
+  return explores && guidance_.state(job);
 }
 
 bool ExplorationFlight::look_again() {

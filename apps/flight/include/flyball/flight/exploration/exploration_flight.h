@@ -54,9 +54,10 @@ class ExplorationFlight {
   void declare(NodeSpec& spec) const;
   /// Advances the flight by one step; called by the mission's node.
   void step(JobContext& job);
-  /// Flies to this view next, instead of the one that it was about to have. False while it does not
-  /// explore, or the navigator has not heard the last command.
-  [[nodiscard]] bool look_from(JobContext& job, const Viewpoint& view);
+  /// It explores, and the navigator has heard the last command.
+  [[nodiscard]] bool takes_view(JobContext& job) const;
+  /// Flies to this view next, instead of the one that it was about to have. Needs `takes_view`.
+  void fly_to(JobContext& job, const Viewpoint& view);
   /// Somebody may stand behind where the camera looked: flies to all views once more, turned away
   /// from how it had them. False when that has been done, or no view was had.
   [[nodiscard]] bool look_again();
@@ -75,7 +76,6 @@ class ExplorationFlight {
   void await_map(MissionTime now);
   void think(JobContext& job);
   void fly_to_next_view_again(JobContext& job, const Vec3& from_W);
-  void fly_to(JobContext& job, const Viewpoint& view);
   void take_answer(JobContext& job);
   void watch_flight(JobContext& job);
   void watch_turn(JobContext& job);
