@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/combined_policy.h"
 
+#include "flyball/governors/policy_governor.h"
+
+#include <cmath>
+#include <functional>
+
 #include <gtest/gtest.h>
 
 namespace flyball {
@@ -27,7 +32,7 @@ class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
     trouble_ = seen.speed_m_s > value_ ? "too fast" : "";
     Decision wish;
     wish.reason = value_ > 5.0 ? Reason::load : Reason::energy;
-    wish.set("map.resolution_m", value_);
+    wish.set("map.resolution_m", seen.battery_percent < 0.0 ? std::nan("") : value_);
     wish.set("cpu.frequency_hz", 1e9 * value_);
     return wish;
   }
@@ -86,8 +91,46 @@ TEST(CombinedPolicy, tells_the_trouble_of_the_one_that_was_asked) {
   EXPECT_EQ(trouble_at(0ms, 0.0), "");
   EXPECT_EQ(trouble_at(10ms, 3.0), "") << "the application, which cannot, is not asked yet";
   EXPECT_EQ(trouble_at(250ms, 3.0), "too fast");
-  EXPECT_EQ(trouble_at(260ms, 3.0), "") << "it said so once";
-  EXPECT_EQ(trouble_at(270ms, 10.0), "too fast") << "the clock rule";
+  EXPECT_EQ(trouble_at(260ms, 0.0), "") << "it is asked again at once";
+  EXPECT_EQ(trouble_at(270ms, 3.0), "") << "and then at its own pace";
+  EXPECT_EQ(trouble_at(280ms, 10.0), "too fast") << "the clock rule";
+}
+
+/// A governor that has asked the two for a second, told each time what the application cannot bear.
+struct Governed {
+  explicit Governed(const std::function<void(Observation&)>& disturb)
+      : governor{
+            std::make_unique<CombinedPolicy>(std::make_unique<Wisher>(1.0, std::nullopt, &asked),
+                                             std::make_unique<Wisher>(9.0, 10ms, &asked),
+                                             250ms),
+            KnobSettings{{{"map.resolution_m", "m", "map", {}, 0.1, 20.0, 0.15},
+                          {"cpu.frequency_hz", "Hz", "platform", {}, 1e8, 1e11, 1e9}}},
+            {},
+            nullptr} {
+    for (int i = 0; i < 100; ++i) {
+      Observation seen;
+      seen.now = MissionTime{10ms * i};
+      seen.phase = MissionPhase::cruise;
+      disturb(seen);
+      faults += governor.decide(seen).reason == Reason::fallback ? 1 : 0;
+    }
+  }
+  int asked{};
+  PolicyGovernor governor;
+  int faults{};
+};
+
+TEST(CombinedPolicy, is_given_up_when_the_application_fails_at_each_answer) {
+  const Governed fails{[](Observation& seen) { seen.speed_m_s = 3.0; }};
+  EXPECT_EQ(fails.faults, 100);
+  EXPECT_TRUE(fails.governor.has_fallen_back());
+}
+
+TEST(CombinedPolicy, has_one_fault_where_the_application_gave_one_bad_answer) {
+  const Governed once{
+      [](Observation& seen) { seen.battery_percent = seen.now == MissionTime{} ? -1.0 : 50.0; }};
+  EXPECT_EQ(once.faults, 1);
+  EXPECT_FALSE(once.governor.has_fallen_back());
 }
 
 TEST(CombinedPolicy, states_no_bounds_for_an_application_that_states_none) {

@@ -13,7 +13,8 @@
 namespace flyball {
 
 /// The clock is the clock rule's, every other knob the application's. Each is asked at its own
-/// pace: the clock rule always, the application once per `application_period`.
+/// pace: the clock rule always, the application once per `application_period`. A faulty answer of
+/// the application is passed on as it is and not kept: it is asked again at the next decision.
 class CombinedPolicy final : public Policy,
                              public ChoosesPeriod,
                              public BoundsLatency,
