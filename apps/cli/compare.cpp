@@ -137,7 +137,7 @@ int compare(const CompareOptions& options) {
     return refuse(*errors);
   }
   Entries& entries = std::get<Entries>(planned);
-  remark_overruled(entries);
+  remark_on_policies(entries);
   const std::string folder = comparison_folder(options.flight, entries.front().scenario);
   const auto claimed = ClaimedFolder::claim(folder);
   if (!claimed) {

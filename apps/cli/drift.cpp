@@ -257,7 +257,7 @@ int drift(const DriftOptions& options) {
     return refuse(*errors);
   }
   const DriftEntries& entries = std::get<DriftEntries>(planned);
-  remark_overruled(entries);
+  remark_on_policies(entries);
   const auto claimed =
       ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
   if (!claimed) {

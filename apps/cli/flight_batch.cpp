@@ -3,6 +3,7 @@
 #include "flight_batch.h"
 
 #include "flyball/scenario/overruled_settings.h"
+#include "flyball/scenario/policy_choice.h"
 
 #include "children.h"
 #include <algorithm>
@@ -100,7 +101,7 @@ void add_new(const std::vector<Error>& errors, std::vector<Error>& all) {
   }
 }
 
-void OverruledRemarks::add(const Scenario& scenario, const std::vector<Override>& given) {
+void PolicyRemarks::add(const Scenario& scenario, const std::vector<Override>& given) {
   std::string all = scenario.name + "\n" + scenario.governor.policy;
   for (const auto& [key_and_value, option] : given) {
     all.append("\n").append(option).append(" ").append(key_and_value);
@@ -108,10 +109,18 @@ void OverruledRemarks::add(const Scenario& scenario, const std::vector<Override>
   if (!seen_.insert(std::move(all)).second) {
     return;
   }
+  for (const std::string& policy : asked_policies(scenario.governor.policy)) {
+    const auto choice = choose_policy(policy, scenario.plugins, scenario.seed);
+    tell(choice ? choice->caution : "");
+  }
   for (const std::string& sentence : overruled_settings(scenario, given)) {
-    if (told_.insert(sentence).second) {
-      remark(sentence);
-    }
+    tell(sentence);
+  }
+}
+
+void PolicyRemarks::tell(const std::string& sentence) {
+  if (!sentence.empty() && told_.insert(sentence).second) {
+    remark(sentence);
   }
 }
 

@@ -39,20 +39,23 @@ struct PlannedFlight {
 /// Adds the errors that say something new to `all`: most mistakes concern many flights.
 void add_new(const std::vector<Error>& errors, std::vector<Error>& all);
 
-/// Says of settings that the policy overrules that they change nothing.
-class OverruledRemarks {
+/// Says what a user should know of policies before they fly: that settings change nothing which a
+/// policy overrules, and that the kernel cannot confine a library.
+class PolicyRemarks {
  public:
   /// Looks once at a policy with the same settings, whatever the seed, and says no sentence twice.
   void add(const Scenario& scenario, const std::vector<Override>& given);
 
  private:
+  void tell(const std::string& sentence);
+
   std::set<std::string> seen_{};
   std::set<std::string> told_{};
 };
 
 template <class Flight>
-void remark_overruled(const std::vector<Flight>& flights) {
-  OverruledRemarks remarks;
+void remark_on_policies(const std::vector<Flight>& flights) {
+  PolicyRemarks remarks;
   for (const PlannedFlight& flight : flights) {
     remarks.add(flight.scenario, flight.given);
   }

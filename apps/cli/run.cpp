@@ -327,7 +327,7 @@ int run(const RunOptions& options) {
   if (const Status possible = check_places(options, folder); !possible) {
     return refuse({possible.error()});
   }
-  OverruledRemarks{}.add(scenario, overrides_of(options));
+  PolicyRemarks{}.add(scenario, overrides_of(options));
   const auto platform = find_platform(scenario.platform.name);
   if (!platform) {
     return refuse({platform.error()});

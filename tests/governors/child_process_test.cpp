@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -162,6 +163,45 @@ TEST(ChildProcess, takes_its_own_children_along) {
   ASSERT_EQ(Received::packet, child->socket().receive(&grandchild, sizeof grandchild, 10s));
   child->end();
   EXPECT_TRUE(ends_soon(grandchild));
+}
+
+TEST(ChildProcess, outlives_the_thread_that_forked_it) {
+  std::unique_ptr<ChildProcess> child;
+  std::thread{[&child] {
+    child = forked([](const PacketSocket& socket) {
+      int number = 0;
+      while (socket.receive(&number, sizeof number, -1s) == Received::packet) {
+        static_cast<void>(socket.send(&number, sizeof number));
+      }
+    });
+  }}.join();
+  for (int i = 0; i < 100; ++i) {  // The kernel may be slower at ending a thread than `join`.
+    int number = i;
+    static_cast<void>(child->socket().send(&number, sizeof number));
+    ASSERT_EQ(Received::packet, child->socket().receive(&number, sizeof number, 10s)) << i;
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+TEST(ChildProcess, is_late_although_signals_keep_coming) {
+  const auto child = forked([](const PacketSocket&) { pause(); });
+  std::signal(SIGALRM, [](int) {});
+  const itimerval often{{0, 5000}, {0, 5000}};
+  const itimerval never{};
+  setitimer(ITIMER_REAL, &often, nullptr);
+  int number = 0;
+  EXPECT_EQ(Received::late, child->socket().receive(&number, sizeof number, 100ms));
+  EXPECT_EQ("was ended by signal 9 (Killed)", child->end());
+  setitimer(ITIMER_REAL, &never, nullptr);
+  std::signal(SIGALRM, SIG_DFL);
+}
+
+TEST(ChildProcess, that_somebody_else_has_waited_for_is_no_clean_end) {
+  const auto child = forked([](const PacketSocket&) { std::raise(SIGKILL); });
+  int number = 0;
+  EXPECT_EQ(Received::ended, child->socket().receive(&number, sizeof number, 10s));
+  EXPECT_GT(waitpid(-1, nullptr, 0), 0);
+  EXPECT_EQ("ended, but this program's other parts kept how", child->end());
 }
 
 TEST(ChildProcess, ends_with_its_parent) {

@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-static_assert(sizeof(AnswerPacket) == 1944, "as plugins/hostile.c sends it");
+static_assert(sizeof(AnswerPacket) == 1432, "as plugins/hostile.c sends it");
 static_assert(sizeof(OpeningPacket) == 536, "as plugins/hostile.c sends it");
 
 struct Hostile {
@@ -84,6 +84,7 @@ TEST(HostileLibraries, that_reach_for_processes_are_ended) {
                {"decide-readmem", process},
                {"decide-outlive", process},
                {"decide-handler", process},
+               {"decide-orphan", process},
                {"decide-sigio", process},
                {"decide-threadfork", process},
                {"load-fork", process},

@@ -140,7 +140,7 @@ int sweep(const SweepOptions& options) {
     return refuse(*errors);
   }
   auto& flights = std::get<std::vector<StoredFlight>>(planned);
-  remark_overruled(flights);
+  remark_on_policies(flights);
   const Study study{request.batch, "sweep.db", task_command(request), pointers_to(flights)};
   const auto code = fly_study(study, options.study);
   return code ? *code : show(request, flights);

@@ -197,7 +197,7 @@ int hold(const TournamentOptions& options,
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
   }
-  remark_overruled(std::get<TournamentFlights>(planned));
+  remark_on_policies(std::get<TournamentFlights>(planned));
   const auto claimed = ClaimedFolder::claim(out_folder(options));
   if (!claimed) {
     return refuse({claimed.error()});

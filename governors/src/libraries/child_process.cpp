@@ -86,12 +86,31 @@ int keep_only(int socket) {
   return kept;
 }
 
-/// Returns the socket's new number.
-int settle_in(pid_t parent, int socket, std::size_t memory_bytes) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) {  // It ended before that line.
+pid_t parent_id = 0;  // Of the process that this one was forked from.
+
+/// The kernel sends the signal when the thread that forked ends, too.
+void end_with_parent(int /*signal*/) {
+  if (getppid() != parent_id) {
     _exit(0);
   }
+}
+
+void follow_parent(pid_t parent) {
+  parent_id = parent;
+  struct sigaction act {};
+  act.sa_handler = end_with_parent;
+  sigaction(parent_ended_signal, &act, nullptr);
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, parent_ended_signal);
+  sigprocmask(SIG_UNBLOCK, &one, nullptr);  // The thread that forked may have blocked it.
+  prctl(PR_SET_PDEATHSIG, parent_ended_signal);
+  end_with_parent(0);  // It may have ended before that line.
+}
+
+/// Returns the socket's new number.
+int settle_in(pid_t parent, int socket, std::size_t memory_bytes) {
+  follow_parent(parent);
   setpgid(0, 0);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   std::signal(SIGINT, SIG_IGN);
@@ -124,11 +143,15 @@ PacketSocket::Received PacketSocket::receive(void* packet,
                                              std::size_t size,
                                              Duration limit) const noexcept {
   pollfd waiting{descriptor_, POLLIN, 0};
-  int ready = -1;
-  do {
-    ready = poll(&waiting, 1, milliseconds(limit));
-  } while (ready < 0 && errno == EINTR);
-  if (ready == 0) {
+  const bool has_end = limit.count() >= 0;
+  const HostTime until = HostTime::clock::now() + std::max(limit, Duration{0});
+  Duration left = limit;
+  int ready = poll(&waiting, 1, milliseconds(left));
+  while (ready < 0 && errno == EINTR && (!has_end || left.count() > 0)) {
+    left = has_end ? std::max<Duration>(until - HostTime::clock::now(), Duration{0}) : limit;
+    ready = poll(&waiting, 1, milliseconds(left));
+  }
+  if (ready == 0 || (ready < 0 && errno == EINTR)) {
     return Received::late;
   }
   ssize_t got = -1;
@@ -171,9 +194,14 @@ std::string ChildProcess::end() {
   close(socket_.descriptor());  // Who listens hears the end, ...
   kill(id_, SIGKILL);           // ... who does not is ended; one that has ended keeps its reason.
   kill(-id_, SIGKILL);          // Its children, while its number cannot be another one's.
-  waitpid(id_, &status, 0);
+  pid_t waited = -1;
+  do {
+    waited = waitpid(id_, &status, 0);
+  } while (waited < 0 && errno == EINTR);
   id_ = 0;
-  if (WIFSIGNALED(status)) {
+  if (waited < 0) {  // Who ignores SIGCHLD, or waits for any child, has taken it away.
+    how_ = "ended, but this program's other parts kept how";
+  } else if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     const char* name = strsignal(signal);  // NOLINT(concurrency-mt-unsafe): one thread forks
     // A forbidden request while the signal that tells it was blocked.

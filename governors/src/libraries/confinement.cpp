@@ -80,12 +80,6 @@ class Filter {
     add(BPF_ALU | BPF_AND | BPF_K, mask);
     decide(value, SECCOMP_RET_ALLOW, SECCOMP_RET_TRAP);
   }
-  /// When an argument is not `value`.
-  void allow_unless(int call, int argument, std::uint32_t value) {
-    only_for(call, 4);
-    load_argument(argument);
-    decide(value, SECCOMP_RET_TRAP, SECCOMP_RET_ALLOW);
-  }
   /// When an argument is a null pointer.
   void allow_if_null(int call, int argument) {
     only_for(call, 7);
@@ -98,13 +92,12 @@ class Filter {
   /// When an argument is one of a few values.
   template <class Values>
   void allow_values(int call, int argument, const Values& values) {
-    only_for(call, static_cast<std::uint8_t>(2 + 2 * values.size()));
-    load_argument(argument);
-    for (const std::uint32_t value : values) {
-      add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-      answer(SECCOMP_RET_ALLOW);
-    }
-    answer(SECCOMP_RET_TRAP);
+    decide_among(call, argument, values, SECCOMP_RET_ALLOW, SECCOMP_RET_TRAP);
+  }
+  /// When an argument is none of them.
+  template <class Values>
+  void allow_but_values(int call, int argument, const Values& values) {
+    decide_among(call, argument, values, SECCOMP_RET_TRAP, SECCOMP_RET_ALLOW);
   }
 
   /// False with `errno` set.
@@ -130,6 +123,17 @@ class Filter {
     add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, lines);
   }
   void answer(std::uint32_t what) { add(BPF_RET | BPF_K, what); }
+  template <class Values>
+  void decide_among(
+      int call, int argument, const Values& values, std::uint32_t if_one, std::uint32_t otherwise) {
+    only_for(call, static_cast<std::uint8_t>(2 + 2 * values.size()));
+    load_argument(argument);
+    for (const std::uint32_t value : values) {
+      add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
+      answer(if_one);
+    }
+    answer(otherwise);
+  }
   void decide(std::uint32_t value, std::uint32_t if_equal, std::uint32_t otherwise) {
     add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
     answer(if_equal);
@@ -149,7 +153,8 @@ void add_own_affairs(Filter& filter) {
   filter.refuse(__NR_clone3, ENOSYS);  // Its flags lie in memory; the C library then uses clone.
 #endif
   filter.allow_values(__NR_tgkill, 0, std::array{static_cast<std::uint32_t>(getpid())});
-  filter.allow_unless(__NR_rt_sigaction, 0, SIGSYS);
+  filter.allow_but_values(__NR_rt_sigaction, 0,
+                          std::array<std::uint32_t, 2>{SIGSYS, parent_ended_signal});
   constexpr std::uint32_t name_of_mapping = 0x53564d41;  // PR_SET_VMA
   filter.allow_values(__NR_prctl, 0,
                       std::array<std::uint32_t, 3>{PR_SET_NAME, PR_GET_NAME, name_of_mapping});
@@ -177,15 +182,10 @@ constexpr bool is_sanitized = true;
 constexpr bool is_sanitized = false;
 #endif
 
-bool has_seccomp() {
-  const std::uint32_t action = SECCOMP_RET_TRAP;
-  return architecture != 0 && syscall(__NR_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &action) == 0;
-}
-
 }  // namespace
 
 Confined confine(Confinement how) noexcept {
-  if (is_sanitized || !has_seccomp()) {
+  if (is_sanitized || architecture == 0) {
     return Confined::no_seccomp;
   }
   if (how == Confinement::loading) {
@@ -199,7 +199,11 @@ Confined confine(Confinement how) noexcept {
   if (how == Confinement::loading) {
     add_reading(filter);
   }
-  return filter.install() ? Confined::yes : Confined::failed;
+  if (filter.install()) {
+    return Confined::yes;
+  }
+  // The kernel was built without system call filters, or without any seccomp.
+  return errno == EINVAL || errno == ENOSYS ? Confined::no_seccomp : Confined::failed;
 }
 
 std::optional<std::string> forbidden_request(int exit_code) {

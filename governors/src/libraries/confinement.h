@@ -4,6 +4,7 @@
 /// @file
 /// What the process of a policy may ask the system for, enforced by the kernel (seccomp(2)).
 
+#include <csignal>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@ enum class Confinement {
 };
 
 enum class Confined { yes, no_seccomp, failed };
+
+/// Tells a policy's process that its parent may have ended. A policy cannot handle it otherwise.
+inline constexpr int parent_ended_signal = SIGUSR2;
 
 /// Confines this process, all its threads, and whatever they become. A forbidden request ends the
 /// process; what was confined stays so. Takes effect after `no_new_privs` is set. The parent

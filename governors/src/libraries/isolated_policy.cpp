@@ -160,16 +160,16 @@ Decision IsolatedPolicy::decide(const Observation& seen) noexcept {
 }
 
 Decision IsolatedPolicy::decision_of(const AnswerPacket& answer) noexcept {
+  constexpr std::string_view nowhere = "(no such place)";
   Decision decision;
   decision.reason = static_cast<Reason>(answer.reason);
   for (std::size_t i = 0; i < answer.size; ++i) {
     const auto& [knob, value] = answer.wishes[i];
     const bool exists = knob < knobs_.specs().size();
-    decision.set(exists ? std::string_view{knobs_.specs()[knob].name} : answer.unknown.data(),
-                 value);
+    decision.set(exists ? std::string_view{knobs_.specs()[knob].name} : nowhere, value);
   }
   while (answer.overflowed != 0 && !decision.overflowed()) {
-    decision.set(answer.unknown.data(), 0.0);
+    decision.set(nowhere, 0.0);
   }
   if (answer.trouble[0] != '\0') {
     trouble_ = printable(answer.trouble.data());

@@ -58,7 +58,7 @@ struct QuestionPacket {
 /// A decision as it travels: knobs by their place.
 struct AnswerPacket {
   struct Wish {
-    std::uint64_t knob{};
+    std::uint64_t knob{};  ///< Beyond the last one: it does not exist.
     double value{};
   };
   std::uint64_t number{};  ///< Of the question.
@@ -66,7 +66,6 @@ struct AnswerPacket {
   std::uint32_t overflowed{};
   std::uint64_t size{};
   std::array<Wish, Decision::capacity> wishes{};
-  Text unknown{};  ///< Name of the first wish's knob that does not exist.
   Text trouble{};
   Text remark{};
 };
@@ -99,10 +98,10 @@ inline const char* fault_of(const ParameterPacket& packet) {
 
 /// @param number  Of the question.
 inline const char* fault_of(const AnswerPacket& packet, std::uint64_t number) {
-  return !end({&packet.unknown, &packet.trouble, &packet.remark}) ? "sent a text that does not end"
-         : packet.number != number          ? "answered another question than it was asked"
-         : packet.overflowed > 1            ? "sent a yes or no that is neither"
-         : packet.size > Decision::capacity ? "sent more wishes than a decision has"
+  return !end({&packet.trouble, &packet.remark}) ? "sent a text that does not end"
+         : packet.number != number               ? "answered another question than it was asked"
+         : packet.overflowed > 1                 ? "sent a yes or no that is neither"
+         : packet.size > Decision::capacity      ? "sent more wishes than a decision has"
          : packet.reason > static_cast<std::uint32_t>(Reason::fallback)
              ? "sent a reason that there is not"
              : nullptr;

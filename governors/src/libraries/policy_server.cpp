@@ -76,9 +76,6 @@ void fill(AnswerPacket& answer,
     while (knob < knobs.specs().size() && knobs.specs()[knob].name != name) {
       ++knob;
     }
-    if (knob == knobs.specs().size()) {
-      put(answer.unknown, name);
-    }
     answer.wishes[answer.size++] = {knob, value};
   }
   const auto* host = dynamic_cast<const HostsCode*>(&policy);
