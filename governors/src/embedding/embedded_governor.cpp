@@ -192,8 +192,9 @@ void FlyballGovernor::observe_stages() {
 }
 
 void FlyballGovernor::observe_knobs() {
-  constexpr std::array<std::pair<const char*, const char*>, 3> seen_as{
+  constexpr std::array<std::pair<const char*, const char*>, 4> seen_as{
       {{"map.resolution_m", "map_resolution_m"},
+       {"map.range_m", "map_range_m"},
        {"cpu.frequency_hz", "frequency_hz"},
        {"cpu.cores", "cores"}}};
   for (const auto& [knob, signal] : seen_as) {

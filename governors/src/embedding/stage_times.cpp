@@ -27,6 +27,7 @@ std::optional<Duration> StageTimes::end(std::size_t stage, MissionTime now, cons
   Stage& one = stages_[stage];
   one.last = now - *one.begun;
   one.busy += now - std::max(*one.begun, *load_since_);
+  one.ended += *one.last;
   one.begun.reset();
   if (counts != nullptr) {
     std::copy_n(counts, one.counts.size(), one.counts.begin());
@@ -67,8 +68,8 @@ StageTimes::Load StageTimes::take_load(MissionTime now) {
     if (one.begun) {
       one.busy += now - std::max(*one.begun, *load_since_);
     }
-    one.load = ratio(one.busy, elapsed);
-    load.busy_cores += one.load;
+    one.load = ratio(one.ended, elapsed);
+    load.busy_cores += ratio(one.busy, elapsed);
   }
   for (const Stage& one : stages_) {
     Duration of_thread{};
@@ -79,6 +80,7 @@ StageTimes::Load StageTimes::take_load(MissionTime now) {
   }
   for (Stage& one : stages_) {
     one.busy = {};
+    one.ended = {};
   }
   load_since_ = now;
   return load;

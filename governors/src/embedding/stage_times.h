@@ -57,7 +57,8 @@ class StageTimes {
   [[nodiscard]] std::uint32_t take_misses();
   /// Since the last call, or since the first stage began.
   [[nodiscard]] Load take_load(MissionTime now);
-  /// Cores that a stage kept busy, as of the last call of `take_load`.
+  /// Cores that the jobs kept busy which ended between the last two calls of `take_load`, each
+  /// counted whole, as `StageUse::load` has it.
   [[nodiscard]] double load(std::size_t stage) const { return stages_[stage].load; }
 
  private:
@@ -69,9 +70,10 @@ class StageTimes {
     StageSpec spec;
     std::optional<MissionTime> begun{};
     std::optional<Duration> last{};
-    Frame input{};    ///< What the stage before it finished last.
-    Frame frame{};    ///< What it works on.
-    Duration busy{};  ///< Since the load was taken.
+    Frame input{};     ///< What the stage before it finished last.
+    Frame frame{};     ///< What it works on.
+    Duration busy{};   ///< Since the load was taken.
+    Duration ended{};  ///< Jobs that ended since then.
     double load{};
     std::vector<double> counts{};
   };

@@ -180,6 +180,24 @@ TEST_F(GovernorStages, tell_the_load_of_cores) {
   EXPECT_NEAR(0.5, loop_.signal("latency_s"), 1e-9) << "what is beside adds nothing";
 }
 
+TEST(GovernorStageSignals, count_a_job_when_it_ends_and_as_a_whole) {
+  GovernedLoop loop;
+  loop.add(loop.cell_knob());
+  loop.add(GovernedLoop::stage("explore"));
+  ASSERT_EQ(flyball_governor_ok, loop.open(loop.settings("density"))) << loop.error();
+  flyball_governor_begin(loop.governor, 0, 0.0);
+  flyball_governor_end(loop.governor, 0, 0.25, nullptr, 0);
+  loop.decide(0.5);
+  EXPECT_NEAR(0.5, loop.signal("explore_load"), 1e-9);
+  flyball_governor_begin(loop.governor, 0, 0.5);
+  loop.decide(1.0);
+  EXPECT_EQ(0.0, loop.signal("explore_load")) << "this search has not ended";
+  EXPECT_NEAR(1.0, loop.signal("busy_cores"), 1e-9) << "though it keeps a core busy";
+  flyball_governor_end(loop.governor, 0, 1.5, nullptr, 0);
+  loop.decide(1.5);
+  EXPECT_NEAR(2.0, loop.signal("explore_load"), 1e-9);
+}
+
 TEST_F(GovernorStages, miss_their_deadlines) {
   FlyballGovernorStage one = GovernedLoop::stage("tracking");
   one.deadline_s = 0.1;

@@ -226,9 +226,9 @@ int32_t flyball_governor_end(
 /** A signal by its name, as `list` has them all. What stages tell (latency_s, latency_bound_s,
  * map_revision, map_age_s, deadline_misses, busy_cores, busiest_core_load; of stages named map,
  * plan, detect, track, localize or explore also map_job_s, map_load, map_gigacycles and so on), and
- * what the knobs map.resolution_m, cpu.frequency_hz and cpu.cores tell, need not be observed; who
- * does it anyway is believed from then on. Each `latency_s` is a frame. deadline_misses and
- * queue_drops go back to 0 with each decision.
+ * what the knobs map.resolution_m, map.range_m, cpu.frequency_hz and cpu.cores tell, need not be
+ * observed; who does it anyway is believed from then on. Each `latency_s` is a frame.
+ * deadline_misses and queue_drops go back to 0 with each decision.
  *
  * A value that cannot be is refused, and until another one comes the next decisions take every knob
  * to its start value, because the policy would decide on something that is not so. */
