@@ -84,15 +84,16 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
+    const double range_m = flyball::is_a_range(seen.map_range_m) ? seen.map_range_m : range_m_;
     const flyball::MapSetting map{search_->latency().nearest_cells_m(seen.map_resolution_m),
-                                  range_m_, 0.0};
+                                  range_m, 0.0};
     if (const auto within_s = search_->idle_map_s(seen)) {
       return search_->rest(map, *within_s, seen.now).clock_hz;
     }
     return search_->choose(map, seen, seen.planner_failures > 0).clock_hz;
   }
 
-  double range_m_{};
+  double range_m_{};  ///< The scenario's, until a map tells its own.
   std::optional<flyball::ClockSearch> search_{};
 };
 

@@ -3,7 +3,7 @@
 // MAVBench's eq. 2: how fast a vehicle may fly that sees d metres and responds after delta;
 // computed, and flown with maps that take longer and longer.
 
-#include "flyball/governors/speed_limit.h"
+#include "flyball/runtime/guard.h"
 
 #include "experiments/framework/papers.h"
 #include "experiments/framework/plots_of.h"
@@ -14,13 +14,13 @@ namespace {
 constexpr double paper_distance_m =
     6.5;  // With a = 6 m/s^2 it gives both ends of the paper's curve.
 constexpr const char* flown = "slower_maps";
-const SpeedLimit limit{6.0};
+constexpr double deceleration_m_s2 = 6.0;
 
 Claim end_of_curve(double latency_s, double paper_m_s) {
   Claim claim{"eq. 2 at a response of " + std::to_string(static_cast<int>(latency_s)) + " s",
               "m/s"};
   claim.paper = PaperValue{paper_m_s, "plot of eq. 2, its ends as printed in the text"};
-  claim.ours = computed(limit.speed_m_s(latency_s, paper_distance_m));
+  claim.ours = computed(safe_speed(deceleration_m_s2, latency_s, paper_distance_m));
   return claim;
 }
 
@@ -31,14 +31,15 @@ Figure curve() {
     plot.places.push_back(i % 4 == 0 ? std::to_string(i / 4)
                                      : std::to_string(latency_s).substr(0, 4));
     plot.lines.front().values.push_back(
-        computed(limit.speed_m_s(latency_s, paper_distance_m)).value);
+        computed(safe_speed(deceleration_m_s2, latency_s, paper_distance_m)).value);
   }
   return {"eq_2", "Computed: a = 6 m/s², d = 6.5 m.", plot};
 }
 
 /// The highest speed of a flight over what eq. 2 allows for its median latency.
 std::optional<double> use_of_limit(const Summary& flight) {
-  return flight.max_speed_m_s / limit.speed_m_s(flight.latency_p50_s, paper_distance_m);
+  return flight.max_speed_m_s /
+         safe_speed(deceleration_m_s2, flight.latency_p50_s, paper_distance_m);
 }
 
 Result<Findings> evaluate(const Evidence& evidence) {

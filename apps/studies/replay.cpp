@@ -2,7 +2,6 @@
 #include "flyball/studies/replay.h"
 
 #include "flyball/flight/governing/choice_text.h"
-#include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/runtime/text/listed.h"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/clock_search.h"
 
-#include "flyball/governors/speed_limit.h"
+#include "flyball/governors/latency_worth.h"
 #include "flyball/runtime/assert.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace flyball {
 namespace {
@@ -21,6 +22,23 @@ constexpr double equal = 1e-3;
 
 bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
+}
+
+/// A latency is predicted from the logarithms of these, so none of them may be 0. Empty: fine.
+std::string not_positive(const std::vector<LatencyLevel>& levels,
+                         const MapSetting& first,
+                         const std::vector<double>& clocks_hz) {
+  if (!is_positive(clocks_hz.front())) {
+    return "knob cpu.frequency_hz may be 0 Hz; every clock must be above 0";
+  }
+  if (!is_positive(first.range_m)) {
+    return "knob map.range_m begins at 0 m; give it a start value above 0";
+  }
+  if (!std::all_of(levels.begin(), levels.end(),
+                   [](const LatencyLevel& one) { return is_positive(one.resolution_m); })) {
+    return "knob map.resolution_m may be 0 m; every size of cells must be above 0";
+  }
+  return "";
 }
 
 bool is_finite(const EnergyEstimate& one) {
@@ -77,6 +95,9 @@ Result<ClockSearch> ClockSearch::make(const ClockSearchSettings& settings,
   }
   const MapSetting first{knobs.value("map.resolution_m"), knobs.value("map.range_m"),
                          knobs.value("cpu.frequency_hz")};
+  if (const std::string fault = not_positive(levels, first, clock->legal); !fault.empty()) {
+    return Error{ErrorCode::invalid_input, fault};
+  }
   return ClockSearch{settings, levels, first, clock->legal, computer};
 }
 
@@ -120,20 +141,20 @@ void ClockSearch::learn(const Observation& seen) {
 }
 
 EnergyEstimate ClockSearch::estimate(const MapSetting& setting, const Surroundings& around) const {
-  const SpeedLimit limit{around.deceleration_m_s2};
   const double latency_s = latency_.predicted_s(setting);
   EnergyEstimate one;
   one.setting = setting;
   one.response_s = response_s(settings_, latency_s);
   const double distance_m = free_ahead_m(setting, around.visibility_m);
-  const double safe_m_s = limit.speed_m_s(one.response_s, distance_m);
+  const double safe_m_s = safe_speed(around.deceleration_m_s2, one.response_s, distance_m);
   one.speed_m_s = std::max(least_speed_m_s, std::min(safe_m_s, around.speed_limit_m_s));
   const Watts rotor_w = rotors_.power(one.speed_m_s);
   const Watts computer_w = computer_power(setting, latency_s);
   one.joules_per_m = joules_per_metre(rotor_w, computer_w, one.speed_m_s);
   if (safe_m_s < around.speed_limit_m_s) {
-    one.watts_per_second = limit.watts_per_second((rotor_w + computer_w).value(), one.response_s,
-                                                  distance_m, rotors_.slope_w_s_m(one.speed_m_s));
+    one.watts_per_second =
+        watts_per_second(around.deceleration_m_s2, one.response_s, safe_m_s,
+                         (rotor_w + computer_w).value(), rotors_.slope_w_s_m(one.speed_m_s));
   }
   return one;
 }

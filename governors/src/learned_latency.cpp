@@ -6,14 +6,10 @@
 #include <cmath>
 
 namespace flyball {
-namespace {
 
-/// Of whatever sensor; anything else is a fault of the observation.
-bool is_a_range(double x_m) {
-  return x_m > 0.01 && x_m < 1e4;
+bool is_a_range(double any_m) {
+  return any_m > 0.01 && any_m < 1e4;
 }
-
-}  // namespace
 
 std::vector<LatencyLevel> levels_between(const std::vector<double>& resolutions_m,
                                          double fine_s,
@@ -40,7 +36,7 @@ LearnedLatency::LearnedLatency(const LearnedLatencySettings& settings,
                                const MapSetting& in_force,
                                Hertz top_clock)
     : settings_{settings},
-      bound_{levels.size(), 1, settings.bound},
+      bound_{levels.size(), settings.bound},
       top_clock_{top_clock},
       in_force_{in_force} {
   for (const LatencyLevel& level : levels) {
@@ -95,15 +91,16 @@ void LearnedLatency::learn(const Observation& seen) {
   constexpr double absurd_s = 100.0;
   const bool is_new = seen.map_revision != revision_ && measured_s > 0.0 && measured_s < absurd_s;
   revision_ = seen.map_revision;
+  first_look_ = first_look_.value_or(seen.now);
   note_clock(seen);
   const Hertz clock = mean_clock();
-  bound_.regrant(ticket_, settings_.clock.factor(clock) / settings_.clock.factor(issued_at_));
+  bound_.regrant(settings_.clock.factor(clock) / settings_.clock.factor(issued_at_));
   if (!is_new) {
     // The next map begins with the next frame, so nothing is late before that.
     bound_.expire(seen.now - from_seconds(settings_.frame_s));
     return;
   }
-  bound_.settle(ticket_, issued_ + seen.latency);
+  bound_.settle(issued_ + seen.latency);
   clock_factors_ = 0.0;
   looks_ = 0;
   learn_from(seen, clock);
@@ -119,7 +116,7 @@ void LearnedLatency::learn_from(const Observation& seen, Hertz clock) {
   const bool is_of_this_setting = is_of_these_cells && captured >= in_force_since_;
   const bool tells_range = is_of_these_cells && is_a_range(seen.map_range_m);
   const bool learns =
-      settings_.learn_s == 0.0 || to_seconds(seen.now.time_since_epoch()) < settings_.learn_s;
+      settings_.learn_s == 0.0 || to_seconds(seen.now - *first_look_) < settings_.learn_s;
   if (learns && (tells_range || is_of_this_setting)) {
     const double range_m = tells_range ? seen.map_range_m : in_force_.range_m;
     models_.learn(level(in_force_.resolution_m), {1.0, range_m, clock}, seen.latency);
@@ -127,8 +124,7 @@ void LearnedLatency::learn_from(const Observation& seen, Hertz clock) {
   if (is_of_this_setting) {
     issued_ = seen.now;
     issued_at_ = Hertz{in_force_.clock_hz};
-    ticket_ =
-        bound_.issue(level(in_force_.resolution_m), issued_, from_seconds(predicted_s(in_force_)));
+    bound_.issue(level(in_force_.resolution_m), issued_, from_seconds(predicted_s(in_force_)));
   }
 }
 
@@ -141,9 +137,9 @@ void LearnedLatency::put_in_force(const MapSetting& setting, MissionTime now) {
   }
   in_force_ = setting;
   in_force_since_ = now;
-  // The ticket assumes the clock that it was issued at; `note_clock` sees what is granted.
+  // The bound assumes the clock that it was issued at; `note_clock` sees what is granted.
   bound_.widen(
-      ticket_, level(setting.resolution_m),
+      level(setting.resolution_m),
       from_seconds(predicted_s({setting.resolution_m, setting.range_m, issued_at_.value()})));
 }
 
@@ -162,7 +158,7 @@ std::vector<LevelBounds> LearnedLatency::bound_levels() const {
   std::vector<LevelBounds> levels;
   for (std::size_t i = 0; i < bound_.levels(); ++i) {
     const QuantileTracker& one = bound_.tracker(i);
-    levels.push_back({cells_m_[i], one.decisions(), one.misses(), one.most_misses(worst, 1)});
+    levels.push_back({cells_m_[i], one.decisions(), one.misses(), one.most_misses(worst)});
   }
   return levels;
 }

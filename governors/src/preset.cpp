@@ -96,8 +96,10 @@ class Reader {
   void read_parameter(const toml::key& name, const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) {
       preset_.parameters[std::string{name.str()}] = *text;
+    } else if (const auto number = node.value<double>(); number && node.is_number()) {
+      preset_.parameters[std::string{name.str()}] = *number;
     } else if (node.is_number()) {
-      preset_.parameters[std::string{name.str()}] = *node.value<double>();
+      complain(node, "parameter " + quoted(name) + " is a whole number beyond 2^53; write 1.0e16");
     } else {
       complain(node, "parameter " + quoted(name) + " must be a number or a text");
     }

@@ -31,7 +31,14 @@ constexpr double most_g_k_j = 0.1;
 constexpr double least_k_1_s = 1e-5;
 constexpr double most_k_1_s = 0.05;
 
-constexpr double first_window = 0.125;  // Of the whole; each next one is twice as long.
+// Kept below the trip: one step of a usual sensor (TMP451: .5 K by NVIDIA's driver).
+constexpr double guard_k = 0.5;
+// Within so long the limit may be reached: well below time constants of minutes, well above the
+// seconds in which loads change.
+constexpr double horizon_s = 60.0;
+constexpr double raise_k = 0.25;        // Half a guard: a step of the clock changes .4 W, .35 K.
+constexpr double window_s = 10.0;       // One sample of the model; ...
+constexpr double first_window = 0.125;  // ... of the first so much, each next is twice as long.
 
 constexpr double load_s =
     10.0;  // Over which the load is averaged: detectors and planners come and go.
@@ -45,17 +52,12 @@ bool is_told(const Observation& seen) {
 
 }  // namespace
 
-ThermalLimit::ThermalLimit(PowerCost computer, const ThermalLimitSettings& settings)
-    : settings_{settings},
-      computer_{std::move(computer)},
+ThermalLimit::ThermalLimit(PowerCost computer)
+    : computer_{std::move(computer)},
       solver_{Row{prior_q_k_s, prior_g_k_j, prior_k_1_s},
               Row{prior_q_k_s, prior_g_k_j, prior_k_1_s} * (prior_sigmas / noise_k),
               thermal_forgetting},
-      window_s_{first_window * settings.window_s} {
-  FLYBALL_ASSERT(settings.guard_k >= 0.0 && settings.horizon_s > 0.0 && settings.window_s > 0.0,
-                 "guard_k=%g, horizon_s=%g, window_s=%g", settings.guard_k, settings.horizon_s,
-                 settings.window_s);
-}
+      window_s_{first_window * window_s} {}
 
 void ThermalLimit::begin_window(const Observation& seen) {
   begun_ = seen.now;
@@ -70,7 +72,7 @@ void ThermalLimit::learn(const Observation& seen) {
     return;
   }
   const double dt_s = to_seconds(seen.now - last_);
-  const bool goes_on = trip_c_ == seen.trip_c && dt_s >= 0.0 && dt_s <= settings_.window_s;
+  const bool goes_on = trip_c_ == seen.trip_c && dt_s >= 0.0 && dt_s <= window_s;
   const double mean_c = 0.5 * (temperature_c_ + seen.temperature_c);
   trip_c_ = seen.trip_c;
   temperature_c_ = seen.temperature_c;
@@ -85,7 +87,7 @@ void ThermalLimit::learn(const Observation& seen) {
   excess_k_s_ += dt_s * (mean_c - seen.trip_c);
   const double elapsed_s = to_seconds(seen.now - begun_);
   if (elapsed_s >= window_s_) {
-    window_s_ = std::min(2.0 * window_s_, settings_.window_s);
+    window_s_ = std::min(2.0 * window_s_, window_s);
     solver_.learn({elapsed_s, energy_j_, -excess_k_s_}, seen.temperature_c - begun_c_);
     begin_window(seen);
   }
@@ -97,32 +99,12 @@ ThermalLimit::Fit ThermalLimit::fit() const {
           std::clamp(w(2), least_k_1_s, most_k_1_s)};
 }
 
-Watts ThermalLimit::power_for(double end_k, double start_k, double seconds) const {
+/// That ends so far below the trip, drawn for one horizon.
+Watts ThermalLimit::most_power(double below_trip_k) const {
   const auto [q, g, k] = fit();
-  const double left = std::exp(-k * seconds);
-  return Watts{(k * (end_k - start_k * left) / (1.0 - left) - q) / g};
-}
-
-std::optional<Watts> ThermalLimit::most_power() const {
-  if (!trip_c_) {
-    return std::nullopt;
-  }
-  return power_for(-settings_.guard_k, temperature_c_ - *trip_c_, settings_.horizon_s);
-}
-
-std::optional<Watts> ThermalLimit::sustainable_power() const {
-  if (!trip_c_) {
-    return std::nullopt;
-  }
-  return power_for(-settings_.guard_k, 0.0, 1e9);
-}
-
-double ThermalLimit::temperature_after_c(Watts power, double seconds) const {
-  FLYBALL_ASSERT(trip_c_.has_value(), "no trip was told, %g W", power.value());
-  const auto [q, g, k] = fit();
-  const double rest_k = (q + g * power.value()) / k;
+  const double left = std::exp(-k * horizon_s);
   const double start_k = temperature_c_ - *trip_c_;
-  return *trip_c_ + rest_k + (start_k - rest_k) * std::exp(-k * seconds);
+  return Watts{(k * (-below_trip_k - start_k * left) / (1.0 - left) - q) / g};
 }
 
 double ThermalLimit::clock_for(Watts most, const std::vector<double>& clocks_hz) const {
@@ -140,13 +122,11 @@ double ThermalLimit::most_clock_hz(const std::vector<double>& clocks_hz) {
   if (!trip_c_) {
     return clocks_hz.back();
   }
-  const double start_k = temperature_c_ - *trip_c_;
-  const auto clock = [&](double below_k) {
-    return clock_for(power_for(-settings_.guard_k - below_k, start_k, settings_.horizon_s),
-                     clocks_hz);
+  const auto clock = [&](double below_trip_k) {
+    return clock_for(most_power(below_trip_k), clocks_hz);
   };
   // Down at once, up with a reserve, and where even that reserve is less, it stays.
-  last_hz_ = std::min(clock(0.0), std::max(last_hz_, clock(settings_.raise_k)));
+  last_hz_ = std::min(clock(guard_k), std::max(last_hz_, clock(guard_k + raise_k)));
   return last_hz_;
 }
 

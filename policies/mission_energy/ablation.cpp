@@ -29,7 +29,7 @@ const std::vector<Ablation::Named>& Ablation::parts() {
       {"resolution", Part::resolution},
       {"range", Part::range},
       {"clock", Part::clock},
-      {"latency_learning", Part::latency_learning, "learn_s", 1e-9},  // Over before it begins.
+      {"latency_learning", Part::latency_learning, "learn_s", 1e-9},  // Over at the second look.
       {"gaps", Part::gaps},
       {"ceiling", Part::ceiling},
       {"rotor_power", Part::rotor_power},

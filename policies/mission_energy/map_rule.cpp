@@ -120,7 +120,6 @@ MapRule::MapRule(const Parameters& given, const KnobSettings& knobs, const Vehic
       most_range_m_{given.number("most_range_m")},
       small_cells_s_{given.number("small_cells_s")},
       narrow_m_s_{given.number("narrow_m_s")},
-      patience_s_{given.number("patience_s")},
       body_m_{given.number("body_m") > 0.0 ? given.number("body_m") : vehicle.narrow_width_m},
       large_m_{0.5 * body_m_},
       camera_{vehicle.depth_camera},
@@ -132,7 +131,7 @@ Passability MapRule::passability(const Parameters& given) const {
   PassabilitySettings passable;
   passable.body_m = body_m_;
   passable.least = from_seconds(given.number("min_fine_s"));
-  passable.patience = from_seconds(patience_s_);
+  passable.patience = from_seconds(given.number("patience_s"));
   passable.retry_m = large_m_;
   passable.near_m = least_range_m_ + 1.0;
   // They are sorted here although `make` may refuse them afterwards.

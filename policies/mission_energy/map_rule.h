@@ -95,7 +95,6 @@ class MapRule {
   double most_range_m_;
   double small_cells_s_;
   double narrow_m_s_;
-  double patience_s_;
   double body_m_;
   double large_m_;  ///< Larger cells may close openings that nobody has seen yet.
   std::optional<DepthCameraSpec> camera_;

@@ -4,7 +4,6 @@
 #include "flyball/governors/clock_search.h"
 
 #include "flyball/governors/policy_conformance.h"
-#include "flyball/governors/speed_limit.h"
 
 #include "search_knobs.h"
 #include <algorithm>
@@ -102,7 +101,7 @@ TEST(ClockSearch, its_speed_is_that_of_equation_2_for_its_response) {
   const EnergyEstimate told = one.estimate({0.80, 12.0, top_hz}, around);
   EXPECT_DOUBLE_EQ(told.response_s, response_s({}, one.latency().predicted_s(told.setting)));
   EXPECT_DOUBLE_EQ(told.speed_m_s,
-                   SpeedLimit{6.0}.speed_m_s(told.response_s, free_ahead_m(told.setting, 30.0)));
+                   safe_speed(6.0, told.response_s, free_ahead_m(told.setting, 30.0)));
   EXPECT_GT(told.watts_per_second, 0.0);
   EXPECT_EQ(one.estimate({0.80, 12.0, top_hz}, surroundings_of(in_the_open(1.0))).watts_per_second,
             0.0)
@@ -141,6 +140,28 @@ TEST(ClockSearch, options_are_what_is_allowed_the_cheapest_first) {
 TEST(ClockSearch, refuses_a_computer_without_clocks) {
   const std::vector<LatencyLevel> levels{{0.15, 0.5, 2.2}};
   EXPECT_FALSE(ClockSearch::make({}, levels, {}, *conformance_board().power).ok());
+}
+
+TEST(ClockSearch, refuses_what_has_no_logarithm) {
+  const auto refusal = [](double first_range_m, double least_hz, double cells_m) {
+    KnobSettings knobs = kit::search_knobs({least_hz, top_hz});
+    std::vector<KnobSpec> specs = knobs.specs();
+    for (KnobSpec& spec : specs) {
+      if (spec.name == "map.range_m") {
+        spec.min = spec.fallback = first_range_m;
+      }
+    }
+    const auto made = ClockSearch::make({}, {{cells_m, 0.4, 2.2}}, KnobSettings{specs},
+                                        *conformance_board().power);
+    return made ? std::string{} : made.error().message;
+  };
+  EXPECT_EQ(refusal(7.0, 1e9, 0.15), "");
+  EXPECT_EQ(refusal(0.0, 1e9, 0.15),
+            "knob map.range_m begins at 0 m; give it a start value above 0");
+  EXPECT_EQ(refusal(7.0, 0.0, 0.15),
+            "knob cpu.frequency_hz may be 0 Hz; every clock must be above 0");
+  EXPECT_EQ(refusal(7.0, 1e9, 0.0),
+            "knob map.resolution_m may be 0 m; every size of cells must be above 0");
 }
 
 TEST(ClockSearchAtRest, takes_the_lowest_clock_that_is_soon_enough) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/governors/latency_bound.h"
 #include "flyball/governors/latency_model.h"
+#include "flyball/governors/latency_worth.h"
 #include "flyball/governors/policy_conformance.h"
 #include "flyball/governors/power_model.h"
-#include "flyball/governors/speed_limit.h"
 #include "flyball/governors/thermal_limit.h"
 
 #include "counting_new.h"
@@ -16,9 +16,8 @@ namespace {
 TEST(Instruments, allocate_nothing_after_construction) {
   LatencyModels models;
   models.add({});
-  LatencyBound bound{3, 4, {}};
+  LatencyBound bound{3, {}};
   RotorPower rotors;
-  const SpeedLimit limit;
   ThermalLimit heat{*conformance_board().power};
   Observation warm;
   warm.trip_c = 80.0;
@@ -30,9 +29,9 @@ TEST(Instruments, allocate_nothing_after_construction) {
     const MissionTime now{std::chrono::milliseconds{100 * i}};
     const LatencyFeatures at{0.15 + 0.01 * i, 100.0, Hertz{1e9}};
     const Duration predicted = from_seconds(models.predict_s(0, at));
-    const auto ticket = bound.issue(static_cast<std::size_t>(i % 3), now, predicted);
+    bound.issue(static_cast<std::size_t>(i % 3), now, predicted);
     if (i % 2 == 0) {
-      bound.settle(ticket, now + predicted);
+      bound.settle(now + predicted);
     }
     models.learn(0, at, 2 * predicted);
     rotors.learn(0.1 * i, Watts{300.0});
@@ -40,7 +39,7 @@ TEST(Instruments, allocate_nothing_after_construction) {
     warm.temperature_c = 60.0 + 0.2 * i;
     heat.learn(warm);
     sum += 1e-9 * heat.most_clock_hz(clocks_hz);
-    sum += limit.watts_per_second(rotors.power(3.0).value(), to_seconds(predicted), 7.0);
+    sum += watts_per_second(6.0, to_seconds(predicted), 3.0, rotors.power(3.0).value(), 0.0);
   }
   const std::size_t after = allocation_count();
   EXPECT_EQ(after, before);

@@ -187,6 +187,21 @@ TEST(LearnedLatency,
   }
 }
 
+TEST(LearnedLatency, learns_for_so_long_from_its_first_look_on_whatever_the_clock_shows_then) {
+  LearnedLatencySettings half_a_minute;
+  half_a_minute.learn_s = 30.0;
+  LearnedLatency one = learner(half_a_minute);
+  const auto shown_s = [&one](double t_s, std::uint64_t revision, double latency_s) {
+    one.learn(seen_map(t_s, revision, 0.15, latency_s));
+    return one.predicted_s({0.15, 7.0, top_hz});
+  };
+  constexpr double since_boot_s = 1e5;
+  const double told_s = shown_s(since_boot_s, 1, 0.3);
+  const double learned_s = shown_s(since_boot_s + 29.0, 2, 0.3);
+  EXPECT_LT(learned_s, told_s);
+  EXPECT_EQ(shown_s(since_boot_s + 31.0, 3, 0.1), learned_s);
+}
+
 TEST(LearnedLatency, a_slower_clock_than_asked_for_moves_the_bound) {
   LearnedLatencySettings constant;
   constant.bound.eta = 0.0;

@@ -21,7 +21,7 @@ struct Ran {
 /// Runs a script that logs its result.
 Ran ran(const std::string& script, std::uint64_t seed = 1) {
   const ScratchFolder scratch;
-  LuaSandbox sandbox{scratch.file("mine.lua", script), seed, {}};
+  LuaSandbox sandbox{scratch.file("mine.lua", script), seed};
   Status status = sandbox.load();
   return {std::move(status), sandbox.logged()};
 }
@@ -180,7 +180,7 @@ TEST(LuaSandbox, has_the_length_operator_with_luas_precedence) {
 
 TEST(LuaSandbox, each_run_has_a_budget_of_its_own) {
   const ScratchFolder scratch;
-  LuaSandbox sandbox{scratch.file("mine.lua", "function spin(n) for i = 1, n do end end"), 1, {}};
+  LuaSandbox sandbox{scratch.file("mine.lua", "function spin(n) for i = 1, n do end end"), 1};
   ASSERT_TRUE(sandbox.load().ok());
   const auto spin = [&sandbox](double n) {
     return sandbox.run(200'000, [n](lua_State* state) {

@@ -81,6 +81,13 @@ TEST_F(Preset, refuses_values_of_the_wrong_kind) {
   }
 }
 
+TEST_F(Preset, refuses_a_whole_number_that_no_double_holds) {
+  const auto preset = load("policy = 'a'\nparameters = {n = 9007199254740993}");
+  ASSERT_FALSE(preset.ok());
+  EXPECT_EQ(path_ + ":2: parameter \"n\" is a whole number beyond 2^53; write 1.0e16",
+            preset.error().message);
+}
+
 TEST_F(Preset, refuses_a_file_without_a_policy) {
   for (const std::string text : {"", "description = 'nothing else'"}) {
     const auto preset = load(text);

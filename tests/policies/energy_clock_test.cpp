@@ -48,6 +48,13 @@ TEST(EnergyClock, at_the_missions_own_limit_of_speed_it_drops) {
   EXPECT_LT(clock_hz(energy_clock()->decide(seen)), top_hz);
 }
 
+TEST(EnergyClock, not_where_the_application_looks_so_far_that_maps_take_long) {
+  Observation seen = cruising(1.0, 0.80, 350.0);
+  seen.speed_limit_m_s = 3.0;
+  seen.map_range_m = 25.0;
+  EXPECT_EQ(clock_hz(energy_clock()->decide(seen)), top_hz);
+}
+
 TEST(EnergyClock, not_where_the_next_path_is_so_short_that_latency_limits_the_speed_after_all) {
   Observation seen = cruising(1.0, 0.15, 300.0);
   seen.speed_limit_m_s = seen.speed_m_s = 1.0;

@@ -111,7 +111,7 @@ void read_wishes(lua_State* state, int table, const KnobSettings& knobs, Decisio
 
 class LuaPolicy final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
-  LuaPolicy(std::string path, std::uint64_t seed) : sandbox_{std::move(path), seed, {}} {}
+  LuaPolicy(std::string path, std::uint64_t seed) : sandbox_{std::move(path), seed} {}
 
   Status load() {
     if (Status loaded = sandbox_.load(); !loaded) {

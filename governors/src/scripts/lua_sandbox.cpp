@@ -40,8 +40,8 @@ int invoke(lua_State* state) {
 
 }  // namespace
 
-LuaSandbox::LuaSandbox(std::string path, std::uint64_t seed, LuaLimits limits)
-    : path_{std::move(path)}, seed_{seed}, limits_{limits}, random_{seed, "policy"} {}
+LuaSandbox::LuaSandbox(std::string path, std::uint64_t seed)
+    : path_{std::move(path)}, seed_{seed}, random_{seed, "policy"} {}
 
 LuaSandbox::~LuaSandbox() {
   if (state_ != nullptr) {

@@ -41,7 +41,7 @@ struct LuaLimits {
 /// patterns (they can take for ever without counting).
 class LuaSandbox {
  public:
-  LuaSandbox(std::string path, std::uint64_t seed, LuaLimits limits);
+  LuaSandbox(std::string path, std::uint64_t seed);
   ~LuaSandbox();
   LuaSandbox(const LuaSandbox&) = delete;
   LuaSandbox& operator=(const LuaSandbox&) = delete;
@@ -87,7 +87,7 @@ class LuaSandbox {
 
   std::string path_;
   std::uint64_t seed_;
-  LuaLimits limits_;
+  LuaLimits limits_{};
   RandomStream random_;
   lua_State* state_{};
   std::size_t used_bytes_{};

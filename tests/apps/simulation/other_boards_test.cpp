@@ -4,7 +4,6 @@
 // of speed, so latency buys it nothing; its computer takes the time and the watts of the platform
 // file. What the policy then chooses is held against all clocks, by the file's own power.
 #include "flyball/governors/clock_search.h"
-#include "flyball/governors/speed_limit.h"
 #include "flyball/runtime/board.h"
 #include "flyball/scenario/files.h"
 #include "flyball/sim/platform_file.h"
@@ -79,8 +78,8 @@ class Truth {
   }
   [[nodiscard]] double joules_per_m(const MapSetting& setting) const {
     const double response = response_s(setting.clock_hz);
-    const double speed_m_s = std::min(
-        limit_m_s, SpeedLimit{deceleration_m_s2}.speed_m_s(response, free_ahead_m(setting, 1e9)));
+    const double speed_m_s =
+        std::min(limit_m_s, safe_speed(deceleration_m_s2, response, free_ahead_m(setting, 1e9)));
     const Watts computer =
         platform_.power({4, Hertz{setting.clock_hz}}, busy_cores(setting.clock_hz));
     return joules_per_metre(Watts{vehicle_.rotor_w}, computer, speed_m_s);

@@ -23,7 +23,7 @@ struct Logged {
   flyball::LuaSandbox sandbox;
   std::string text{};
 
-  explicit Logged(const std::string& file) : sandbox{file, 1, {}} {
+  explicit Logged(const std::string& file) : sandbox{file, 1} {
     const auto loaded = sandbox.load();
     text = loaded ? sandbox.logged() : loaded.error().message;
   }

@@ -79,7 +79,8 @@ class ClockSearch {
  public:
   /// @param levels    Of the map, finest first.
   /// @param computer  Its power at each clock.
-  /// @error `invalid_input` when there is no knob for the clock or it has no list of clocks.
+  /// @error `invalid_input` when there is no knob for the clock or it has no list of clocks, or a
+  /// clock, the range or the cells of a level may be 0.
   static Result<ClockSearch> make(const ClockSearchSettings& settings,
                                   const std::vector<LatencyLevel>& levels,
                                   const KnobSettings& knobs,

@@ -24,16 +24,15 @@ namespace flyball {
 ///     mean miss = alpha + (q_{T+1} - q_1) / (eta T)                                  (2)
 ///
 /// That is an identity. If e <= B then q cannot run away: a decision issued with q >= B cannot
-/// miss, so when q first passes B (by at most eta (1 - alpha)) only the D - 1 others that are open
-/// at that moment, issued below B, can still push it up; once they are settled it only falls until
-/// it is below B again. Hence q_{T+1} <= B + D eta and
+/// miss, so q passes B by at most eta (1 - alpha), and from there on it falls until it is below B
+/// again. Hence q_{T+1} <= B + eta and
 ///
-///     mean miss <= alpha + (B + D eta - q_1) / (eta T)                               (3)
+///     mean miss <= alpha + (B + eta - q_1) / (eta T)                                 (3)
 ///
-/// pathwise, for fixed eta and alpha. With D = 1 (one decision open at a time) it is the bound of
-/// Gibbs and Candes (Adaptive conformal inference, NeurIPS 2021, prop. 4.1) for this update. It is
-/// a mean over time, not a guarantee for the next decision. A job that is killed has no e <= B:
-/// then (2) still holds, (3) does not.
+/// pathwise, for fixed eta and alpha, while one decision is open at a time: the bound of Gibbs and
+/// Candes (Adaptive conformal inference, NeurIPS 2021, prop. 4.1) for this update. It is a mean
+/// over time, not a guarantee for the next decision. A job that is killed has no e <= B: then (2)
+/// still holds, (3) does not.
 class QuantileTracker {
  public:
   struct Settings {
@@ -49,72 +48,60 @@ class QuantileTracker {
   void count(bool missed);
   [[nodiscard]] std::uint64_t decisions() const { return decisions_; }
   [[nodiscard]] std::uint64_t misses() const { return misses_; }
-  [[nodiscard]] const Settings& settings() const { return settings_; }
-  /// What eq. (3) allows by now, while `open` decisions are open at a time and no latency is more
-  /// than `worst` times the predicted one; empty where q stays. @pre `worst > 0`, `open >= 1`.
-  [[nodiscard]] std::optional<double> most_misses(double worst, std::size_t open) const;
-  /// For the next mission: q persists, the counts do not. @pre `q` is finite.
-  void restore(double q);
+  /// What eq. (3) allows by now, if no latency is more than `worst` times the predicted one; empty
+  /// where q stays. @pre `worst > 0`.
+  [[nodiscard]] std::optional<double> most_misses(double worst) const;
 
  private:
   Settings settings_;
   double q_;
-  double first_;  ///< q_1, of this mission.
   std::uint64_t decisions_{};
   std::uint64_t misses_{};
 };
 
-/// One tracker for each level (of map resolution), and the decisions whose jobs are still out.
-/// Exactly one indicator for each issued decision, declared when the bound expires: a job that
-/// comes late, is killed or superseded is a miss at that moment, and its end changes nothing more.
-/// (Counting ended jobs only would drop the worst ones: the bound would look right and be wrong.)
-/// Nothing allocates after construction.
+/// One tracker for each level (of map resolution), and the decision whose job is still out. Exactly
+/// one indicator for each issued decision, declared when the bound expires: a job that comes late,
+/// is killed or superseded is a miss at that moment, and its end changes nothing more. (Counting
+/// ended jobs only would drop the worst ones: the bound would look right and be wrong.) Nothing
+/// allocates after construction.
 class LatencyBound {
  public:
-  using Ticket = std::uint64_t;
-
-  /// @param levels    Trackers, at least 1.
-  /// @param open_max  D: decisions open at a time, at least 1. One more, and the oldest counts as
-  ///                  superseded.
-  LatencyBound(std::size_t levels, std::size_t open_max, const QuantileTracker::Settings& settings);
+  /// @param levels  Trackers, at least 1.
+  LatencyBound(std::size_t levels, const QuantileTracker::Settings& settings);
 
   /// predicted * exp(q of the level). @pre `level < levels()`, `predicted > 0`.
   [[nodiscard]] Duration bound(std::size_t level, Duration predicted) const;
-  /// A decision whose latency was predicted, at the clock and cores it asked for.
-  Ticket issue(std::size_t level, MissionTime now, Duration predicted);
+  /// A decision whose latency was predicted, at the clock and cores it asked for. The one before
+  /// it, if still open, is superseded.
+  void issue(std::size_t level, MissionTime now, Duration predicted);
+  // The calls below are about the open decision, and do nothing when there is none.
   /// The platform granted something else: the prediction becomes `factor` times the one issued, and
   /// the bound moves with it. @pre `factor > 0`.
-  void regrant(Ticket ticket, double factor);
+  void regrant(double factor);
   /// The setting has changed while the job is out, and the job may have begun under either one: the
   /// longer of the two bounds counts, at its own level. @pre As of `issue`.
-  void widen(Ticket ticket, std::size_t level, Duration predicted);
-  /// The job ended; a hit if it did so before its bound expired. Does nothing when the miss has
-  /// been declared. A job that was killed is not settled: it expires.
-  void settle(Ticket ticket, MissionTime ended);
-  /// Declares the bounds that have expired by `now`. Call before each decision.
+  void widen(std::size_t level, Duration predicted);
+  /// The job ended; a hit if it did so before its bound expired. A job that was killed is not
+  /// settled: it expires.
+  void settle(MissionTime ended);
+  /// Declares the miss if the bound has expired by `now`. Call before each decision.
   void expire(MissionTime now);
 
   [[nodiscard]] std::size_t levels() const { return trackers_.size(); }
   [[nodiscard]] const QuantileTracker& tracker(std::size_t level) const { return trackers_[level]; }
-  [[nodiscard]] QuantileTracker& tracker(std::size_t level) { return trackers_[level]; }
-  [[nodiscard]] std::size_t open() const { return open_.size(); }
 
  private:
   struct Open {
-    Ticket ticket{};
     std::size_t level{};
     MissionTime issued{};
     double bound_s{};
     double factor{1.0};
     [[nodiscard]] MissionTime expires() const;
   };
-  [[nodiscard]] Open* find(Ticket ticket);
-  void close(std::size_t position, bool missed);
+  void close(bool missed);
 
   std::vector<QuantileTracker> trackers_;
-  std::vector<Open> open_;  ///< In order of issue; never beyond its first capacity.
-  std::size_t open_max_;
-  Ticket next_{1};
+  std::optional<Open> open_{};
 };
 
 }  // namespace flyball

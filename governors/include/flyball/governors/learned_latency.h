@@ -11,6 +11,7 @@
 #include "flyball/runtime/observation.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flyball {
@@ -30,13 +31,16 @@ struct LatencyLevel {
                                                        double fine_s,
                                                        double coarse_s);
 
+/// Of whatever sensor; anything else is a fault of the observation.
+[[nodiscard]] bool is_a_range(double any_m);
+
 struct LearnedLatencySettings {
   double frame_s{0.05};  ///< Between two frames of the camera.
   /// The first margin is about what the errors of a flight come to, and each late map widens it by
   /// 15 %: with .05 and .1, a level of some 50 maps spent most of its misses on the way to there.
   QuantileTracker::Settings bound{0.05, 0.15, 0.4};
   ClockScaling clock{0.9, 0.05};
-  double learn_s{};  ///< Latency is learned until this mission time; 0: always.
+  double learn_s{};  ///< Latency is learned for so long from the first look on; 0: always.
 };
 
 /// Predicts with one model for each level, over range and clock, and bounds with one tracker for
@@ -84,10 +88,10 @@ class LearnedLatency {
   MapSetting in_force_;
   MissionTime in_force_since_{};
   MissionTime cells_since_{};  ///< Since when these cells have been in force, with any range.
+  std::optional<MissionTime> first_look_{};
   std::uint64_t revision_{};
-  LatencyBound::Ticket ticket_{};  ///< The next map's, issued when the last one came.
-  MissionTime issued_{};
-  Hertz issued_at_{1e9};    ///< The clock that the ticket assumes.
+  MissionTime issued_{};    ///< When the last map came, and a bound for the next one was issued.
+  Hertz issued_at_{1e9};    ///< The clock that this bound assumes.
   double clock_factors_{};  ///< Sum over the observations since then, of the granted clocks.
   int looks_{};             ///< Number of these observations.
 };

@@ -13,7 +13,6 @@ struct MapSetting {
   friend bool operator==(const MapSetting& a, const MapSetting& b) {
     return a.resolution_m == b.resolution_m && a.range_m == b.range_m && a.clock_hz == b.clock_hz;
   }
-  friend bool operator!=(const MapSetting& a, const MapSetting& b) { return !(a == b); }
 };
 
 }  // namespace flyball

@@ -15,15 +15,6 @@
 
 namespace flyball {
 
-struct ThermalLimitSettings {
-  double guard_k{0.5};     ///< Kept below the trip: one step of a usual sensor (TMP451: .5 K by
-                           ///< NVIDIA's driver).
-  double horizon_s{60.0};  ///< Within so long the limit may be reached: well below time constants
-                           ///< of minutes, well above the seconds in which loads change.
-  double raise_k{0.25};    ///< Half a guard: a step of the clock changes .4 W, .35 K in a horizon.
-  double window_s{10.0};   ///< One sample of the model; the first ones are shorter.
-};
-
 /// One heat capacity behind one resistance, as `ThermalModel`, with x = T - trip:
 ///
 ///     dx/dt = q + g P - k x,    q = (T_air - trip) / tau,  g = 1 / C,  k = 1 / tau
@@ -38,26 +29,20 @@ struct ThermalLimitSettings {
 ///
 /// The power that brings the computer from x to -guard in one horizon h, drawn for so long, is
 ///
-///     P = (k (-guard - x e^{-k h}) / (1 - e^{-k h}) - q) / g,
+///     P = (k (-guard - x e^{-k h}) / (1 - e^{-k h}) - q) / g.
 ///
-/// and for h -> infinity the one that it can take for ever. Without a trip there is no limit.
-/// Nothing allocates.
+/// Without a trip there is no limit. Nothing allocates.
 class ThermalLimit {
  public:
-  explicit ThermalLimit(PowerCost computer, const ThermalLimitSettings& settings = {});
+  explicit ThermalLimit(PowerCost computer);
 
   /// Once per decision.
   void learn(const Observation& seen);
 
-  /// By the power model; empty where no trip point is known.
-  [[nodiscard]] std::optional<Watts> most_power() const;
-  [[nodiscard]] std::optional<Watts> sustainable_power() const;
-  /// After this power for so long. @pre A trip was told.
-  [[nodiscard]] double temperature_after_c(Watts power, double seconds) const;
-  /// The highest of these, ascending, that takes no more than `most_power` with the load as it was
-  /// lately; the lowest where none does. A higher one than the last answer must leave `raise_k`
-  /// more: latencies are learned, and maps bounded, at a clock that stays for a while. @pre Not
-  /// empty.
+  /// The highest of these, ascending, that takes no more than P with the load as it was lately; the
+  /// lowest where none does, and the highest of all where no trip is known. A higher one than the
+  /// last answer must leave a quarter of a kelvin more: latencies are learned, and maps bounded, at
+  /// a clock that stays for a while. @pre Not empty.
   [[nodiscard]] double most_clock_hz(const std::vector<double>& clocks_hz);
 
  private:
@@ -69,9 +54,8 @@ class ThermalLimit {
   void begin_window(const Observation& seen);
   [[nodiscard]] Fit fit() const;
   [[nodiscard]] double clock_for(Watts most, const std::vector<double>& clocks_hz) const;
-  [[nodiscard]] Watts power_for(double end_k, double start_k, double seconds) const;
+  [[nodiscard]] Watts most_power(double below_trip_k) const;
 
-  ThermalLimitSettings settings_;
   PowerCost computer_;
   RecursiveLeastSquares<3> solver_;
   double window_s_;
