@@ -43,6 +43,9 @@ void Navigator::obey(MissionTime now, const GuidanceCommand& command) {
     is_one_of_many_ = go->is_one_of_many;
     patience_.begin(now);
     failures_.begin_goal();
+    if (!is_one_of_many_) {
+      back_.begin_goal();
+    }
     set_goal(now, go->p_W);
   } else {
     clear_goal();
@@ -63,6 +66,7 @@ void Navigator::leave_path_at(const Vec3& p_W, double yaw_rad) {
 void Navigator::set_goal(MissionTime now, const Vec3& goal_W) {
   goal_W_ = last_goal_W_ = goal_W;
   asked_.reset();
+  overdue_.reset();
   known_.reset();
   detours_.begin();
   stops_for_plan_ = false;
@@ -74,6 +78,7 @@ void Navigator::clear_goal() {
   goal_W_.reset();
   wants_plan_ = false;
   asked_.reset();
+  overdue_.reset();
 }
 
 bool Navigator::has_arrived() const {
@@ -113,12 +118,15 @@ void Navigator::path_checked(MissionTime now, const PathClearance& clearance) {
 /// While the vehicle does not know where it is, no path is flown; afterwards, from where it then
 /// is.
 void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) {
-  if (search_ && goal_W_) {
-    hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
+  if (!search_) {
+    return;
+  }
+  search_.reset();
+  hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
+  if (goal_W_) {
     patience_.resume(now);
     set_goal(now, *goal_W_);
   }
-  search_.reset();
 }
 
 /// Where the fallback asks for a hover, the search goes no farther.

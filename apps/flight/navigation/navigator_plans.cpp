@@ -96,7 +96,8 @@ bool Navigator::is_detour() const {
 std::optional<PlanQuery> Navigator::next_query(MissionTime now) {
   constexpr auto lost_after = std::chrono::seconds{30};  // Three times a plan's deadline.
   if (asked_ && now - asked_->at > lost_after) {
-    asked_.reset();  // Neither a path nor a failure has come: a message was lost.
+    // Neither a path nor a failure has come: a message was lost, or the search takes so long.
+    overdue_ = std::exchange(asked_, std::nullopt);
     want_plan(now, "no answer to a plan");
   }
   if (!goal_W_ || !newest_.has_map() || asked_ || back_.is_active()) {
@@ -254,6 +255,9 @@ void Navigator::plan_refused(MissionTime now, const Asked& asked, const PlannedP
 }
 
 void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
+  if (overdue_ && planned.id == overdue_->id) {
+    asked_ = std::exchange(overdue_, std::nullopt);  // What was asked after it is not awaited.
+  }
   if (!asked_ || planned.id != asked_->id) {
     return;
   }

@@ -3,6 +3,8 @@
 #include "flyball/flight/navigation/navigator.h"
 #include "flyball/flight/navigation/step_aside.h"
 
+#include <algorithm>
+
 namespace flyball {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr auto stall_patience = 6s;
 constexpr auto some_maps = 500ms;    // Chosen: ten frames of what lies ahead.
 constexpr int tries = 3;             // Chosen: two may have failed because of noise in the map.
 constexpr double elsewhere_m = 4.0;  // Chosen: there half of a fine map of 8 m is new.
+constexpr double settled_m = 0.15;   // Chosen: from its reference, when it has stepped back.
 constexpr double doubted_m = 12.0;   // Chosen: a fine map sees 8 m from 4 m farther back.
 
 }  // namespace
@@ -112,8 +115,9 @@ void Navigator::look_from_elsewhere() {
 }
 
 void Navigator::go_back(MissionTime now, Duration dt, double error_m) {
+  const bool is_at_it = error_m < std::max(settled_m, brief_->arrival_error_m());
   const StepBack::Hover next =
-      back_.tick(now, dt, {follower_.position_W(), follower_.yaw_rad()}, error_m);
+      back_.tick(now, dt, {follower_.position_W(), follower_.yaw_rad()}, is_at_it);
   follower_.hover_at(next.p_W, next.yaw_rad);
   if (back_.has_looked(newest_.captured())) {
     want_plan(now, "has looked from farther back");

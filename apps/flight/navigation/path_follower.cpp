@@ -155,8 +155,12 @@ Duration PathFollower::latency_bound() const {
   return std::min(bound, longest_latency_bound);
 }
 
+bool PathFollower::is_held() const {
+  return must_stop_ || knobs_->restraint.must_hover;
+}
+
 double PathFollower::safe_cruise() const {
-  if (must_stop_ || knobs_->restraint.must_hover) {
+  if (is_held()) {
     return 0.0;
   }
   double safe = 0.0;
@@ -306,7 +310,7 @@ bool PathFollower::looks_for_way() const {
 
 void PathFollower::note_standstill(MissionTime now) {
   const bool stands = speed_m_s_ <= standing_m_s;
-  if (!stands || stands_still()) {
+  if (!stands || stands_still() || is_held()) {
     stall_.reset();
   } else if (!stall_) {
     stall_ = Stall{now, std::nullopt};

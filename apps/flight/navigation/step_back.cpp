@@ -15,8 +15,7 @@ constexpr double most_trail_m = 16.0;  // For four looks from elsewhere (Navigat
 constexpr double least_m = 0.2;        // From nearer by the camera would see nothing new.
 constexpr double speed_m_s = 0.5;
 constexpr double turn_rate_rad_s = 0.8;
-constexpr double settled_m = 0.15;  // The vehicle stands when it is this near to its reference, ...
-constexpr double settled_rad = 0.05;  // ... and looks this near to the wanted heading.
+constexpr double settled_rad = 0.05;  // To the wanted heading.
 constexpr double same_place_m = 3.0;  // Manoeuvres that begin within this are of one place, ...
 constexpr int most_times = 3;         // ... from which more of them would show nothing new.
 
@@ -64,7 +63,11 @@ bool StepBack::begin(double distance_m, double yaw_rad) {
   return true;
 }
 
-StepBack::Hover StepBack::tick(MissionTime now, Duration dt, const Hover& hover, double error_m) {
+void StepBack::begin_goal() {
+  times_ = 0;
+}
+
+StepBack::Hover StepBack::tick(MissionTime now, Duration dt, const Hover& hover, bool is_at_it) {
   const double dt_s = to_seconds(dt);
   Hover next = hover;
   next.yaw_rad = wrap_angle(towards(hover.yaw_rad, yaw_rad_, turn_rate_rad_s * dt_s));
@@ -84,7 +87,7 @@ StepBack::Hover StepBack::tick(MissionTime now, Duration dt, const Hover& hover,
   }
   const bool is_there = left_m_ <= 0.0 || trail_W_.empty();
   const bool looks_there = std::abs(wrap_angle(yaw_rad_ - next.yaw_rad)) < settled_rad;
-  const bool is_settled = is_there && looks_there && error_m < settled_m;
+  const bool is_settled = is_there && looks_there && is_at_it;
   settled_ = is_settled ? settled_.value_or(now) : std::optional<MissionTime>{};
   return next;
 }

@@ -28,5 +28,55 @@ TEST(Navigator, leaves_errors_to_a_flight_controller) {
   }
 }
 
+TEST(Navigator, that_was_told_to_stand_has_not_stalled) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  for (int i = 0; i < 500; ++i) {  // No pose for ten seconds.
+    trip.now += 20ms;
+    (void)trip.navigator.tick(trip.now, 20ms, trip.where);
+  }
+  EXPECT_LT(trip.navigator.follower().speed_m_s(), 1e-9);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now));
+  EXPECT_TRUE(trip.navigator.follower().has_path());
+  trip.tick(2000);
+  EXPECT_TRUE(trip.navigator.has_arrived());
+}
+
+// A localizer that has lost its place may have moved the vehicle back, while a view was had.
+TEST(Navigator, stays_where_a_search_for_its_place_has_ended) {
+  for (const bool has_goal : {false, true}) {
+    Trip trip;
+    if (has_goal) {
+      trip.set_goal(Vec3{20, 0, 1.5});
+    }
+    Setpoint search;
+    search.p_WB = Vec3{0, 3, 1.5};
+    (void)trip.navigator.tick(trip.now, 20ms, trip.where, search);
+    trip.where.X_WB.translation() = search.p_WB;
+    trip.where.stamp = trip.now;
+    const Setpoint after = trip.navigator.tick(trip.now, 20ms, trip.where);
+    EXPECT_NEAR((after.p_WB - search.p_WB).norm(), 0.0, 1e-9) << has_goal;
+    EXPECT_EQ(trip.navigator.next_query(trip.now).has_value(), has_goal);
+  }
+}
+
+// A long search on a slow computer, or one on the way from an edge computer.
+TEST(Navigator, takes_a_path_that_it_has_nearly_given_up) {
+  Trip trip;
+  trip.set_goal(Vec3{20, 0, 1.5});
+  const auto slow = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(slow);
+  trip.tick(1600);  // 32 s.
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again);
+  EXPECT_NE(again->id, slow->id);
+  trip.answer(*slow);
+  EXPECT_TRUE(trip.navigator.follower().has_path());
+  trip.tick(2000);
+  EXPECT_TRUE(trip.navigator.has_arrived());
+}
+
 }  // namespace
 }  // namespace flyball

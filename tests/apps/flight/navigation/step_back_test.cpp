@@ -28,10 +28,10 @@ struct BackRide {
   MissionTime now{10s};
   double farthest_off_m{};  ///< From the way that it came.
 
-  void tick(int n, double error_m = 0.0) {
+  void tick(int n, bool is_at_it = true) {
     for (int i = 0; i < n; ++i) {
       now += dt;
-      hover = back.tick(now, dt, hover, error_m);
+      hover = back.tick(now, dt, hover, is_at_it);
       const double off_x = std::abs(hover.p_W.x() - 2.0);
       farthest_off_m = std::max(farthest_off_m, std::min(off_x, std::abs(hover.p_W.y())));
     }
@@ -78,7 +78,7 @@ TEST(StepBack, ends_with_a_frame_that_was_taken_at_rest) {
   EXPECT_FALSE(ride.back.has_looked(ride.now + 1h)) << "it has not arrived yet";
   ride.tick(50);
   const MissionTime under_way = ride.now;
-  ride.tick(200, 0.5);
+  ride.tick(200, false);
   EXPECT_FALSE(ride.back.has_looked(ride.now)) << "the vehicle is not where its reference is";
   ride.tick(10);
   EXPECT_NEAR(ride.hover.yaw_rad, 1.5, 0.05);
@@ -97,6 +97,8 @@ TEST(StepBack, gives_up_where_it_has_been_back_three_times) {
     begun += back.begin(1.0, 0.0) ? 1 : 0;
   }
   EXPECT_EQ(begun, 3);
+  back.begin_goal();
+  EXPECT_TRUE(back.begin(1.0, 0.0)) << "towards another goal";
   back.flew(Vec3{9.0, 0.0, 1.5});
   EXPECT_TRUE(back.begin(1.0, 0.0)) << "elsewhere it may help";
 }

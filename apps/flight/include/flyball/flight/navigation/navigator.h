@@ -129,6 +129,7 @@ class Navigator {
   Vec3 last_goal_W_{Vec3::Zero()};
   std::uint64_t next_id_{1};
   std::optional<Asked> asked_{};
+  std::optional<Asked> overdue_{};        ///< Asked for before that, and not answered for long.
   std::optional<double> blocked_at_m_{};  ///< Arc length; none: the path is not known blocked.
   std::optional<KnownPath> known_{};      ///< A path that was refused, or one held back before.
   PlanFailures failures_{};

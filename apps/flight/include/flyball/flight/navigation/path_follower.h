@@ -136,6 +136,8 @@ class PathFollower {
   [[nodiscard]] SpeedProfile profile_of(const Path& path, double braking_m_s2) const;
   [[nodiscard]] double room_m(std::size_t tier) const;
   [[nodiscard]] double cruise_speed(std::size_t tier) const;
+  /// It was told to brake and stand: that is no stall.
+  [[nodiscard]] bool is_held() const;
   [[nodiscard]] double safe_cruise() const;
   /// Deceleration of a planned stop, m/s^2.
   [[nodiscard]] double stopping() const;

@@ -42,11 +42,13 @@ class StepBack {
   /// @return False when nothing has changed, because there is no track, or because the vehicle has
   ///         already flown back from about here as often as may help.
   [[nodiscard]] bool begin(double distance_m, double yaw_rad);
+  /// Towards another goal, the same place may be left backwards as often again.
+  void begin_goal();
   [[nodiscard]] bool is_active() const { return is_active_; }
   /// The next place and heading of the reference, given the present ones.
   ///
-  /// @param error_m  Distance between vehicle and reference.
-  [[nodiscard]] Hover tick(MissionTime now, Duration dt, const Hover& hover, double error_m);
+  /// @param is_at_it  The vehicle is as near to the reference as it can hold its place.
+  [[nodiscard]] Hover tick(MissionTime now, Duration dt, const Hover& hover, bool is_at_it);
   /// Whether a frame that was taken at rest is in the map, whose newest one was taken at
   /// `captured`. If so, the manoeuvre has ended.
   [[nodiscard]] bool has_looked(MissionTime captured);
