@@ -87,12 +87,14 @@ class SearchAndRescue final : public Workload {
       return;
     }
     const CountedMap map{*revision->map};
-    const Viewpoint view =
-        second_look(map, brief_->narrow_body(), brief_->site.bounds_W, doubt_->from_W, doubt_->p_W);
+    const auto view = second_look(map, brief_->narrow_body(), brief_->site.bounds_W, *doubt_,
+                                  brief_->settings.search.apart_m);
     map.add_to(asked);
-    flight_->fly_to(job, view);
-    log_event(job, mission_, "perhaps somebody: looks from another place");
     doubt_.reset();
+    if (view) {
+      flight_->fly_to(job, *view);
+      log_event(job, mission_, "perhaps somebody: looks from another place");
+    }
   }
 
   void look_again_or_give_up(JobContext& job) {

@@ -232,9 +232,15 @@ void ExplorationFlight::fly_to_next_view_again(JobContext& job, const Vec3& from
     state_ = State::exhausted;
     return;
   }
-  const Viewpoint next = *nearest;
-  again_.erase(nearest);
-  fly_to(job, next);
+  fly_to(job, *nearest);
+}
+
+/// It was had or cannot be reached. A view that another one took the place of is still to come.
+void ExplorationFlight::cross_off_view() {
+  const auto is_this = [this](const Viewpoint& one) {
+    return one.p_W == view_.p_W && one.yaw_rad == view_.yaw_rad;
+  };
+  again_.erase(std::remove_if(again_.begin(), again_.end(), is_this), again_.end());
 }
 
 void ExplorationFlight::watch_flight(JobContext& job) {
@@ -268,6 +274,7 @@ void ExplorationFlight::give_up_view(JobContext& job) {
   log_event(job, parts_.mission, "view given up");
   guidance_.give_up_goal(job);
   unreachable_W_.push_back(view_.p_W);
+  cross_off_view();
   await_map(job.now());
 }
 
@@ -277,11 +284,15 @@ void ExplorationFlight::watch_turn(JobContext& job) {
     if (!looks_again_) {
       taken_.push_back(view_);
     }
+    cross_off_view();
     await_map(job.now());
   }
 }
 
 void ExplorationFlight::go_home(JobContext& job) {
+  if (state_ == State::homing || state_ == State::landed) {
+    return;
+  }
   state_ = State::homing;
   stage_ = Stage::flying;
   since_ = job.now();

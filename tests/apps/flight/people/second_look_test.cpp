@@ -14,8 +14,8 @@ const Vec3 from_W{3, 5, 1};
 
 class SecondLook : public testing::Test {
  protected:
-  [[nodiscard]] Viewpoint at(const Vec3& place_W) const {
-    return second_look(map, body, room_W, from_W, place_W);
+  [[nodiscard]] Viewpoint at(const Vec3& place_W, double apart_m = 0.25) const {
+    return second_look(map, body, room_W, {place_W, from_W}, apart_m).value_or(Viewpoint{});
   }
   kit::GridMap map{{{0, 0, 0}, {10, 10, 3}}, 0.1};
 };
@@ -39,11 +39,13 @@ TEST_F(SecondLook, takes_the_next_side_where_one_is_blocked) {
   EXPECT_NEAR((at({5, 5, 1}).p_W - Vec3(2.25, 5, 1)).norm(), 0.0, 1e-9);
 }
 
-TEST_F(SecondLook, turns_where_it_is_when_there_is_no_way) {
+TEST_F(SecondLook, goes_as_far_as_another_sighting_must_be_away) {
+  EXPECT_NEAR((at({8, 5, 0.3}, 1.5).p_W - Vec3(5, 5, 1)).norm(), 0.0, 1e-9);
+}
+
+TEST_F(SecondLook, is_none_where_there_is_no_way) {
   const Aabb nowhere_W{from_W, from_W};
-  const Viewpoint view = second_look(map, body, nowhere_W, from_W, {3, 9, 1});
-  EXPECT_EQ(view.p_W, from_W);
-  EXPECT_NEAR(view.yaw_rad, 1.5707963267948966, 1e-9);
+  EXPECT_FALSE(second_look(map, body, nowhere_W, {{3, 9, 1}, from_W}, 0.25));
 }
 
 }  // namespace

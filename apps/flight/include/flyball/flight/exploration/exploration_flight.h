@@ -61,7 +61,7 @@ class ExplorationFlight {
   /// Somebody may stand behind where the camera looked: flies to all views once more, turned away
   /// from how it had them. False when that has been done, or no view was had.
   [[nodiscard]] bool look_again();
-  /// The mission is done with exploring: flies home and lands.
+  /// The mission is done with exploring: flies home and lands, unless it does already.
   void go_home(JobContext& job);
 
   [[nodiscard]] const PerceptionTopics& perception() const { return perception_; }
@@ -80,6 +80,7 @@ class ExplorationFlight {
   void watch_flight(JobContext& job);
   void watch_turn(JobContext& job);
   void give_up_view(JobContext& job);
+  void cross_off_view();
   void land(JobContext& job);
 
   void add_explore(Graph& graph);

@@ -4,22 +4,26 @@
 /// @file
 /// From where to look once more at a place where somebody was seen.
 
+#include "flyball/flight/people/person_finding.h"
 #include "flyball/kernels/explorer.h"
 #include "flyball/runtime/occupancy.h"
 
+#include <optional>
+
 namespace flyball {
 
-/// A view of `place_W` from .75 m beside `from_W`, at the same height: towards the place if it is
-/// far enough, or else left, right or away from it, whichever is free first. Where nothing is free,
-/// it is from `from_W` itself.
+/// A view of where somebody may be, from so far beside where they were seen from that it counts as
+/// another sighting, at the same height: towards the place if it is far enough, or else left, right
+/// or away from it, whichever is free first. Empty where nothing is free.
 ///
-/// @param from_W    Where somebody was seen from. A slow detector says so when the vehicle is past.
 /// @param body      Of the vehicle, with its tube at a crawl.
 /// @param bounds_W  That it may fly in.
-[[nodiscard]] Viewpoint second_look(const OccupancyView& map,
-                                    const Cylinder& body,
-                                    const Aabb& bounds_W,
-                                    const Vec3& from_W,
-                                    const Vec3& place_W);
+/// @param doubt     A slow detector says so when the vehicle is past `from_W`.
+/// @param apart_m   `SearchSettings::apart_m`.
+[[nodiscard]] std::optional<Viewpoint> second_look(const OccupancyView& map,
+                                                   const Cylinder& body,
+                                                   const Aabb& bounds_W,
+                                                   const Doubt& doubt,
+                                                   double apart_m);
 
 }  // namespace flyball
