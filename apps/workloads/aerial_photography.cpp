@@ -10,11 +10,13 @@
 #include "flyball/flight/people/target_follower.h"
 #include "flyball/flight/people/target_nodes.h"
 #include "flyball/flight/people/tracked_time.h"
+#include "flyball/flight/perception/camera_rate.h"
 #include "flyball/flight/perception/localization_nodes.h"
 #include "flyball/flight/perception/pose_history.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -32,11 +34,24 @@ class AerialPhotography final : public Workload {
 
   void adapt(Brief& brief) const override { brief.maps_obstacles = false; }
 
+  [[nodiscard]] Status check(const FlightSettings& settings, const Site&) const override {
+    const PhotographySettings& wanted = settings.photography;
+    if (wanted.limit_s >= wanted.success_s) {
+      return Done{};
+    }
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "photography.limit_s = %g s would end the mission before photography.success_s = "
+                  "%g s; make it that long at least",
+                  wanted.limit_s, wanted.success_s);
+    return Error{ErrorCode::invalid_input, text};
+  }
+
   void build(Graph& graph, const FlightParts& parts) override {
     brief_ = parts.brief;
     vehicle_ = parts.vehicle;
     mission_ = parts.mission;
-    localization_ = add_localization(graph, parts);
+    localization_ = add_localization(graph, with_camera_rate(graph, parts));
     target_ = add_target(graph, parts, localization_);
     tracked_topic_ = graph.topic<TrackedTime>("tracked_time");
     add_control(graph);

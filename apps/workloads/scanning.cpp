@@ -13,6 +13,7 @@
 #include "flyball/flight/flight_parts.h"
 #include "flyball/flight/legs.h"
 #include "flyball/flight/navigation/navigation_nodes.h"
+#include "flyball/flight/perception/camera_rate.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
 
@@ -73,7 +74,7 @@ class Scanning final : public Workload {
     legs_.emplace(parts.vehicle, parts.mission);
     area_W_ = scanned_area_W(brief_->site, brief_->settings.scan);
     declared_ = declared_space(*parts.kernels.mapper);
-    const LocalizationTopics localization = add_localization(graph, parts);
+    const LocalizationTopics localization = add_localization(graph, with_camera_rate(graph, parts));
     pose_ = localization.pose;
     picture_ = graph.topic<GroundPicture>("picture", 16);
     lanes_ = graph.topic<Lanes>("lanes");

@@ -44,5 +44,16 @@ TEST(Photography, loses_nobody_it_never_found) {
   EXPECT_EQ(record->summary.quality.at("tracked_s"), 0.0);
 }
 
+TEST(Photography, is_refused_where_it_would_end_before_it_can_succeed) {
+  Scenario scenario;
+  scenario.mission.workload = "aerial_photography";
+  scenario.photography.limit_s = 30.0;
+  const auto record = fly(scenario, {});
+  ASSERT_FALSE(record.ok());
+  EXPECT_EQ(record.error().message,
+            "photography.limit_s = 30 s would end the mission before photography.success_s = 60 s; "
+            "make it that long at least");
+}
+
 }  // namespace
 }  // namespace flyball
