@@ -2,6 +2,8 @@
 //
 // From silence to an autopilot that sends what is needed and stands at the start.
 
+#include "flyball/runtime/text/listed.h"
+
 #include "vehicles/offboard_control.h"
 #include <algorithm>
 #include <cstdio>
@@ -34,29 +36,60 @@ constexpr std::array<WantedMessage, 4> wanted_messages{{
     {MavSystemStatus::kind.id, 200e3F, "to send SYS_STATUS", "power is estimated"},
 }};
 
-/// A parameter of ArduPilot that decides whether it flies what it is told.
-struct WantedLimit {
+/// What some versions of ArduPilot call a parameter.
+struct LimitName {
   const char* name;
   const char* unit;
+  double per_si{1.0};  ///< How many of these units are one of SI.
+};
+
+/// A parameter of ArduPilot that decides whether it flies what it is told, in units of SI.
+struct WantedLimit {
+  std::vector<LimitName> names;
   double least;
   double most;
   const char* otherwise;  ///< What happens beyond it.
-  bool is_needed{};       ///< Nobody should fly beyond it.
+  bool is_needed{};       ///< Nobody should fly beyond it, nor without knowing it.
 };
 
-using WantedLimits = std::array<WantedLimit, 3>;
-
-WantedLimits wanted_limits(const FlightStart& start) {
+/// Copter 4.7.0 renamed two (ardupilot 31513, 32147), and 4.7.1 one of them again (33843).
+std::vector<WantedLimit> wanted_limits(const FlightStart& start) {
   constexpr double any = std::numeric_limits<double>::infinity();
   constexpr double longest_s = 0.5;  // As long as a set-point counts here.
   constexpr double least_m_s3 = 20.0;
-  const double least_cm_s2 = 100.0 * start.max_acceleration_m_s2;
-  return {{{"GUID_TIMEOUT", "s", 0.0, longest_s,
-            "so long the vehicle flies on when Flyball falls silent"},
-           {"WPNAV_ACCEL", "cm/s^2", least_cm_s2, any,
-            "it brakes by no more, and the flight by up to mission.max_acceleration_m_s2", true},
-           {"PSC_JERK_XY", "m/s^3", least_m_s3, any,
-            "it begins to brake so slowly that it flies past where it is to stop"}}};
+  return {{{{"GUID_TIMEOUT", "s"}},
+           0.0,
+           longest_s,
+           "so long the vehicle flies on when Flyball falls silent"},
+          {{{"WPNAV_ACCEL", "cm/s^2", 100.0}, {"WP_ACC", "m/s^2"}},
+           start.max_acceleration_m_s2,
+           any,
+           "it brakes by no more, and the flight by up to mission.max_acceleration_m_s2",
+           true},
+          {{{"PSC_JERK_XY", "m/s^3"}, {"PSC_JERK_NE", "m/s^3"}, {"PSC_NE_JERK", "m/s^3"}},
+           least_m_s3,
+           any,
+           "it begins to brake so slowly that it flies past where it is to stop"}};
+}
+
+std::string unsaid(const WantedLimit& limit) {
+  return "the autopilot says none of " +
+         listed(limit.names, [](const LimitName& one) { return std::string{one.name}; });
+}
+
+/// What is wrong with this value, as one sentence; empty where nothing is.
+std::string beyond(const WantedLimit& limit, const LimitName& called, double value) {
+  // A parameter is a `float`, and a person sets it to the six digits that he read here.
+  constexpr double rounding = 1e-5;
+  const double least = called.per_si * limit.least;
+  const double most = called.per_si * limit.most;
+  if (value >= least * (1.0 - rounding) && value <= most * (1.0 + rounding)) {
+    return "";
+  }
+  std::array<char, 240> text{};
+  std::snprintf(text.data(), text.size(), "%s is %g %s: %s; set it to %g", called.name, value,
+                called.unit, limit.otherwise, value > most ? most : least);
+  return text.data();
 }
 
 }  // namespace
@@ -117,26 +150,33 @@ void OffboardControl::request(Duration now) {
   ask(interval, wanted.what, now);
 }
 
-/// Parameters have a protocol of their own, without refusals.
+/// Parameters have a protocol of their own, without refusals: a name that the autopilot does not
+/// know is not answered, so that all are asked for at once.
 void OffboardControl::ask_limit(Duration now) {
   if (now < next_limit_try_) {
     return;
   }
   const WantedLimit wanted = wanted_limits(start_).at(limit_);
+  if (limit_tries_ == most_limit_tries && wanted.is_needed) {
+    fail(unsaid(wanted) + ", and is not flown: " + wanted.otherwise +
+         "; fly Copter 4.1 to 4.7, over a line that carries parameters");
+    return;
+  }
   if (limit_tries_ == most_limit_tries) {
-    telemetry_.tell(std::string{"the autopilot does not say its "} + wanted.name +
-                    "; set beyond its limit, " + wanted.otherwise);
+    telemetry_.tell(unsaid(wanted) + "; set beyond its limit, " + wanted.otherwise);
     next_limit(now);
     return;
   }
   ++limit_tries_;
   next_limit_try_ = now + limit_answer_within;
-  MavParamRequestRead request;
-  request.target_system = telemetry_.system();
-  request.target_component = mav::component_autopilot;
-  const std::string name = wanted.name;
-  std::copy(name.begin(), name.end(), request.name.begin());
-  send(request);
+  for (const LimitName& one : wanted.names) {
+    MavParamRequestRead request;
+    request.target_system = telemetry_.system();
+    request.target_component = mav::component_autopilot;
+    const std::string name = one.name;
+    std::copy(name.begin(), name.end(), request.name.begin());
+    send(request);
+  }
 }
 
 void OffboardControl::hear_limit(const MavParamValue& value, Duration now) {
@@ -144,19 +184,19 @@ void OffboardControl::hear_limit(const MavParamValue& value, Duration now) {
     return;
   }
   const WantedLimit wanted = wanted_limits(start_).at(limit_);
-  if (mavlink_text(value.name) != wanted.name) {
+  const auto called =
+      std::find_if(wanted.names.begin(), wanted.names.end(),
+                   [&value](const LimitName& one) { return mavlink_text(value.name) == one.name; });
+  if (called == wanted.names.end()) {
     return;
   }
-  const double is = value.value;
-  if (is < wanted.least || is > wanted.most) {
-    std::array<char, 240> text{};
-    std::snprintf(text.data(), text.size(), "%s is %.1f %s: %s; set it to %.1f", wanted.name, is,
-                  wanted.unit, wanted.otherwise, is > wanted.most ? wanted.most : wanted.least);
-    if (wanted.is_needed) {
-      fail(text.data());
-      return;
-    }
-    telemetry_.tell(text.data());
+  const std::string wrong = beyond(wanted, *called, static_cast<double>(value.value));
+  if (!wrong.empty() && wanted.is_needed) {
+    fail(wrong);
+    return;
+  }
+  if (!wrong.empty()) {
+    telemetry_.tell(wrong);
   }
   next_limit(now);
 }
@@ -164,7 +204,7 @@ void OffboardControl::hear_limit(const MavParamValue& value, Duration now) {
 void OffboardControl::next_limit(Duration now) {
   limit_tries_ = 0;
   next_limit_try_ = now;
-  if (++limit_ == WantedLimits{}.size()) {
+  if (++limit_ == wanted_limits(start_).size()) {
     enter(Leg::locating, now);
   }
 }

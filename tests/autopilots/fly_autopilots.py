@@ -140,8 +140,10 @@ class ArduCopter(Autopilot):
 
     def __init__(self, program, folder):
         super().__init__(folder)
-        # As apps/vehicles/README.md wants them; what Flyball warns of otherwise.
-        (folder / "flyball.parm").write_text("GUID_TIMEOUT 0.5\nWPNAV_ACCEL 300\nPSC_JERK_XY 20\n")
+        # As apps/vehicles/README.md wants them, by the names before and after 4.7: ArduPilot skips those
+        # that it does not know.
+        (folder / "flyball.parm").write_text("GUID_TIMEOUT 0.5\nWPNAV_ACCEL 300\nWP_ACC 3\nPSC_JERK_XY 20\n"
+                                             "PSC_JERK_NE 20\nPSC_NE_JERK 20\n")
         defaults = program.parents[3] / "Tools/autotest/default_params/copter.parm"
         self.start([program, "--model", "quad", "--wipe", "--defaults",
                     f"{defaults},{folder}/flyball.parm", "--serial0", "udpclient:127.0.0.1:14540"])

@@ -62,7 +62,8 @@ function checkSent(packet, data) {
     assert(asked.includes(data.command));
     assert.deepEqual([data.targetSystem, data.targetComponent], [1, 1]);
   } else if (data instanceof common.ParamRequestRead) {
-    assert(["GUID_TIMEOUT", "WPNAV_ACCEL", "PSC_JERK_XY"].includes(data.paramId));
+    assert(["GUID_TIMEOUT", "WPNAV_ACCEL", "WP_ACC", "PSC_JERK_XY", "PSC_JERK_NE", "PSC_NE_JERK"]
+      .includes(data.paramId));
     assert.equal(data.paramIndex, -1);
   } else {
     assert.equal(data.type, minimal.MavType.ONBOARD_CONTROLLER);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "autopilot/offboard_rig.h"
 #include "vehicles/offboard_control.h"
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -98,7 +99,7 @@ TEST(OffboardConnection, warns_of_an_ardupilot_that_believes_old_set_points) {
   rules.guided_timeout_s = 3.0F;
   kit::OffboardRig rig{rules};
   ASSERT_TRUE(rig.connect());
-  EXPECT_NE(rig.news.find("GUID_TIMEOUT is 3.0 s"), std::string::npos) << rig.news;
+  EXPECT_NE(rig.news.find("GUID_TIMEOUT is 3 s"), std::string::npos) << rig.news;
 }
 
 TEST(OffboardConnection, does_not_fly_an_ardupilot_that_brakes_less_than_the_flight) {
@@ -107,8 +108,8 @@ TEST(OffboardConnection, does_not_fly_an_ardupilot_that_brakes_less_than_the_fli
   kit::OffboardRig rig{rules};
   EXPECT_FALSE(rig.connect());
   EXPECT_EQ(rig.control.failure(),
-            "WPNAV_ACCEL is 250.0 cm/s^2: it brakes by no more, and the flight by up to "
-            "mission.max_acceleration_m_s2; set it to 300.0");
+            "WPNAV_ACCEL is 250 cm/s^2: it brakes by no more, and the flight by up to "
+            "mission.max_acceleration_m_s2; set it to 300");
 }
 
 TEST(OffboardConnection, warns_of_an_ardupilot_that_begins_to_brake_slowly) {
@@ -117,16 +118,73 @@ TEST(OffboardConnection, warns_of_an_ardupilot_that_begins_to_brake_slowly) {
   kit::OffboardRig rig{rules};
   ASSERT_TRUE(rig.connect());
   EXPECT_EQ(rig.news,
-            "PSC_JERK_XY is 5.0 m/s^3: it begins to brake so slowly that it flies past where it is "
-            "to stop; set it to 20.0\n");
+            "PSC_JERK_XY is 5 m/s^3: it begins to brake so slowly that it flies past where it is "
+            "to stop; set it to 20\n");
 }
 
-TEST(OffboardConnection, flies_an_ardupilot_that_has_no_such_parameter) {
+/// Copter 4.7 has other names, and metres where centimetres were.
+kit::StandInRules rules_of_4_7(float acceleration_m_s2, const char* jerk_name, float jerk_m_s3) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
+  rules.parameters = {{"WP_ACC", acceleration_m_s2}, {jerk_name, jerk_m_s3}};
+  return rules;
+}
+
+TEST(OffboardConnection, flies_an_ardupilot_with_the_names_and_units_of_4_7) {
+  for (const char* jerk_name : {"PSC_JERK_NE", "PSC_NE_JERK"}) {
+    kit::OffboardRig rig{rules_of_4_7(3.0F, jerk_name, 20.0F)};
+    ASSERT_TRUE(rig.connect()) << rig.control.failure();
+    EXPECT_EQ(rig.news, "");
+  }
+}
+
+TEST(OffboardConnection, does_not_fly_an_ardupilot_4_7_that_brakes_less_than_the_flight) {
+  kit::OffboardRig rig{rules_of_4_7(2.5F, "PSC_JERK_NE", 20.0F)};
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(),
+            "WP_ACC is 2.5 m/s^2: it brakes by no more, and the flight by up to "
+            "mission.max_acceleration_m_s2; set it to 3");
+}
+
+TEST(OffboardConnection, warns_of_an_ardupilot_4_7_that_begins_to_brake_slowly) {
+  for (const std::string jerk_name : {"PSC_JERK_NE", "PSC_NE_JERK"}) {
+    kit::OffboardRig rig{rules_of_4_7(3.0F, jerk_name.c_str(), 5.0F)};
+    ASSERT_TRUE(rig.connect()) << rig.control.failure();
+    EXPECT_EQ(rig.news, jerk_name +
+                            " is 5 m/s^3: it begins to brake so slowly that it flies past where "
+                            "it is to stop; set it to 20\n");
+  }
+}
+
+TEST(OffboardConnection, flies_an_ardupilot_whose_limit_was_set_as_the_sentence_says) {
+  for (const double acceleration_m_s2 : {2.7182818, 3.1}) {  // No `float` is any of them.
+    kit::OffboardRig refused{rules_of_4_7(2.5F, "PSC_NE_JERK", 20.0F), acceleration_m_s2};
+    ASSERT_FALSE(refused.connect());
+    const std::string& why = refused.control.failure();
+    const float said = std::stof(why.substr(why.rfind(' ')));
+    kit::OffboardRig flown{rules_of_4_7(said, "PSC_NE_JERK", 20.0F), acceleration_m_s2};
+    EXPECT_TRUE(flown.connect()) << flown.control.failure();
+  }
+}
+
+TEST(OffboardConnection, does_not_fly_an_ardupilot_that_does_not_say_how_it_brakes) {
   kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
   rules.parameters.erase("WPNAV_ACCEL");
   kit::OffboardRig rig{rules};
-  ASSERT_TRUE(rig.connect());
-  EXPECT_NE(rig.news.find("does not say its WPNAV_ACCEL"), std::string::npos) << rig.news;
+  EXPECT_FALSE(rig.connect());
+  EXPECT_EQ(rig.control.failure(),
+            "the autopilot says none of WPNAV_ACCEL, WP_ACC, and is not flown: it brakes by no "
+            "more, and the flight by up to mission.max_acceleration_m_s2; fly Copter 4.1 to 4.7, "
+            "over a line that carries parameters");
+}
+
+TEST(OffboardConnection, flies_an_ardupilot_without_a_parameter_that_it_can_do_without) {
+  kit::StandInRules rules = kit::safe_rules(AutopilotKind::ardupilot);
+  rules.parameters.erase("PSC_JERK_XY");
+  kit::OffboardRig rig{rules};
+  ASSERT_TRUE(rig.connect()) << rig.control.failure();
+  EXPECT_EQ(rig.news,
+            "the autopilot says none of PSC_JERK_XY, PSC_JERK_NE, PSC_NE_JERK; set beyond its "
+            "limit, it begins to brake so slowly that it flies past where it is to stop\n");
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ inline StandInRules safe_rules(AutopilotKind kind) {
 }
 
 struct OffboardRig {
-  explicit OffboardRig(const StandInRules& rules = {})
-      : autopilot{rules, shipped_airframe()},
+  explicit OffboardRig(const StandInRules& rules = {}, double acceleration_m_s2 = 3.0)
+      : max_acceleration_m_s2{acceleration_m_s2},
+        autopilot{rules, shipped_airframe()},
         control{{start_W, ground_z_m, max_acceleration_m_s2}} {}
 
   /// Turns of 10 ms until `done`, or for so long. Returns whether `done`.
@@ -81,7 +82,7 @@ struct OffboardRig {
     each_turn = {};
   }
 
-  const double max_acceleration_m_s2{3.0};
+  const double max_acceleration_m_s2;
   const Vec3 start_W{100.0, 50.0, -2.9};
   const double ground_z_m{-3.0};
   StandInAutopilot autopilot;
