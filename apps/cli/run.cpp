@@ -221,12 +221,9 @@ Status keep_outputs_apart(const RunOptions& options, const std::string& folder) 
 
 /// Of all that the flight reads and writes.
 Status check_places(const RunOptions& options, const std::string& folder) {
-  for (const Status& kept : {keep_inputs(options, folder), keep_outputs_apart(options, folder)}) {
-    if (!kept) {
-      return kept;
-    }
-  }
-  return options.timeline.empty() ? Done{} : check_place(options.timeline);
+  Status kept = keep_inputs(options, folder);
+  kept = kept ? keep_outputs_apart(options, folder) : kept;
+  return !kept || options.timeline.empty() ? kept : check_place(options.timeline);
 }
 
 /// Ends the record, and says in the summary what is in it.
@@ -336,13 +333,14 @@ int run(const RunOptions& options) {
   if (!autopilot) {
     return refuse({autopilot.error()});
   }
-  auto depth_camera = open_depth_camera(options.depth_camera, scenario.camera);
-  if (!depth_camera) {
-    return refuse({depth_camera.error()});
-  }
   auto computer = RealComputer::open(options.executor, *platform);
   if (!computer) {
     return refuse({computer.error()});
+  }
+  auto depth_camera = open_depth_camera(options.depth_camera, scenario.camera);  // With a thread.
+  if (!depth_camera) {
+    (*computer)->close();
+    return refuse({depth_camera.error()});
   }
   if (!told.empty()) {
     remark(told);

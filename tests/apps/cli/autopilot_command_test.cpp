@@ -177,6 +177,15 @@ TEST(AutopilotCommand, refuses_a_depth_camera_that_cannot_be) {
   EXPECT_TRUE(flyball.place.is_empty());
 }
 
+/// Its thread may not be there yet when the process is forked that restores the computer's clocks.
+TEST(AutopilotCommand, opens_the_depth_camera_after_the_computer) {
+  const FlyballProgram flyball;
+  const auto refused = flyball.run(
+      "run delivery_forest --executor virtual --set-clocks --depth-camera - < /dev/null");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("--set-clocks is of no use"), std::string::npos) << refused.errors;
+}
+
 TEST(AutopilotCommand, leaves_nothing_behind_when_it_is_interrupted_before_the_flight) {
   kit::StandInRules rules;
   rules.never_sends = MavLocalPosition::kind.id;
