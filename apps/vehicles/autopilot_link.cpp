@@ -49,7 +49,8 @@ void AutopilotLink::exchange(Duration now) {
   if (!worse && !is_broken_) {
     news_.push_back(worse.error().message);
   }
-  is_broken_ = !worse;
+  // Where there is nothing to send, sending succeeds over any line.
+  is_broken_ = !worse || (is_broken_ && output.empty());
 }
 
 /// A flight that hangs does not brake, and its vehicle would hover until the battery is empty,

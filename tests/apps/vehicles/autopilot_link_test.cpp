@@ -11,6 +11,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// A line over which nothing can be sent any more, while nothing says so to who listens.
+class CutLine final : public ByteStream {
+ public:
+  CutLine(kit::StandInAutopilot& autopilot, const bool& is_cut)
+      : line_{autopilot}, is_cut_{is_cut} {}
+  Status send(const std::vector<std::uint8_t>& bytes) override {
+    return is_cut_ ? Status{Error{ErrorCode::unavailable, "the line is cut"}} : line_.send(bytes);
+  }
+  Status receive(std::vector<std::uint8_t>& bytes) override { return line_.receive(bytes); }
+  Duration wait(Duration at_most) override { return line_.wait(at_most); }
+
+ private:
+  kit::MemoryStream line_;
+  const bool& is_cut_;
+};
+
 struct LinkedAutopilot {
   explicit LinkedAutopilot(const kit::StandInRules& rules = {})
       : autopilot{rules, kit::shipped_airframe()} {}
@@ -27,7 +43,8 @@ struct LinkedAutopilot {
 
   kit::StandInAutopilot autopilot;
   std::string told{};
-  AutopilotLink link{std::make_unique<kit::MemoryStream>(autopilot),
+  bool is_cut{};
+  AutopilotLink link{std::make_unique<CutLine>(autopilot, is_cut),
                      [this](const std::string& sentence) { told += sentence + "\n"; }};
   MissionTime now{};
 };
@@ -112,6 +129,20 @@ TEST(AutopilotLink, waits_for_nothing_when_the_vehicle_stands_or_somebody_took_o
   one.link.await_landing({});
   EXPECT_EQ(one.autopilot.commands().size(), asked);
   EXPECT_NE(one.told.find("somebody took over"), std::string::npos) << one.told;
+}
+
+TEST(AutopilotLink, says_once_that_its_line_is_gone_until_it_is_back) {
+  LinkedAutopilot one;
+  ASSERT_TRUE(one.connect());
+  const std::string connected = one.told;
+  one.is_cut = true;
+  one.fly(5s);
+  EXPECT_EQ(one.told, connected + "the line is cut\n");
+  one.is_cut = false;
+  one.fly(2s);
+  one.is_cut = true;
+  one.fly(2s);
+  EXPECT_EQ(one.told, connected + "the line is cut\nthe line is cut\n");
 }
 
 TEST(AutopilotLink, gives_up_on_a_landing_that_is_always_denied) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/vehicles/byte_stream.h"
 
+#include "scratch_folder.h"
+#include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -157,14 +161,34 @@ TEST(ByteStream, says_that_a_port_is_taken) {
   EXPECT_NE(said.find("Address already in use"), std::string::npos) << said;
 }
 
+/// The far end of a serial line, as an autopilot has it.
+class FarEnd {
+ public:
+  FarEnd() {
+    EXPECT_EQ(::grantpt(number_), 0);
+    EXPECT_EQ(::unlockpt(number_), 0);
+    EXPECT_EQ(::ptsname_r(number_, device_.data(), device_.size()), 0);
+  }
+  ~FarEnd() { hang_up(); }
+  FarEnd(const FarEnd&) = delete;
+  FarEnd& operator=(const FarEnd&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] std::string device() const { return device_.data(); }
+  void hang_up() {
+    if (number_ >= 0) {
+      ::close(std::exchange(number_, -1));
+    }
+  }
+
+ private:
+  int number_{::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)};
+  std::array<char, 100> device_{};
+};
+
 TEST(ByteStream, carries_all_bytes_over_a_serial_line) {
-  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-  ASSERT_GE(master, 0);
-  ASSERT_EQ(::grantpt(master), 0);
-  ASSERT_EQ(::unlockpt(master), 0);
-  std::array<char, 100> name{};
-  ASSERT_EQ(::ptsname_r(master, name.data(), name.size()), 0);
-  auto stream = open_byte_stream(std::string{"serial:"} + name.data() + ":921600");
+  FarEnd autopilot;
+  auto stream = open_byte_stream("serial:" + autopilot.device() + ":921600");
   ASSERT_TRUE(stream) << stream.error().message;
   Bytes all;  // Also those that a terminal would take for commands.
   for (int byte = 0; byte < 256; ++byte) {
@@ -172,27 +196,54 @@ TEST(ByteStream, carries_all_bytes_over_a_serial_line) {
   }
   ASSERT_TRUE((*stream)->send(all));
   Bytes room(300);
-  EXPECT_EQ(::read(master, room.data(), room.size()), 256);
+  EXPECT_EQ(::read(autopilot.number(), room.data(), room.size()), 256);
   room.resize(256);
   EXPECT_EQ(room, all);
-  ASSERT_EQ(::write(master, all.data(), all.size()), 256);
-  (void)(*stream)->wait(1h);
   Bytes heard;
+  ASSERT_TRUE((*stream)->receive(heard));  // Nothing has come yet.
+  EXPECT_TRUE(heard.empty());
+  ASSERT_EQ(::write(autopilot.number(), all.data(), all.size()), 256);
+  (void)(*stream)->wait(1h);
   ASSERT_TRUE((*stream)->receive(heard));
   EXPECT_EQ(heard, all);
-  ::close(master);
-  heard.clear();
+  autopilot.hang_up();
   EXPECT_FALSE((*stream)->send({1}));  // Somebody pulled the plug.
 }
 
+TEST(ByteStream, says_that_a_serial_line_has_hung_up_and_finds_it_again) {
+  const ScratchFolder folder;
+  const std::string by_id =
+      folder.path("autopilot");  // A name that stays, as in /dev/serial/by-id.
+  FarEnd before;
+  std::filesystem::create_symlink(before.device(), by_id);
+  auto stream = open_byte_stream("serial:" + by_id + ":921600");
+  ASSERT_TRUE(stream) << stream.error().message;
+  before.hang_up();
+  std::filesystem::remove(by_id);
+  Bytes heard;
+  const Status gone = (*stream)->receive(heard);
+  ASSERT_FALSE(gone);
+  EXPECT_EQ(gone.error().code, ErrorCode::unavailable);
+  EXPECT_EQ(gone.error().message, by_id + " has hung up; is its cable loose?");
+  EXPECT_GE((*stream)->wait(5ms), 5ms);  // What never has anything to read is no reason to wake up.
+  EXPECT_FALSE((*stream)->send({1}));
+  EXPECT_FALSE((*stream)->receive(heard));
+  const FarEnd after;
+  std::filesystem::create_symlink(after.device(), by_id);
+  ASSERT_TRUE((*stream)->receive(heard));
+  ASSERT_TRUE((*stream)->send({2, 3}));
+  Bytes room(10);
+  ASSERT_EQ(::read(after.number(), room.data(), room.size()), 2);
+  EXPECT_EQ(room[0], 2);
+  ASSERT_EQ(::write(after.number(), room.data(), 2), 2);
+  (void)(*stream)->wait(1h);
+  ASSERT_TRUE((*stream)->receive(heard));
+  EXPECT_EQ(heard, (Bytes{2, 3}));
+}
+
 TEST(ByteStream, loses_new_messages_rather_than_half_of_one_when_a_line_is_full) {
-  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-  ASSERT_GE(master, 0);
-  ASSERT_EQ(::grantpt(master), 0);
-  ASSERT_EQ(::unlockpt(master), 0);
-  std::array<char, 100> name{};
-  ASSERT_EQ(::ptsname_r(master, name.data(), name.size()), 0);
-  auto stream = open_byte_stream(std::string{"serial:"} + name.data() + ":57600");
+  const FarEnd autopilot;
+  auto stream = open_byte_stream("serial:" + autopilot.device() + ":57600");
   ASSERT_TRUE(stream);
   const Bytes message{1, 2, 3, 4, 5, 6, 7};
   for (int i = 0; i < 20000; ++i) {
@@ -201,7 +252,7 @@ TEST(ByteStream, loses_new_messages_rather_than_half_of_one_when_a_line_is_full)
   Bytes all;
   Bytes room(4096);
   for (int i = 0; i < 1000; ++i) {
-    const auto got = ::read(master, room.data(), room.size());
+    const auto got = ::read(autopilot.number(), room.data(), room.size());
     if (got > 0) {
       all.insert(all.end(), room.begin(), room.begin() + got);
     }
@@ -212,7 +263,6 @@ TEST(ByteStream, loses_new_messages_rather_than_half_of_one_when_a_line_is_full)
   for (std::size_t i = 0; i < all.size(); ++i) {
     ASSERT_EQ(all[i], message[i % 7]);
   }
-  ::close(master);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class ByteStream {
   ByteStream& operator=(const ByteStream&) = delete;
 
   /// Sends whole messages; what there is no room for is lost.
-  /// @error `unavailable`: the line is gone. Later calls may find it again.
+  /// @error `unavailable`: the line is gone. Later calls of `receive` may find it again, as that of
+  ///        a serial device that is back under its name.
   virtual Status send(const std::vector<std::uint8_t>& bytes) = 0;
   /// Appends what has arrived to `bytes`.
   /// @error As `send`.
