@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "realtime/thread_setup.h"
 
+#include "flyball/runtime/realtime/cpus.h"
+
 #include "scratch_folder.h"
+#include <algorithm>
+#include <array>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <linux/capability.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -44,6 +55,35 @@ TEST(GrantableFifo, leaves_room_for_all_priorities_or_says_that_there_is_none) {
   EXPECT_LE(*high.from, 94);
   EXPECT_EQ(high.note.rfind("SCHED_FIFO begins at priority ", 0), 0U) << high.note;
   EXPECT_FALSE(grantable_fifo(50, 99).from) << "there are not so many";
+}
+
+/// As a user of whom `rtprio` alone says which priorities he may have: of the calling thread.
+void give_up_cap_sys_nice() {
+  __user_cap_header_struct of{_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> rights{};
+  ASSERT_EQ(syscall(SYS_capget, &of, rights.data()), 0);
+  rights[0].effective &= ~(1U << CAP_SYS_NICE);
+  ASSERT_EQ(syscall(SYS_capset, &of, rights.data()), 0);
+}
+
+TEST(ComeFirst, takes_the_highest_priority_that_the_user_may_have) {
+  constexpr rlim_t granted = 80;  // By the service's unit and by `flyball board setup`.
+  rlimit before{};
+  getrlimit(RLIMIT_RTPRIO, &before);
+  const rlimit limited{granted, std::max(granted, before.rlim_max)};
+  if (setrlimit(RLIMIT_RTPRIO, &limited) != 0) {
+    GTEST_SKIP() << "this user may have no real-time priorities";
+  }
+  int policy{};
+  sched_param got{};
+  std::thread{[&] {
+    give_up_cap_sys_nice();
+    come_first();
+    pthread_getschedparam(pthread_self(), &policy, &got);
+  }}.join();
+  setrlimit(RLIMIT_RTPRIO, &before);
+  EXPECT_EQ(policy, SCHED_FIFO);
+  EXPECT_EQ(got.sched_priority, static_cast<int>(granted));
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ namespace flyball {
 void step_back();
 
 /// The calling thread runs before all others of the process, and as soon as it wants to: for one
-/// that keeps a vehicle in the air and hardly computes. Where the system does not permit it
-/// (SCHED_FIFO, `CAP_SYS_NICE`), the thread runs on as it did.
+/// that keeps a vehicle in the air and hardly computes. It gets the highest priority of SCHED_FIFO
+/// that the system permits (`CAP_SYS_NICE`, or the user's rtprio limit); where that is none, the
+/// thread runs on as it did.
 void come_first();
 
 }  // namespace flyball
