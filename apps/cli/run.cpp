@@ -110,6 +110,7 @@ MissionHooks hooks_of(const Scenario& scenario, ServiceNotice& notice) {
     notice.step();
     return was_interrupted();
   };
+  hooks.over = [&notice] { notice.end(); };
   if (has_watcher()) {
     const std::string who = scenario.governor.policy + " seed " + std::to_string(scenario.seed);
     hooks.progress = [who](double mission_s, const std::string& what) {

@@ -93,6 +93,9 @@ void run(SimulatedFlight& flight, const MissionHooks& hooks) {
   while (queue.next() && *queue.next() <= queue.now()) {
     (void)queue.step();
   }
+  if (hooks.over) {
+    hooks.over();
+  }
   flight.loop->begin_landing();
   flight.executor->stop();
   flight.executor->run_last(flight.record_node);

@@ -73,6 +73,14 @@ void ServiceNotice::step() {
   }
 }
 
+void ServiceNotice::end() {
+  if (manager_ && manager_->interval.count() > 0) {
+    // A century: some versions of systemd do not take 0 for "no longer".
+    tell("WATCHDOG_USEC=3155760000000000");
+    next_ = std::chrono::steady_clock::time_point::max();
+  }
+}
+
 /// A manager that does not listen any more is not the flight's concern.
 void ServiceNotice::tell(const char* what) const {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as sendto wants it

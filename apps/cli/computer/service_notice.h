@@ -22,6 +22,10 @@ class ServiceNotice {
   /// The flight made a step. The first one is told as READY=1, and one is told as WATCHDOG=1 three
   /// times in the interval after which systemd takes the program for dead. Never waits.
   void step();
+  /// The flight is over. Its record may take longer to write than systemd waits for a step, and a
+  /// program that is killed for that would be started anew and would fly again: `WATCHDOG_USEC`
+  /// asks it to wait for as long as it takes. Nothing is told after that.
+  void end();
 
  private:
   struct Manager;

@@ -2,7 +2,9 @@
 #include "flyball/simulation/mission.h"
 
 #include "records/knob_history.h"
+#include "scratch_folder.h"
 #include "short_delivery.h"
+#include <filesystem>
 #include <string_view>
 
 #include <gtest/gtest.h>
@@ -47,6 +49,21 @@ TEST(Mission, is_interrupted_when_asked_to_stop) {
   const auto record = fly(kit::short_delivery(), hooks);
   ASSERT_TRUE(record.ok());
   EXPECT_EQ(record->summary.status, MissionStatus::interrupted);
+}
+
+TEST(Mission, says_once_that_it_is_over_before_its_map_is_written) {
+  const ScratchFolder folder;
+  int told = 0;
+  MissionHooks hooks;
+  hooks.final_map = folder.path("map.bt");
+  hooks.over = [&] {
+    ++told;
+    EXPECT_FALSE(std::filesystem::exists(hooks.final_map));
+  };
+  const auto record = fly(kit::short_delivery(), hooks);
+  ASSERT_TRUE(record.ok());
+  EXPECT_EQ(told, 1);
+  EXPECT_TRUE(std::filesystem::exists(hooks.final_map));
 }
 
 TEST(Mission, the_record_tells_how_the_knobs_stood_from_start_to_end) {

@@ -32,6 +32,9 @@ struct MissionHooks {
   std::function<void(double mission_s, const std::string& what)> progress{};
   /// Asked often; true ends the mission as `interrupted`.
   std::function<bool()> stop{};
+  /// Called once when the mission is over, before its jobs are stopped, the vehicle is landed and
+  /// the map is written: all of that may take long, and asks `stop` seldom.
+  std::function<void()> over{};
   std::string start_map{};  ///< An OctoMap file that is known at take-off; empty: nothing is.
   std::string final_map{};  ///< Where the map goes in the end, `.bt` or `.ot`; empty: nowhere.
   Timeline* timeline{};     ///< Is told of all jobs; null: nothing is.
