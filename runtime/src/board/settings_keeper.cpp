@@ -2,6 +2,7 @@
 #include "flyball/runtime/board/settings_keeper.h"
 
 #include "board/settings_journal.h"
+#include "board/sysfs_text.h"
 #include "board/watchdog.h"
 #include <algorithm>
 
@@ -53,6 +54,30 @@ bool has_lost_some(const LinuxSystem& system, std::vector<Pending>& pending) {
   return has;
 }
 
+bool is_file(const std::string& path, const std::string& name) {
+  return path.size() > name.size() &&
+         path.compare(path.size() - name.size(), name.size(), name) == 0;
+}
+
+/// Limits of a clock, and `scaling_setspeed`, show what is in force, which is less than what was
+/// written while heat or the firmware limits the clock too. The kernel keeps what was written and
+/// returns to it afterwards, so that there is nothing more to restore.
+bool is_limited_further(const LinuxSystem& system, const KeptSetting& kept) {
+  const std::string upper = "/scaling_max_freq";
+  const std::string lower = "/scaling_min_freq";
+  const auto now = clock_in(system, kept.path);
+  const auto before = clock_of(trimmed(kept.content));
+  if (!now || !before) {
+    return false;
+  }
+  if (is_file(kept.path, upper) || is_file(kept.path, "/scaling_setspeed")) {
+    return *now < *before;
+  }
+  const std::string folder = kept.path.substr(0, kept.path.rfind('/'));
+  // A lower limit follows an upper one that comes below it.
+  return is_file(kept.path, lower) && (*before < *now || clock_in(system, folder + upper) == now);
+}
+
 /// What a setting that could not be restored held, for whoever restores it by hand.
 Error not_restored(const Pending& one) {
   const std::string why = one.error.empty() ? one.kept->path + " does not take it" : one.error;
@@ -83,7 +108,8 @@ std::vector<Error> restore_settings(LinuxSystem& system, const std::vector<KeptS
   }
   std::vector<Error> errors;
   for (const Pending& one : pending) {
-    if (!one.is_written) {
+    const bool is_accepted = one.error.empty() && is_limited_further(system, *one.kept);
+    if (!one.is_written && !is_accepted) {
       errors.push_back(not_restored(one));
     }
   }
@@ -96,7 +122,8 @@ struct SettingsKeeper::State {
   LinuxSystem& system;
   SettingsJournal journal;
   std::optional<Watchdog> watchdog{};
-  std::vector<KeptSetting> kept{};
+  std::vector<KeptSetting> kept{};  ///< As the journal has it.
+  std::vector<KeptSetting> seen{};  ///< Not written so far: there is nothing to restore.
   bool is_closed{};
   pid_t owner{getpid()};
 
@@ -120,21 +147,35 @@ struct SettingsKeeper::State {
       return Error{ErrorCode::invalid_input,
                    path + " is no setting of a board: only files below " + board_settings + " are"};
     }
-    const bool is_kept = std::any_of(
-        kept.begin(), kept.end(), [&](const KeptSetting& setting) { return setting.path == path; });
-    if (is_kept) {
+    if (find_in(kept, path) != kept.end() || find_in(seen, path) != seen.end()) {
       return Done{};
     }
     const auto content = system.read(path);
     if (!content) {
       return content.error();
     }
-    KeptSetting setting{path, *content};
-    if (Status appended = journal.append(setting); !appended) {
+    seen.push_back({path, *content});
+    return Done{};
+  }
+
+  /// Before the first write to a file that has been kept.
+  Status enter_in_journal(const std::string& path) {
+    const auto setting = find_in(seen, path);
+    if (setting == seen.end()) {
+      return Done{};  // It is there.
+    }
+    if (Status appended = journal.append(*setting); !appended) {
       return appended;
     }
-    kept.push_back(std::move(setting));
+    kept.push_back(std::move(*setting));
+    seen.erase(setting);
     return Done{};
+  }
+
+  static std::vector<KeptSetting>::iterator find_in(std::vector<KeptSetting>& settings,
+                                                    const std::string& path) {
+    return std::find_if(settings.begin(), settings.end(),
+                        [&path](const KeptSetting& setting) { return setting.path == path; });
   }
 };
 
@@ -184,7 +225,11 @@ Status SettingsKeeper::write(const std::string& path, const std::string& text) {
       return Error{ErrorCode::failed, path + " is not written: " + watched.error().message};
     }
   }
-  if (Status kept = state_->keep(path); !kept) {
+  Status kept = state_->keep(path);
+  if (kept) {
+    kept = state_->enter_in_journal(path);
+  }
+  if (!kept) {
     return kept;
   }
   return state_->system.write(path, text);

@@ -105,6 +105,15 @@ TEST_F(ClockControlTest, moves_limits_of_others_out_of_the_way) {
   EXPECT_FALSE(control.is_as_set());
 }
 
+TEST_F(ClockControlTest, leaves_a_limit_that_heat_has_lowered_to_the_kernel) {
+  kernel_.cooled_khz = 1800000;
+  ClockControl& control = plant(fake::plant_pi5);
+  ASSERT_TRUE(control.set(Hertz{1600e6}).ok());
+  kernel_.cooled_khz = 0;
+  EXPECT_TRUE(keeper_->restore().empty());
+  EXPECT_EQ(tree_.get("/sys/devices/system/cpu/cpufreq/policy0/scaling_max_freq"), "2400000\n");
+}
+
 TEST_F(ClockControlTest, uses_the_limits_where_userspace_is_listed_but_refused) {
   ClockControl& control = plant(fake::plant_pi5);
   kernel_.refused["scaling_governor"] = EINVAL;

@@ -4,8 +4,8 @@
 /// @file
 /// Stands in for the kernel behind a copy of a board's files: refuses limits in the wrong order and
 /// clocks without `userspace`, cuts what is too high, and can be told to be read-only, to grant
-/// less, to lie, or to kill the process at a write. All state is in the files, so that a forked
-/// copy sees it too.
+/// less, to be hot, to lie, or to kill the process at a write. All state is in the files, so that a
+/// forked copy sees it too.
 
 #include "flyball/runtime/board/linux_system.h"
 #include "flyball/runtime/file_handle.h"
@@ -31,6 +31,7 @@ class Kernel final : public LinuxSystem {
   std::map<std::string, int> unreadable{};    ///< The same of reading.
   std::map<std::string, std::string> lies{};  ///< What files say whatever they hold.
   long long cap_khz{};                        ///< Clocks above are not granted; 0: all are.
+  long long cooled_khz{};                     ///< The limit that heat sets; 0: it is cool.
   std::set<int> staying_cores{};              ///< Take `0` and stay.
   int refused_affinity{};                     ///< errno; 0: every mask is taken.
   int die_before{};                           ///< The process's n-th write; 0: never.
@@ -53,7 +54,10 @@ class Kernel final : public LinuxSystem {
     if (is_gone(path)) {
       return system_error(path + " cannot be read", ENODEV);
     }
-    return files_->read(path);
+    const auto content = files_->read(path);
+    const bool is_clock = cooled_khz > 0 && content && path.find("/scaling_") != std::string::npos;
+    const bool is_cut = is_clock && integer_of(trimmed(*content)).value_or(0) > cooled_khz;
+    return is_cut ? std::to_string(cooled_khz) + "\n" : content;  // What was written is not shown.
   }
 
   Status write(const std::string& path, const std::string& text) override {

@@ -191,6 +191,38 @@ TEST_F(SettingsKeeperTest, restores_limits_whose_order_matters) {
   EXPECT_EQ(tree_.get(policy0 + "scaling_max_freq"), "2400000\n");
 }
 
+TEST_F(SettingsKeeperTest, restores_limits_while_heat_shows_lower_ones) {
+  tree_.put(policy0 + "scaling_min_freq", "2000000\n");
+  auto keeper = SettingsKeeper::open(kernel_, options());
+  ASSERT_TRUE((*keeper)->write(policy0 + "scaling_min_freq", "1600000").ok());
+  ASSERT_TRUE((*keeper)->write(policy0 + "scaling_max_freq", "1600000").ok());
+  kernel_.cooled_khz = 1800000;
+  for (const Error& error : (*keeper)->restore()) {
+    ADD_FAILURE() << error.message;
+  }
+  EXPECT_EQ(tree_.get(policy0 + "scaling_min_freq"), "2000000\n");
+  EXPECT_EQ(tree_.get(policy0 + "scaling_max_freq"), "2400000\n");
+  EXPECT_TRUE(SettingsKeeper::open(kernel_, options()).ok());
+}
+
+TEST_F(SettingsKeeperTest, says_which_limit_is_wider_than_it_was) {
+  auto keeper = SettingsKeeper::open(kernel_, options());
+  ASSERT_TRUE((*keeper)->write(policy0 + "scaling_max_freq", "1600000").ok());
+  kernel_.lies["scaling_max_freq"] = "2500000\n";
+  const std::vector<Error> errors = (*keeper)->restore();
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].message, "not restored: " + policy0 +
+                                   "scaling_max_freq does not take it; it held 8 bytes: 2400000");
+}
+
+TEST_F(SettingsKeeperTest, restores_only_what_it_has_written) {
+  auto keeper = SettingsKeeper::open(kernel_, options());
+  ASSERT_TRUE((*keeper)->keep(policy0 + "scaling_max_freq").ok());
+  tree_.put(policy0 + "scaling_max_freq", "1600000\n");
+  EXPECT_TRUE((*keeper)->restore().empty());
+  EXPECT_TRUE(kernel_.writes.empty());
+}
+
 TEST_F(SettingsKeeperTest, writes_nothing_that_it_could_not_restore) {
   auto keeper = SettingsKeeper::open(kernel_, options());
   kernel_.unreadable["scaling_governor"] = EACCES;

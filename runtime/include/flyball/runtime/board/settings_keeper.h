@@ -45,12 +45,13 @@ class SettingsKeeper {
   ~SettingsKeeper();
 
   /// Keeps what a file holds, once. Whoever changes several files that depend on each other keeps
-  /// all of them first: `scaling_setspeed` has another text under another governor.
-  /// @error As `LinuxSystem::read`; `invalid_input`: it is no file of a core; `failed`: the journal
-  ///        cannot be written.
+  /// all of them first: `scaling_setspeed` has another text under another governor. A file that is
+  /// not written afterwards is not restored either: a limit of the clock that is read while the
+  /// board is hot is lower than the one that was set, and must not stay so.
+  /// @error As `LinuxSystem::read`; `invalid_input`: it is no file of a core.
   Status keep(const std::string& path);
 
-  /// Keeps what the file holds where that has not been done, then writes.
+  /// Keeps what the file holds where that has not been done, enters it in the journal and writes.
   /// @error Those of `LinuxSystem::write`; `failed`: the old content could not be kept, and then
   ///        nothing is written.
   /// @cost  As `LinuxSystem::write`; the first time one read and one append to the journal more.
@@ -58,11 +59,12 @@ class SettingsKeeper {
 
   /// Restores everything, last change first, and goes on after errors: files that refuse are tried
   /// again as long as others succeed, because the kernel wants some of them in an order. Then each
-  /// is read back. Afterwards nothing may be written.
+  /// is read back; a clock that reads lower than what the kernel has taken, because heat limits it,
+  /// is restored. Afterwards nothing may be written.
   /// @return One error for each file that does not hold what it held; the journal then stays.
   std::vector<Error> restore();
 
-  /// What has been kept, in the order of the first writes.
+  /// What is restored in the end, in the order of the first writes.
   [[nodiscard]] const std::vector<KeptSetting>& kept() const;
   /// Of the process that restores.
   [[nodiscard]] pid_t watchdog() const;
