@@ -19,6 +19,8 @@ ClockControl::ClockControl(LinuxSystem& system,
       is_by_hand_{policy_.has_set_speed()} {}
 
 Status ClockControl::set(Hertz wanted) {
+  was_asked_ = true;
+  set_limits_.reset();
   Hertz clock = clocks_.empty() ? wanted : clocks_.front();
   for (const Hertz step : clocks_) {
     clock = wanted < step ? clock : step;
@@ -136,12 +138,12 @@ std::optional<Hertz> ClockControl::reported() const {
 
 bool ClockControl::is_as_set() const {
   const auto now = limits();
-  if (!set_limits_ || !now) {
+  if (!was_asked_ || !now) {
     return true;
   }
   const bool is_governed =
       !is_by_hand_ || text_in(system_, file("scaling_governor")) == "userspace";
-  return is_governed && *now == *set_limits_;
+  return is_governed && now == set_limits_;
 }
 
 std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board) {
@@ -165,6 +167,17 @@ std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board
     }
   }
   return clocks.empty() ? std::vector{policy.max} : clocks;
+}
+
+void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept) {
+  for (const KeptSetting& setting : kept) {
+    const auto clock = clock_of(trimmed(setting.content));
+    if (clock && setting.path == policy.folder + "/scaling_min_freq") {
+      policy.min = *clock;
+    } else if (clock && setting.path == policy.folder + "/scaling_max_freq") {
+      policy.max = *clock;
+    }
+  }
 }
 
 }  // namespace flyball

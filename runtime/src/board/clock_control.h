@@ -33,8 +33,10 @@ class ClockControl {
   [[nodiscard]] Hertz requested() const { return requested_; }
   /// What the driver says (`scaling_cur_freq`); empty: nothing, or all cores are off-line.
   [[nodiscard]] std::optional<Hertz> reported() const;
-  /// Whether the files still hold what `set` left there; true before, and while all cores are
-  /// off-line.
+  /// Whether the last `set` came to its end, so that what it left can be compared.
+  [[nodiscard]] bool is_set() const { return set_limits_.has_value(); }
+  /// Whether the files still hold what `set` left there; false where it has not come to its end.
+  /// True before the first `set`, and while all cores are off-line, when there is nothing to set.
   [[nodiscard]] bool is_as_set() const;
   [[nodiscard]] const CpufreqPolicy& policy() const { return policy_; }
 
@@ -60,6 +62,7 @@ class ClockControl {
   std::vector<Hertz> clocks_;
   bool is_by_hand_;  ///< By `scaling_setspeed`.
   bool is_kept_{};
+  bool was_asked_{};
   Hertz requested_{};
   std::optional<Limits> set_limits_{};
 };
@@ -68,5 +71,8 @@ class ClockControl {
 /// `board.clock_step`. Not above the limit that was found, which is the power mode's (nvpmodel),
 /// and not below what the firmware keeps.
 [[nodiscard]] std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board);
+
+/// Gives the policy the limits from before an adopted session changed them.
+void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept);
 
 }  // namespace flyball

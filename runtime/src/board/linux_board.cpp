@@ -38,18 +38,6 @@ double process_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The limits before an adopted session changed them.
-void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept) {
-  for (const KeptSetting& setting : kept) {
-    const auto clock = clock_of(trimmed(setting.content));
-    if (clock && setting.path == policy.folder + "/scaling_min_freq") {
-      policy.min = *clock;
-    } else if (clock && setting.path == policy.folder + "/scaling_max_freq") {
-      policy.max = *clock;
-    }
-  }
-}
-
 Duration switching_time_of(const LinuxSystem& system, const std::vector<CpufreqPolicy>& policies) {
   constexpr long long unknown_ns = 4294967295;  // CPUFREQ_ETERNAL
   if (policies.empty()) {
@@ -93,8 +81,7 @@ struct LinuxBoard::State {
   double busy_cores{};  ///< Of this process, between the last two refreshes.
   int wanted_cores{cores.max_cores()};
   bool may_set_clock{true};
-  bool has_set_clock{};    ///< Once at least.
-  bool last_set_failed{};  ///< In part, or as a whole.
+  bool has_set_clock{};  ///< Once at least.
   std::string power_source{};
   std::vector<std::string> notes{};
   std::set<std::string> noted{};
@@ -172,16 +159,14 @@ void LinuxBoard::State::note_meters() {
 }
 
 void LinuxBoard::State::set_clock(Hertz wanted) {
+  const bool is_new = wanted != clock.requested;
   clock.requested = wanted;
-  clock.measured.reset();
-  last_set_failed = false;
   for (ClockControl& control : controls) {
     const Status set = control.set(wanted);
     if (set) {
       has_set_clock = true;
       continue;
     }
-    last_set_failed = true;
     const ErrorCode code = set.error().code;
     std::string sentence = set.error().message;
     if (code == ErrorCode::unavailable && has_set_clock) {
@@ -196,7 +181,10 @@ void LinuxBoard::State::set_clock(Hertz wanted) {
     }
     note("set " + control.policy().folder + std::to_string(static_cast<int>(code)), sentence);
   }
-  (void)measured_clock();  // The next measurement is a mean from here on, not of the clock before.
+  if (is_new) {  // The next measurement is a mean from here on, not of the clock before.
+    clock.measured.reset();
+    (void)measured_clock();
+  }
 }
 
 std::optional<Hertz> LinuxBoard::State::measured_clock() {
@@ -212,10 +200,11 @@ void LinuxBoard::State::look_after_clock() {
     return;
   }
   const auto is_as_set = [](const ClockControl& one) { return one.is_as_set(); };
-  if (!last_set_failed && std::all_of(controls.begin(), controls.end(), is_as_set)) {
+  if (std::all_of(controls.begin(), controls.end(), is_as_set)) {
     return;
   }
-  if (!last_set_failed) {
+  const auto was_changed = [](const ClockControl& one) { return one.is_set() && !one.is_as_set(); };
+  if (std::any_of(controls.begin(), controls.end(), was_changed)) {
     note("changed",
          "somebody else has changed the limits or the governor of the clock; it is set again");
     note_rivals(find_rivals(system));

@@ -148,6 +148,38 @@ TEST_F(LinuxBoardTest, says_that_less_is_granted) {
                    "the power mode or the firmware limits it"}));
 }
 
+TEST_F(LinuxBoardTest, measures_on_and_writes_nothing_while_heat_limits_the_clock) {
+  as_tx2();
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  kernel_.cooled_khz = 1420800;
+  board.request({4, Hertz{2035.2e6}});
+  measured_ = Hertz{1420.8e6};
+  board.refresh(second);
+  const Lines writes = kernel_.writes;
+  measured_.reset();  // A counter of cycles has nothing new while the program rests.
+  board.refresh(2 * second);
+  EXPECT_EQ(kernel_.writes, writes);
+  EXPECT_EQ(board.clock().measured, Hertz{1420.8e6});
+}
+
+TEST_F(LinuxBoardTest, sets_the_clock_of_a_cluster_when_it_has_come_back) {
+  LinuxBoard& board = open(fake::plant_orin);
+  const auto plug = [this](const char* is_on) {
+    for (const char* core : {"4", "5", "6", "7"}) {
+      tree_.put("/sys/devices/system/cpu/cpu" + std::string{core} + "/online", is_on);
+    }
+  };
+  plug("0\n");
+  board.request({8, Hertz{1190.4e6}});
+  board.refresh(second);
+  EXPECT_EQ(kernel_.writes,
+            (Lines{"policy0/scaling_governor=userspace", "policy0/scaling_setspeed=1190400"}));
+  plug("1\n");
+  board.refresh(2 * second);
+  EXPECT_EQ(kernel_.writes.back(), "policy4/scaling_setspeed=1190400");
+  EXPECT_EQ(board.notes().size(), 2U) << "of nvpmodel, and that cores were switched";
+}
+
 TEST_F(LinuxBoardTest, keeps_the_clock_that_there_is_where_files_are_read_only) {
   as_tx2();
   kernel_.refused["scaling_governor"] = EACCES;
