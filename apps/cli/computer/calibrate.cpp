@@ -109,6 +109,9 @@ ClockChoice clocks_of(Bench& bench, const CalibrateArguments& given) {
     bench.remarks.emplace_back(
         "No clock can be set here; how times depend on it is the old "
         "file's (a, b).");
+    for (const std::string& why : bench.board->notes()) {
+      remark(why);
+    }
   }
   return choice;
 }

@@ -112,7 +112,14 @@ Status RealComputer::open_board(const PlatformModel& expected) {
            " GHz; try: flyball calibrate");
   }
   shared_board_ = std::make_unique<RealtimeBoard>(*board_);
+  tell_notes();  // That no clock can be set is better known before the flight.
   return Done{};
+}
+
+void RealComputer::tell_notes() {
+  for (const std::string& sentence : shared_board_->take_notes()) {
+    remark(sentence);
+  }
 }
 
 void RealComputer::equip(MissionHooks& hooks) {
@@ -140,9 +147,7 @@ void RealComputer::close() {
   if (!shared_board_) {
     return;
   }
-  for (const std::string& sentence : shared_board_->take_notes()) {
-    remark(sentence);
-  }
+  tell_notes();
   for (const Error& error : board_->close()) {
     remark(error.message);
   }

@@ -58,6 +58,7 @@ class RealComputer {
  private:
   explicit RealComputer(ExecutorOptions options) : options_{std::move(options)} {}
   Status open_board(const PlatformModel& expected);
+  void tell_notes();
 
   ExecutorOptions options_;
   BoardFile file_{};

@@ -285,6 +285,10 @@ void LinuxBoard::State::fill_reading() {
 Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
                                                      const LinuxBoardOptions& options) {
   auto keeper = SettingsKeeper::open(system, options.keeper);
+  const std::string no_journal = keeper ? "" : keeper.error().message;
+  if (!keeper && keeper.error().code == ErrorCode::not_found) {
+    keeper = SettingsKeeper::closed(system, keeper.error());
+  }
   if (!keeper) {
     return keeper.error();
   }
@@ -292,7 +296,7 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
   for (CpufreqPolicy& policy : found.policies) {
     undo_adopted(policy, (*keeper)->kept());
     const bool is_locked = policy.min == policy.max && policy.lowest < policy.highest;
-    if (is_locked && !options.keeper.adopt) {
+    if (is_locked && !options.keeper.adopt && no_journal.empty()) {
       return Error{ErrorCode::unavailable,
                    "the clock of " + policy.folder + " is locked at " + mhz_of(policy.max) +
                        " already, which jetson_clocks does; release it (jetson_clocks --restore), "
@@ -301,6 +305,11 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
   }
   auto state = std::make_unique<State>(system, options, std::move(found), std::move(*keeper));
   state->add_controls();
+  if (!no_journal.empty()) {
+    state->may_set_clock = false;
+    state->note("clock",
+                "the clock stays as it is, because nothing could restore it: " + no_journal);
+  }
   state->note_rivals(state->found.rivals);
   state->note_meters();
   if (options.unplug_cores && !options.file.may_unplug_cores) {

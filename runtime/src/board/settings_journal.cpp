@@ -17,8 +17,11 @@
 namespace flyball {
 namespace {
 
-constexpr const char* journal_way_out =
-    "; make the folder yours, name another one, or see: flyball board setup --print";
+/// Of a folder that is not to be had.
+Error no_folder(const std::string& what, int number) {
+  return {ErrorCode::not_found, system_error(what, number).message +
+                                    "; run as root, or see: flyball board setup --print"};
+}
 
 /// From its beginning, without moving what others append.
 std::string content_of(int file) {
@@ -74,13 +77,15 @@ bool is_board_setting(const std::string& path) {
 }
 
 Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
-  mkdir(folder.c_str(), 0775);  // It may be there; whether it can be used shows next.
+  if (mkdir(folder.c_str(), 0775) != 0 && errno != EEXIST) {
+    return no_folder("the folder " + folder + " for the board's lock and journal cannot be made",
+                     errno);
+  }
   constexpr int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
   const std::string lock_path = folder + "/board.lock";
   const int lock = ::open(lock_path.c_str(), flags, 0660);
   if (lock < 0) {
-    const Error error = system_error("the lock " + lock_path + " cannot be opened", errno);
-    return Error{ErrorCode::unavailable, error.message + journal_way_out};
+    return no_folder("the lock " + lock_path + " cannot be opened", errno);
   }
   if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
     const std::string owner = trimmed(content_of(lock));
@@ -93,9 +98,9 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
   const std::string path = folder + "/board.journal";
   const int journal = ::open(path.c_str(), flags | O_APPEND, 0660);
   if (journal < 0) {
-    const Error error = system_error("the journal " + path + " cannot be opened", errno);
+    const Error error = no_folder("the journal " + path + " cannot be opened", errno);
     close(lock);
-    return Error{ErrorCode::unavailable, error.message + journal_way_out};
+    return error;
   }
   share_with_group(lock);
   share_with_group(journal);

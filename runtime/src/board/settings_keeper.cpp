@@ -117,23 +117,23 @@ std::vector<Error> restore_settings(LinuxSystem& system, const std::vector<KeptS
 }
 
 struct SettingsKeeper::State {
-  State(LinuxSystem& of, SettingsJournal opened) : system{of}, journal{std::move(opened)} {}
+  explicit State(LinuxSystem& of) : system{of} {}
 
   LinuxSystem& system;
-  SettingsJournal journal;
+  std::optional<SettingsJournal> journal{};  ///< Empty: it was closed from the beginning.
   std::optional<Watchdog> watchdog{};
   std::vector<KeptSetting> kept{};  ///< As the journal has it.
   std::vector<KeptSetting> seen{};  ///< Not written so far: there is nothing to restore.
-  bool is_closed{};
+  std::optional<Error> closed{};    ///< Why nothing may be written.
   pid_t owner{getpid()};
 
   Status watch() {
-    auto started = Watchdog::start(journal.descriptors(), [this] {
+    auto started = Watchdog::start(journal->descriptors(), [this] {
       // The journal and not `kept`: that is a copy from before the first write.
-      if (restore_settings(system, journal.read()).empty()) {
-        journal.clear();
+      if (restore_settings(system, journal->read()).empty()) {
+        journal->clear();
       }
-      journal.unlock();
+      journal->unlock();
     });
     if (!started) {
       return started.error();
@@ -164,7 +164,7 @@ struct SettingsKeeper::State {
     if (setting == seen.end()) {
       return Done{};  // It is there.
     }
-    if (Status appended = journal.append(*setting); !appended) {
+    if (Status appended = journal->append(*setting); !appended) {
       return appended;
     }
     kept.push_back(std::move(*setting));
@@ -196,11 +196,18 @@ Result<std::unique_ptr<SettingsKeeper>> SettingsKeeper::open(LinuxSystem& system
   if (left.empty()) {
     journal->clear();  // Of a record that was cut off.
   }
-  auto state = std::make_unique<State>(system, std::move(*journal));
+  auto state = std::make_unique<State>(system);
+  state->journal.emplace(std::move(*journal));
   state->kept = left;
   if (const Status watched = state->watch(); !watched) {
     return watched.error();
   }
+  return std::unique_ptr<SettingsKeeper>{new SettingsKeeper{std::move(state)}};
+}
+
+std::unique_ptr<SettingsKeeper> SettingsKeeper::closed(LinuxSystem& system, Error why) {
+  auto state = std::make_unique<State>(system);
+  state->closed = std::move(why);
   return std::unique_ptr<SettingsKeeper>{new SettingsKeeper{std::move(state)}};
 }
 
@@ -217,8 +224,8 @@ Status SettingsKeeper::keep(const std::string& path) {
 }
 
 Status SettingsKeeper::write(const std::string& path, const std::string& text) {
-  if (state_->is_closed) {
-    return Error{ErrorCode::failed, path + " is not written: the settings have been restored"};
+  if (const auto& closed = state_->closed) {
+    return Error{closed->code, path + " is not written: " + closed->message};
   }
   if (!state_->watchdog->is_alive()) {
     if (const Status watched = state_->watch(); !watched) {
@@ -236,16 +243,16 @@ Status SettingsKeeper::write(const std::string& path, const std::string& text) {
 }
 
 std::vector<Error> SettingsKeeper::restore() {
-  if (state_->is_closed) {
+  if (state_->closed) {
     return {};
   }
-  state_->is_closed = true;
+  state_->closed = Error{ErrorCode::failed, "the settings have been restored"};
   std::vector<Error> errors = restore_settings(state_->system, state_->kept);
   if (errors.empty()) {
-    state_->journal.clear();
+    state_->journal->clear();
   }
   state_->watchdog->end();
-  state_->journal.unlock();
+  state_->journal->unlock();
   return errors;
 }
 
@@ -254,7 +261,7 @@ const std::vector<KeptSetting>& SettingsKeeper::kept() const {
 }
 
 pid_t SettingsKeeper::watchdog() const {
-  return state_->watchdog->process();
+  return state_->watchdog ? state_->watchdog->process() : 0;
 }
 
 }  // namespace flyball

@@ -233,10 +233,11 @@ TEST_F(SettingsKeeperTest, writes_nothing_that_it_could_not_restore) {
 TEST_F(SettingsKeeperTest, says_where_it_needs_a_folder) {
   const auto keeper = SettingsKeeper::open(kernel_, {tree_.root() + "/no/folder", false});
   ASSERT_FALSE(keeper.ok());
+  EXPECT_EQ(keeper.error().code, ErrorCode::not_found);
   EXPECT_EQ(keeper.error().message,
-            "the lock " + tree_.root() +
-                "/no/folder/board.lock cannot be opened: No such file or directory; make the "
-                "folder yours, name another one, or see: flyball board setup --print");
+            "the folder " + tree_.root() +
+                "/no/folder for the board's lock and journal cannot be made: No such file or "
+                "directory; run as root, or see: flyball board setup --print");
 }
 
 TEST_F(SettingsKeeperTest, lets_the_group_of_its_folder_use_the_lock) {

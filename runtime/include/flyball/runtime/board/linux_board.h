@@ -42,9 +42,10 @@ struct ClockReport {
 class LinuxBoard final : public Board {
  public:
   /// Writes nothing to the board yet. Without a clock that may be set it opens too, and says so in
-  /// `notes`. `system` outlives the board.
-  /// @error Those of `SettingsKeeper::open`; `unavailable`: somebody has locked the clocks (both
-  ///        limits are equal) and `keeper.adopt` is false.
+  /// `notes`; so it does without a folder that may be used for the journal, because a clock that
+  /// nothing could restore is not set. `system` outlives the board.
+  /// @error Those of `SettingsKeeper::open` except `not_found`; `unavailable`: somebody has locked
+  ///        the clocks (both limits are equal) and `keeper.adopt` is false.
   static Result<std::unique_ptr<LinuxBoard>> open(LinuxSystem& system,
                                                   const LinuxBoardOptions& options);
   ~LinuxBoard() override;

@@ -36,10 +36,13 @@ class SettingsKeeper {
  public:
   /// Locks the board and starts the process that restores. Open it before other threads start (see
   /// `Watchdog`). `system` outlives the keeper.
-  /// @error `unavailable`: another process has the board, an earlier one left settings unrestored
-  ///        and `adopt` is false, or the folder may not be used.
+  /// @error `unavailable`: another process has the board, or an earlier one left settings
+  ///        unrestored and `adopt` is false; `not_found`: there is no folder that this process may
+  ///        use; `failed`: the process that restores cannot be started.
   static Result<std::unique_ptr<SettingsKeeper>> open(LinuxSystem& system,
                                                       const KeeperOptions& options);
+  /// One that writes nothing, where nothing could be restored; `write` says `why`.
+  static std::unique_ptr<SettingsKeeper> closed(LinuxSystem& system, Error why);
   SettingsKeeper(const SettingsKeeper&) = delete;
   SettingsKeeper& operator=(const SettingsKeeper&) = delete;
   ~SettingsKeeper();
@@ -53,7 +56,7 @@ class SettingsKeeper {
 
   /// Keeps what the file holds where that has not been done, enters it in the journal and writes.
   /// @error Those of `LinuxSystem::write`; `failed`: the old content could not be kept, and then
-  ///        nothing is written.
+  ///        nothing is written; that of `closed`.
   /// @cost  As `LinuxSystem::write`; the first time one read and one append to the journal more.
   Status write(const std::string& path, const std::string& text);
 
@@ -66,7 +69,7 @@ class SettingsKeeper {
 
   /// What is restored in the end, in the order of the first writes.
   [[nodiscard]] const std::vector<KeptSetting>& kept() const;
-  /// Of the process that restores.
+  /// Of the process that restores; 0: there is none.
   [[nodiscard]] pid_t watchdog() const;
 
  private:
