@@ -164,18 +164,42 @@ void come_first() {
   }
 }
 
-std::optional<std::string> lock_process_memory() {
-#ifdef MCL_ONFAULT
-  constexpr int what = MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT;
-#else
-  constexpr int what = MCL_CURRENT | MCL_FUTURE;
-#endif
-  if (mlockall(what) == 0) {
+std::optional<rlim_t> memory_lock_limit() {
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY) {
     return std::nullopt;
   }
-  return "the program's memory is not locked (" + reason(errno) +
-         "): a page that the system took away costs milliseconds; give the program CAP_IPC_LOCK, "
-         "or its user an unlimited memlock limit";
+  // A capability lifts the limit, but not if it is one of a user namespace: only trying tells.
+  // Nobody can touch what is tried, so that it takes no memory.
+  const std::size_t more = static_cast<std::size_t>(limit.rlim_cur) + 65'536;
+  constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_LOCKED;
+  void* const locked = mmap(nullptr, more, PROT_NONE, flags, -1, 0);
+  if (locked == MAP_FAILED) {
+    return limit.rlim_cur;
+  }
+  munmap(locked, more);
+  return std::nullopt;
+}
+
+std::optional<std::string> lock_process_memory() {
+#ifdef MCL_ONFAULT
+  constexpr int present = MCL_CURRENT | MCL_ONFAULT;
+#else
+  constexpr int present = MCL_CURRENT;
+#endif
+  const std::string way_out =
+      "; give the program CAP_IPC_LOCK, or its user an unlimited memlock limit";
+  const auto limit = memory_lock_limit();
+  if (mlockall(limit ? present : present | MCL_FUTURE) != 0) {
+    return "the program's memory is not locked (" + reason(errno) +
+           "): a page that the system took away costs milliseconds" + way_out;
+  }
+  if (limit) {
+    return "only the memory that the program had at its start is locked, because its limit is " +
+           std::to_string(*limit / 1'048'576) + " MiB" + way_out;
+  }
+  return std::nullopt;
 }
 
 std::vector<int> usable_cpus() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 namespace flyball {
@@ -38,7 +39,12 @@ struct FifoGrant {
 [[nodiscard]] std::optional<std::string> real_time_throttle(
     const std::string& folder = "/proc/sys/kernel");
 
-/// Keeps what the process touches from now on in memory; a sentence if that failed.
+/// How many bytes this process may lock; empty: all of its memory.
+[[nodiscard]] std::optional<rlim_t> memory_lock_limit();
+
+/// Keeps what the process touches from now on in memory; a sentence if that failed. Under a limit
+/// only what the process has now is kept: whatever it asks for later would count with its whole
+/// size, each stack with megabytes, and be refused.
 [[nodiscard]] std::optional<std::string> lock_process_memory();
 
 /// The nice value that the process was started with, of its first thread.

@@ -6,6 +6,7 @@
 #include "scratch_folder.h"
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string>
 #include <thread>
 
@@ -13,8 +14,10 @@
 #include <linux/capability.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace flyball {
@@ -84,6 +87,49 @@ TEST(ComeFirst, takes_the_highest_priority_that_the_user_may_have) {
   setrlimit(RLIMIT_RTPRIO, &before);
   EXPECT_EQ(policy, SCHED_FIFO);
   EXPECT_EQ(got.sched_priority, static_cast<int>(granted));
+}
+
+/// What a process of its own answers as a user whom this limit binds; -1: it may not be so high.
+template <class Answer>
+int answer_within(rlim_t bytes, Answer answer) {
+  const pid_t process = fork();
+  if (process == 0) {
+    const rlimit limit{bytes, bytes};
+    constexpr uid_t nobody = 65534;
+    const bool is_bound =
+        setrlimit(RLIMIT_MEMLOCK, &limit) == 0 && (geteuid() != 0 || setuid(nobody) == 0);
+    _exit(is_bound ? answer() : 255);
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) != 255 ? WEXITSTATUS(status) : -1;
+}
+
+TEST(MemoryLockLimit, is_the_users_unless_there_is_none) {
+  EXPECT_EQ(answer_within(65'536, [] { return memory_lock_limit() == 65'536U ? 0 : 1; }), 0);
+  rlimit own{};
+  getrlimit(RLIMIT_MEMLOCK, &own);
+  if (const auto limit = memory_lock_limit()) {
+    EXPECT_EQ(*limit, own.rlim_cur);
+  }
+}
+
+TEST(LockProcessMemory, leaves_room_for_memory_that_is_asked_for_later) {
+  constexpr int some_bytes = 64 << 20;
+  rlim_t pages{};
+  std::ifstream{"/proc/self/statm"} >> pages;
+  const rlim_t present = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  const int answer = answer_within(present + some_bytes / 2, [] {
+    const auto note = lock_process_memory();
+    constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    const void* more = mmap(nullptr, some_bytes, PROT_NONE, flags, -1, 0);
+    const bool is_told = note && note->find("at its start is locked") != std::string::npos;
+    return (is_told ? 0 : 1) + (more == MAP_FAILED ? 2 : 0);
+  });
+  if (answer < 0) {
+    GTEST_SKIP() << "the memlock limit of this user is below what the program has";
+  }
+  EXPECT_EQ(answer, 0) << "1: without a note; 2: nothing more can be had";
 }
 
 }  // namespace
