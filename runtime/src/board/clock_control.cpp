@@ -7,6 +7,11 @@
 #include <utility>
 
 namespace flyball {
+namespace {
+
+constexpr double clock_tolerance = 0.05;  // Between two clocks of a TX2 are 7 % and more.
+
+}  // namespace
 
 ClockControl::ClockControl(LinuxSystem& system,
                            SettingsKeeper& keeper,
@@ -167,6 +172,34 @@ std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board
     }
   }
   return clocks.empty() ? std::vector{policy.max} : clocks;
+}
+
+bool differ(Hertz a, Hertz b) {
+  return std::abs(a.value() - b.value()) > clock_tolerance * b.value();
+}
+
+Hertz nearest_listed(Hertz clock, const std::vector<Hertz>& clocks) {
+  for (const Hertz step : clocks) {
+    if (std::abs(clock.value() - step.value()) < 0.5 * clock_tolerance * step.value()) {
+      return step;
+    }
+  }
+  return clock;
+}
+
+bool tells_set_clock(const std::vector<ClockControl>& controls, int cpu) {
+  const ClockControl* first = nullptr;
+  bool is_theirs = controls.empty();
+  bool is_one_clock = true;
+  for (const ClockControl& control : controls) {
+    const std::vector<int>& cpus = control.policy().cpus;
+    is_theirs = is_theirs || cpus.empty() || std::find(cpus.begin(), cpus.end(), cpu) != cpus.end();
+    if (control.is_set()) {
+      first = first == nullptr ? &control : first;
+      is_one_clock = is_one_clock && !differ(control.requested(), first->requested());
+    }
+  }
+  return is_theirs && is_one_clock;
 }
 
 void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept) {

@@ -72,6 +72,17 @@ class ClockControl {
 /// and not below what the firmware keeps.
 [[nodiscard]] std::vector<Hertz> clocks_of(const CpufreqPolicy& policy, const BoardFile& board);
 
+/// Whether two clocks are different ones, and not one that was measured twice.
+[[nodiscard]] bool differ(Hertz a, Hertz b);
+
+/// A measured clock as the board's list has it; a clock that no entry is near stays.
+[[nodiscard]] Hertz nearest_listed(Hertz clock, const std::vector<Hertz>& clocks);
+
+/// Whether a clock that is measured on this core tells how fast these let cores run. It does not
+/// where the core is none of theirs, and not where they have set different clocks, as they do when
+/// some cores cannot run as fast as others. Without any of them it does.
+[[nodiscard]] bool tells_set_clock(const std::vector<ClockControl>& controls, int cpu);
+
 /// Gives the policy the limits from before an adopted session changed them.
 void undo_adopted(CpufreqPolicy& policy, const std::vector<KeptSetting>& kept);
 

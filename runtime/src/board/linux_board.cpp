@@ -8,29 +8,12 @@
 #include "board/core_control.h"
 #include "board/sysfs_text.h"
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <set>
 #include <utility>
 
 namespace flyball {
 namespace {
-
-constexpr double clock_tolerance = 0.05;  // Between two clocks of a TX2 are 7 % and more.
-
-bool differ(Hertz a, Hertz b) {
-  return std::abs(a.value() - b.value()) > clock_tolerance * b.value();
-}
-
-/// A measured clock as the board's list has it; a clock that no entry is near stays.
-Hertz nearest_listed(Hertz clock, const std::vector<Hertz>& clocks) {
-  for (const Hertz step : clocks) {
-    if (std::abs(clock.value() - step.value()) < 0.5 * clock_tolerance * step.value()) {
-      return step;
-    }
-  }
-  return clock;
-}
 
 double process_seconds() {
   timespec now{};
@@ -188,10 +171,12 @@ void LinuxBoard::State::set_clock(Hertz wanted) {
 }
 
 std::optional<Hertz> LinuxBoard::State::measured_clock() {
+  std::optional<Hertz> measured = meter ? meter->measure() : std::nullopt;
   if (options.measure_clock) {
-    return options.measure_clock();
+    measured = options.measure_clock();
   }
-  return meter ? meter->measure() : std::nullopt;
+  // The meter measures where this thread runs, which may be a core of another kind.
+  return tells_set_clock(controls, system.current_cpu()) ? measured : std::nullopt;
 }
 
 /// Daemons and heat change limits behind one's back.

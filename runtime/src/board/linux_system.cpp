@@ -108,6 +108,8 @@ class RootedSystem final : public LinuxSystem {
     return Done{};
   }
 
+  [[nodiscard]] int current_cpu() const override { return sched_getcpu(); }
+
  private:
   std::string root_;
 };

@@ -33,6 +33,7 @@ class Kernel final : public LinuxSystem {
   long long cap_khz{};                        ///< Clocks above are not granted; 0: all are.
   long long cooled_khz{};                     ///< The limit that heat sets; 0: it is cool.
   std::set<int> staying_cores{};              ///< Take `0` and stay.
+  int current_core{};                         ///< That the calling thread runs on.
   int refused_affinity{};                     ///< errno; 0: every mask is taken.
   int die_before{};                           ///< The process's n-th write; 0: never.
   int die_after{};
@@ -90,6 +91,7 @@ class Kernel final : public LinuxSystem {
     affinities.push_back(cpus);
     return Done{};
   }
+  int current_cpu() const override { return current_core; }
 
  private:
   static bool ends_in(const std::string& path, const std::string& end) {

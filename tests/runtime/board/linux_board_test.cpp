@@ -136,6 +136,38 @@ TEST_F(LinuxBoardTest, believes_the_measured_clock_where_the_driver_lies) {
   EXPECT_EQ(board.notes().size(), 3U);  // each once
 }
 
+// The simulator's thread is bound to a spare core: on a TX2 to one of the Denver cores.
+TEST_F(LinuxBoardTest, believes_no_clock_that_was_measured_on_a_core_of_another_kind) {
+  as_tx2();
+  LinuxBoard& board = open(fake::plant_tx2_r32);
+  board.request({4, Hertz{1420.8e6}});
+  measured_ = Hertz{2035.2e6};
+  kernel_.current_core = 2;
+  board.refresh(second);
+  EXPECT_FALSE(board.clock().measured);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{1420.8e6});
+  EXPECT_TRUE(board.notes().empty()) << board.notes().front();
+  kernel_.current_core = 5;
+  board.refresh(2 * second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{2035.2e6});
+}
+
+TEST_F(LinuxBoardTest, believes_no_clock_that_only_one_of_two_clusters_can_have) {
+  fake::plant_orin(tree_);
+  const std::string policy4 = "/sys/devices/system/cpu/cpufreq/policy4/";
+  tree_.put(policy4 + "scaling_max_freq", "1497600\n");
+  LinuxBoard& board = open([](const fake::Tree&) {});
+  board.request({8, Hertz{1984e6}});
+  measured_ = Hertz{1497.6e6};
+  kernel_.current_core = 7;
+  board.refresh(second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{1984e6});
+  board.request({8, Hertz{1190.4e6}});
+  measured_ = Hertz{729.6e6};
+  board.refresh(2 * second);
+  EXPECT_EQ(board.read().granted.frequency, Hertz{729.6e6});
+}
+
 TEST_F(LinuxBoardTest, says_that_less_is_granted) {
   as_tx2();
   kernel_.cap_khz = 1420800;

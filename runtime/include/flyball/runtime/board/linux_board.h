@@ -25,8 +25,8 @@ struct LinuxBoardOptions {
   bool unplug_cores{};        ///< Switch idle cores off, where the board's file allows it.
   /// Estimates the power where the board has no meter for it; empty: then it is 0 W.
   std::optional<PowerCost> power_prior{};
-  /// The clock that the cores run at; empty result: nothing new. Default: a `ClockMeter`, which
-  /// counts the threads that are started after `open`.
+  /// The clock of the calling thread's core; empty result: nothing new. Default: a `ClockMeter`,
+  /// which counts the threads that are started after `open`.
   std::function<std::optional<Hertz>()> measure_clock{};
 };
 
@@ -34,7 +34,8 @@ struct LinuxBoardOptions {
 struct ClockReport {
   Hertz requested{};                ///< 0: none was set.
   std::optional<Hertz> reported{};  ///< By the driver, which may repeat what was requested.
-  std::optional<Hertz> measured{};  ///< The last one that could be measured since `requested`.
+  /// The last one that could be measured since `requested`, on a core whose clock is set.
+  std::optional<Hertz> measured{};
 };
 
 /// Not for a real-time thread: all functions but the const ones allocate and make system calls.

@@ -41,10 +41,12 @@ class LinuxSystem {
   /// @error `invalid_input`: none of the cores is on-line; `not_found`: no such thread;
   ///        `unavailable`: not permitted; `failed`: fewer cores were granted.
   virtual Status set_affinity(pid_t thread, const std::vector<int>& cpus) = 0;
+  /// The core that the calling thread runs on.
+  [[nodiscard]] virtual int current_cpu() const = 0;
 };
 
-/// The system below `root`: "/" is this one, another folder a copy of one. Affinities are always
-/// those of this system.
+/// The system below `root`: "/" is this one, another folder a copy of one. Affinities and
+/// the current core are always those of this system.
 [[nodiscard]] std::unique_ptr<LinuxSystem> linux_system(const std::string& root = "/");
 
 }  // namespace flyball
