@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "flyball/mcap/onboard_record.h"
+#include "flyball/records/mission_files.h"
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
@@ -180,25 +181,7 @@ class RecordPlace {
   bool has_flown_{};
 };
 
-/// What is written may not be what is read.
-Status keep_inputs(const RunOptions& options, const std::string& folder) {
-  const std::vector<std::string> written{options.mcap, options.timeline, options.final_map,
-                                         (fs::path{folder} / "mission.toml").string()};
-  for (const std::string& input : {options.flight.scenario, options.policy, options.start_map}) {
-    for (const std::string& output : written) {
-      std::error_code ignored;
-      if (!input.empty() && fs::equivalent(input, output, ignored)) {
-        return Error{ErrorCode::invalid_input,
-                     "the flight reads \"" + input +
-                         "\" and would overwrite it; choose another place "
-                         "for what it writes"};
-      }
-    }
-  }
-  return Done{};
-}
-
-/// Nor may one thing that is written be another one.
+/// One thing that is written may not be another one.
 Status keep_outputs_apart(const RunOptions& options, const std::string& folder) {
   std::error_code ignored;
   std::vector<fs::path> written;
@@ -221,10 +204,18 @@ Status keep_outputs_apart(const RunOptions& options, const std::string& folder) 
 }
 
 /// Of all that the flight reads and writes.
-Status check_places(const RunOptions& options, const std::string& folder) {
-  Status kept = keep_inputs(options, folder);
-  kept = kept ? keep_outputs_apart(options, folder) : kept;
-  return !kept || options.timeline.empty() ? kept : check_place(options.timeline);
+Status check_places(const RunOptions& options,
+                    const Scenario& scenario,
+                    const std::string& folder) {
+  const Status inputs = keep_inputs(scenario, {options.flight.scenario, options.start_map},
+                                    {options.mcap, options.timeline, options.final_map,
+                                     (fs::path{folder} / "mission.toml").string()});
+  for (const Status& kept : {inputs, keep_outputs_apart(options, folder)}) {
+    if (!kept) {
+      return kept;
+    }
+  }
+  return options.timeline.empty() ? Done{} : check_place(options.timeline);
 }
 
 /// Ends the record, and says in the summary what is in it.
@@ -322,7 +313,7 @@ int run(const RunOptions& options) {
                                  ? run_folder(comparison_folder(options.flight, scenario),
                                               scenario.governor.policy, scenario.seed)
                                  : options.flight.out;
-  if (const Status possible = check_places(options, folder); !possible) {
+  if (const Status possible = check_places(options, scenario, folder); !possible) {
     return refuse({possible.error()});
   }
   PolicyRemarks{}.add(scenario, overrides_of(options));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "flyball/records/mission_files.h"
 #include "flyball/records/report.h"
+#include "flyball/scenario/files.h"
 #include "flyball/studies/comparison.h"
 #include "flyball/studies/tuning.h"
 
@@ -35,6 +37,10 @@ std::string out_folder(const TuneOptions& options) {
   return options.flight.out.empty() ? "flights/tune_" + stem : options.flight.out;
 }
 
+std::string preset_file(const TuneOptions& options) {
+  return options.preset.empty() ? out_folder(options) + "/tuned.toml" : options.preset;
+}
+
 /// Enough to run the race again: what it was on, and the values that were tried.
 std::string told(const TuneOptions& options,
                  const std::string& stem,
@@ -53,18 +59,18 @@ std::string told(const TuneOptions& options,
 
 int show(const TuneOptions& options, const Race& race, const std::vector<Candidate>& ranked) {
   const std::string stem = std::filesystem::path{options.flight.scenario}.stem().string();
-  const std::string path =
-      options.preset.empty() ? out_folder(options) + "/tuned.toml" : options.preset;
+  const std::string path = preset_file(options);
   const std::string description = told(options, stem, race.settings().seeds, ranked.size());
+  print(options.flight.json ? to_json(stem, options.policy, ranked) + "\n"
+                            : to_text(options.policy, ranked));
   const Status written = write_file(path, race.preset_of(ranked.front(), description));
-  if (!written) {
+  if (!written) {  // The table is there all the same.
     return refuse({written.error()});
   }
   if (options.flight.json) {
-    print(to_json(stem, options.policy, ranked) + "\n");
     note("preset: " + path);
   } else {
-    print(to_text(options.policy, ranked) + "preset: " + path + "\n");
+    print("preset: " + path + "\n");
   }
   const bool flies = ranked.front().failures() == 0;
   if (!flies) {
@@ -75,11 +81,26 @@ int show(const TuneOptions& options, const Race& race, const std::vector<Candida
 
 /// A preset is found by its ending: under another one, no command would take it.
 Status check_preset(const std::string& path) {
+  if (path.empty()) {
+    return Done{};
+  }
   if (std::filesystem::path{path}.extension() != ".toml") {
     return Error{ErrorCode::invalid_input,
                  "--preset " + path + " must end in .toml, or no policy can be read from it"};
   }
   return check_place(path);
+}
+
+/// The preset must not take the place of what it is tuned for. A scenario that cannot be read, and
+/// names nothing, is refused elsewhere.
+Status keep_what_is_tuned(const TuneOptions& options) {
+  std::vector<std::string> settings = options.flight.settings;
+  settings.push_back("governor.policy=" + options.policy);
+  const auto loaded = load_scenario(options.flight.scenario, settings, options.flight.plugins);
+  const auto* read = std::get_if<LoadedScenario>(&loaded);
+  const Result<std::string> file = find_shipped("scenarios", options.flight.scenario);
+  return keep_inputs(read != nullptr ? read->scenario : Scenario{}, {file ? *file : ""},
+                     {preset_file(options)});
 }
 
 /// A setting that was tuned on the seeds that it is tested with proves nothing.
@@ -112,9 +133,10 @@ std::vector<std::uint64_t> training_seeds(const TuneOptions& options, std::vecto
     }
   }
   add_new(check_settings(options.flight, "--policy"), errors);
-  const Status preset = options.preset.empty() ? Status{Done{}} : check_preset(options.preset);
-  if (!preset) {
-    errors.push_back(preset.error());
+  for (const Status& kept : {check_preset(options.preset), keep_what_is_tuned(options)}) {
+    if (!kept) {
+      errors.push_back(kept.error());
+    }
   }
   return errors.empty() ? *seeds : std::vector<std::uint64_t>{};
 }

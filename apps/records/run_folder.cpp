@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "flyball/governors/policy_file.h"
+#include "flyball/records/mission_files.h"
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/records/version.h"
 #include "flyball/runtime/text/listed.h"
-#include "flyball/scenario/files.h"
-#include "flyball/scenario/policy_choice.h"
-#include "flyball/sim/platform_file.h"
 
 #include "records/frame_files.h"
 #include "records/trace_file.h"
@@ -37,35 +34,6 @@ std::string content_of(const std::string& path) {
 Error cannot_write(const std::string& path, const std::string& why) {
   return {ErrorCode::unavailable,
           "cannot write \"" + path + "\": " + why + "; choose another place"};
-}
-
-/// Of the files that the scenario names: their numbers are part of the mission.
-std::string data_fingerprint(const Scenario& scenario) {
-  TraceHash hash;
-  const Result<std::string> airframe = find_shipped("airframes", scenario.vehicle.airframe);
-  hash.add(airframe ? content_of(*airframe) : std::string{});
-  for (const std::string& name : {scenario.platform.name, scenario.edge.platform}) {
-    const Result<std::string> platform = find_shipped("platforms", name);
-    for (const std::string& file : platform
-                                       ? files_of_platform(*platform, share_folder("platforms"))
-                                       : std::vector<std::string>{}) {
-      hash.add(content_of(file));
-    }
-  }
-  for (const std::string& file : files_behind_policy(scenario.governor.policy)) {
-    hash.add(content_of(file));
-  }
-  for (const auto& [name, value] : scenario.world.parameters) {  // A map, a mesh.
-    const std::string* file = std::get_if<std::string>(&value);
-    std::error_code failed;
-    if (file != nullptr && fs::is_regular_file(*file, failed)) {
-      hash.add(content_of(*file));
-    }
-  }
-  for (const std::string& file : scenario.plugins.libraries()) {
-    hash.add(content_of(file));
-  }
-  return hash.hex();
 }
 
 /// A figure by which a workload is judged: it stands before time and energy.
@@ -216,6 +184,9 @@ Status check_place(const std::string& path) {
   std::error_code failed;
   if (!fs::is_directory(folder, failed)) {
     return cannot_write(path, "there is no folder \"" + folder.string() + "\"");
+  }
+  if (fs::is_directory(path, failed)) {
+    return cannot_write(path, "it is a folder");
   }
   if (access(folder.c_str(), W_OK) != 0) {
     return cannot_write(path, "folder \"" + folder.string() + "\" refuses it");

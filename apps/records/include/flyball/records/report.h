@@ -20,7 +20,8 @@ Result<std::vector<std::string>> prepare_folder(const std::string& folder);
 /// Undoes `prepare_folder`, except for folders that hold something by now.
 void remove_empty(const std::vector<std::string>& folders);
 
-/// Whether `write_file` would find a folder to write to: ask before flying.
+/// Whether `write_file` would find a folder to write to, and no folder in the file's own place: ask
+/// before flying.
 /// @error `unavailable`.
 Status check_place(const std::string& path);
 
