@@ -10,6 +10,7 @@
 
 #include "simulation/mission_setup.h"
 #include <algorithm>
+#include <optional>
 
 namespace flyball {
 namespace {
@@ -20,15 +21,23 @@ class Decisions {
   explicit Decisions(const RecordedFlight& flight)
       : flight_{flight}, change_{flight.changes.begin()}, choice_{flight.choices.begin()} {}
 
-  /// False after the last one.
-  bool next() {
+  /// When the next one was made; empty after the last one.
+  [[nodiscard]] std::optional<MissionTime> coming() const {
     if (number_ == flight_.decisions) {
-      return false;
+      return std::nullopt;
     }
     const auto dropped = flight_.after_drops.find(number_);
-    seen_.now = dropped != flight_.after_drops.end() ? dropped->second
-                : number_ == 0                       ? MissionTime{}
-                                                     : seen_.now + flight_.period;
+    return dropped != flight_.after_drops.end() ? dropped->second
+           : number_ == 0                       ? MissionTime{}
+                                                : seen_.now + flight_.period;
+  }
+  /// False after the last one.
+  bool next() {
+    const std::optional<MissionTime> now = coming();
+    if (!now) {
+      return false;
+    }
+    seen_.now = *now;
     ++number_;
     for (; change_ != flight_.changes.end() && change_->first <= seen_.now; ++change_) {
       for (const auto& [field, value] : change_->second) {
@@ -170,24 +179,22 @@ Result<ReplayResult> shadow(const RecordedFlight& flight, const std::string& pol
 }
 
 Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
-  const MissionTime end{flight.period * static_cast<Duration::rep>(flight.decisions)};
-  if (at < MissionTime{} || at > end) {
-    return Error{ErrorCode::invalid_input,
-                 "there is no decision at " + std::to_string(to_seconds(at)) +
-                     " s; the flight lasts from 0 to " + std::to_string(to_seconds(end)) + " s"};
+  Decisions decisions{flight};
+  const std::optional<MissionTime> first = decisions.coming();
+  if (!first || at < *first || at > flight.end) {
+    return Error{ErrorCode::invalid_input, "there is no decision at " +
+                                               std::to_string(to_seconds(at)) +
+                                               " s; the flight lasts from 0 to " +
+                                               std::to_string(to_seconds(flight.end)) + " s"};
   }
   const auto governor = recorded_governor(flight);
   if (!governor) {
     return governor.error();
   }
   Explanation explanation;
-  Decisions decisions{flight};
-  const MissionTime last = at - flight.period;
-  while (decisions.next()) {
+  for (auto coming = first; coming && *coming <= at; coming = decisions.coming()) {
+    decisions.next();
     static_cast<void>((*governor)->decide(decisions.seen()));
-    if (decisions.seen().now > last) {
-      break;
-    }
   }
   const Observation& seen = explanation.seen = decisions.seen();
   explanation.at = seen.now;

@@ -172,6 +172,23 @@ TEST(Replay, explains_one_decision) {
   EXPECT_FALSE(explain(flight, MissionTime{from_seconds(1e5)}).ok());
 }
 
+TEST(Replay, explains_the_last_decision_until_then_where_decisions_were_dropped) {
+  const ScratchFolder folder;
+  RecordedFlight flight = flown_with("fixed_coarse", folder);
+  ASSERT_EQ(flight.period, std::chrono::milliseconds{250});
+  ASSERT_GT(to_seconds(flight.end), 4.0);
+  const auto after = [](double s) { return MissionTime{from_seconds(s)}; };
+  flight.after_drops = {{5, after(3.0)}};
+  flight.decisions = 6;
+  for (const auto& [asked_s, made_s] :
+       {std::pair{0.0, 0.0}, {0.3, 0.25}, {2.9, 1.0}, {3.0, 3.0}, {4.0, 3.0}}) {
+    const auto told = explain(flight, after(asked_s));
+    ASSERT_TRUE(told.ok()) << told.error().message;
+    EXPECT_EQ(told->at, after(made_s)) << asked_s;
+  }
+  EXPECT_FALSE(explain(flight, flight.end + Duration{1}).ok());
+}
+
 TEST(Replay, loads_the_library_of_a_record_only_when_it_is_trusted) {
   const ScratchFolder folder;
   RecordedFlight flight = flown_with("fixed_coarse", folder);
