@@ -43,7 +43,12 @@ INSERT INTO flights (world, policy, seed, settings, mission, status, failure, mi
 DROP TABLE flights_0;
 )";
 
+// The kernels and figures of a flight that is replaced go, too: the new one may have others.
 constexpr const char* copies_all_of_other = R"(
+DELETE FROM main.kernels WHERE (world, policy, seed, settings) IN
+  (SELECT world, policy, seed, settings FROM other.flights);
+DELETE FROM main.quality WHERE (world, policy, seed, settings) IN
+  (SELECT world, policy, seed, settings FROM other.flights);
 INSERT OR REPLACE INTO flights SELECT * FROM other.flights;
 INSERT OR REPLACE INTO kernels SELECT * FROM other.kernels;
 INSERT OR REPLACE INTO quality SELECT * FROM other.quality;
@@ -56,6 +61,10 @@ constexpr const char* kernel_insertion =
     "INSERT OR REPLACE INTO kernels VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
 constexpr const char* quality_insertion =
     "INSERT OR REPLACE INTO quality VALUES (?1, ?2, ?3, ?4, ?5, ?6)";
+constexpr const char* kernel_deletion =
+    "DELETE FROM kernels WHERE world = ?1 AND policy = ?2 AND seed = ?3 AND settings = ?4";
+constexpr const char* quality_deletion =
+    "DELETE FROM quality WHERE world = ?1 AND policy = ?2 AND seed = ?3 AND settings = ?4";
 constexpr const char* selection =
     "SELECT summary FROM flights WHERE world = ?1 AND policy = ?2 AND seed = ?3 AND settings = ?4 "
     "AND mission = ?5";
@@ -155,6 +164,30 @@ bool prepare_tables(sqlite3* database) {
          transaction.commit();
 }
 
+/// Kernels and figures of a flight, in place of those of the flight that it replaces.
+bool put_parts(sqlite3* database,
+               const Scenario& scenario,
+               const Summary& summary,
+               const std::string& settings) {
+  bool is_put = true;
+  for (const char* deletion : {kernel_deletion, quality_deletion}) {
+    Statement of_older{database, deletion};
+    is_put = is_put && of_older.bind(scenario, settings).step() == SQLITE_DONE;
+  }
+  for (const auto& [name, kernel] : summary.kernels) {
+    Statement of_kernel{database, kernel_insertion};
+    of_kernel.bind(scenario, settings).bind(name).bind(kernel.calls);
+    of_kernel.bind(kernel.mission_ms_mean).bind(kernel.mission_ms_p95);
+    is_put = is_put && of_kernel.step() == SQLITE_DONE;
+  }
+  for (const auto& [name, value] : summary.quality) {
+    Statement of_quality{database, quality_insertion};
+    of_quality.bind(scenario, settings).bind(name).bind(value);
+    is_put = is_put && of_quality.step() == SQLITE_DONE;
+  }
+  return is_put;
+}
+
 }  // namespace
 
 struct FlightStore::Connection {
@@ -227,28 +260,9 @@ Status FlightStore::add(const Scenario& scenario,
   row.bind(std::uint64_t{summary.failure == MissionFailure::collision ? 1U : 0U});
   row.bind(static_cast<std::uint64_t>(summary.replans)).bind(summary.hover_time_s);
   row.bind(summary.mean_speed_m_s).bind(summary.latency_p50_s).bind(to_json(summary));
-  if (!transaction.began() || row.step() != SQLITE_DONE) {
-    return connection_->refused("write");
-  }
-  for (const auto& [name, kernel] : summary.kernels) {
-    Statement of_kernel{database, kernel_insertion};
-    of_kernel.bind(scenario, settings).bind(name).bind(kernel.calls);
-    of_kernel.bind(kernel.mission_ms_mean).bind(kernel.mission_ms_p95);
-    if (of_kernel.step() != SQLITE_DONE) {
-      return connection_->refused("write");
-    }
-  }
-  for (const auto& [name, value] : summary.quality) {
-    Statement of_quality{database, quality_insertion};
-    of_quality.bind(scenario, settings).bind(name).bind(value);
-    if (of_quality.step() != SQLITE_DONE) {
-      return connection_->refused("write");
-    }
-  }
-  if (!transaction.commit()) {
-    return connection_->refused("write");
-  }
-  return Done{};
+  const bool is_written = transaction.began() && row.step() == SQLITE_DONE &&
+                          put_parts(database, scenario, summary, settings) && transaction.commit();
+  return is_written ? Status{Done{}} : Status{connection_->refused("write")};
 }
 
 Status FlightStore::add_all_of(const std::string& other) {

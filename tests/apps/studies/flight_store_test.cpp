@@ -110,6 +110,29 @@ TEST(FlightStore, can_be_queried_for_kernels_and_quality) {
             "area_covered_percent|97.25|");
 }
 
+TEST(FlightStore, keeps_no_kernel_and_no_figure_of_a_flight_that_was_replaced) {
+  const ScratchFolder folder;
+  const std::string path = folder.path("t.db");
+  const Scenario scenario = scenario_of("fixed_fine", 3);
+  Summary older = made_summary("fixed_fine", 3);
+  older.kernels["rrt_star"] = {1, 2.0, 3.0, 4.0};
+  older.quality["time_to_find_s"] = 5.0;
+  const auto parts = [&path] {
+    return asked(path, "SELECT kernel FROM kernels ORDER BY 1") +
+           asked(path, "SELECT name FROM quality ORDER BY 1");
+  };
+  ASSERT_TRUE(opened(path).add(scenario, older, "a"));
+  ASSERT_TRUE(opened(path).add(scenario_of("fixed_fine", 4), older, "a")) << "which stays";
+  ASSERT_TRUE(opened(path).add(scenario, made_summary("fixed_fine", 3), "a"));
+  EXPECT_EQ(parts(),
+            "octomap|octomap|rrt_star|area_covered_percent|area_covered_percent|"
+            "time_to_find_s|");
+  ASSERT_TRUE(opened(folder.path("part.db"))
+                  .add(scenario_of("fixed_fine", 4), made_summary("fixed_fine", 4), "a"));
+  ASSERT_TRUE(opened(path).add_all_of(folder.path("part.db")));
+  EXPECT_EQ(parts(), "octomap|octomap|area_covered_percent|area_covered_percent|");
+}
+
 TEST(FlightStore, takes_all_flights_of_another_one_once) {
   const ScratchFolder folder;
   {
