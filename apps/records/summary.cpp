@@ -44,9 +44,20 @@ Value named(const std::array<Value, n>& values, const std::string& name) {
   throw std::out_of_range{"no status or failure is called \"" + name + "\""};
 }
 
-/// JSON has no infinity: a clearance without any obstacle is written as null.
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+/// Null stands for a number that was not finite, of which nothing could be computed. Throws like
+/// the library's own getters.
+double number_in(const Json& json, const std::string& key) {
+  const Json& value = json.at(key);
+  if (!value.is_number()) {
+    throw std::out_of_range{key + " = " + value.dump() + " is no number"};
+  }
+  return value.get<double>();
+}
+
+/// JSON has no infinity: a clearance without any obstacle, and nothing else, is written as null.
+double clearance_in(const Json& json) {
+  const char* const key = "min_clearance_m";
+  return json.at(key).is_null() ? std::numeric_limits<double>::infinity() : number_in(json, key);
 }
 
 Json kernels_json(const Summary& summary) {
@@ -62,9 +73,9 @@ Json kernels_json(const Summary& summary) {
 
 void read_kernels(const Json& json, Summary& summary) {
   for (const auto& [name, kernel] : json.items()) {
-    summary.kernels[name] = {count_in(kernel, "calls"), number(kernel.at("mission_ms_mean")),
-                             number(kernel.at("mission_ms_p95")),
-                             number(kernel.at("host_ms_mean"))};
+    summary.kernels[name] = {count_in(kernel, "calls"), number_in(kernel, "mission_ms_mean"),
+                             number_in(kernel, "mission_ms_p95"),
+                             number_in(kernel, "host_ms_mean")};
   }
 }
 
@@ -94,24 +105,24 @@ void read_head(const Json& json, Summary& summary) {
   summary.seed = count_in(json, "seed");
   summary.status = named(statuses, json.at("status").get<std::string>());
   summary.failure = named(failures, json.at("failure").get<std::string>());
-  summary.host_s = number(json.at("host_s"));
-  summary.real_time_factor = number(json.at("real_time_factor"));
+  summary.host_s = number_in(json, "host_s");
+  summary.real_time_factor = number_in(json, "real_time_factor");
   summary.trace_hash = json.at("trace_hash").get<std::string>();
   summary.numeric_fingerprint = json.at("numeric_fingerprint").get<std::string>();
   summary.version = json.at("version").get<std::string>();
 }
 
 void read_flight(const Json& json, Summary& summary) {
-  summary.mission_time_s = number(json.at("mission_time_s"));
-  summary.energy_rotor_j = number(json.at("energy_j").at("rotor"));
-  summary.energy_computer_j = number(json.at("energy_j").at("computer"));
-  summary.battery_start_percent = number(json.at("battery_start_percent"));
-  summary.battery_end_percent = number(json.at("battery_end_percent"));
-  summary.distance_m = number(json.at("distance_m"));
-  summary.mean_speed_m_s = number(json.at("mean_speed_m_s"));
-  summary.max_speed_m_s = number(json.at("max_speed_m_s"));
-  summary.hover_time_s = number(json.at("hover_time_s"));
-  summary.min_clearance_m = number(json.at("min_clearance_m"));
+  summary.mission_time_s = number_in(json, "mission_time_s");
+  summary.energy_rotor_j = number_in(json.at("energy_j"), "rotor");
+  summary.energy_computer_j = number_in(json.at("energy_j"), "computer");
+  summary.battery_start_percent = number_in(json, "battery_start_percent");
+  summary.battery_end_percent = number_in(json, "battery_end_percent");
+  summary.distance_m = number_in(json, "distance_m");
+  summary.mean_speed_m_s = number_in(json, "mean_speed_m_s");
+  summary.max_speed_m_s = number_in(json, "max_speed_m_s");
+  summary.hover_time_s = number_in(json, "hover_time_s");
+  summary.min_clearance_m = clearance_in(json);
 }
 
 void read_computing(const Json& json, Summary& summary) {
@@ -121,22 +132,23 @@ void read_computing(const Json& json, Summary& summary) {
   summary.knob_changes = count_in(json, "knob_changes");
   summary.policy_faults = count_in(json, "policy_faults");
   summary.policy_trouble = json.at("policy_trouble").get<std::string>();
-  summary.latency_p50_s = number(json.at("latency_s").at("p50"));
-  summary.latency_p95_s = number(json.at("latency_s").at("p95"));
-  summary.latency_max_s = number(json.at("latency_s").at("max"));
+  summary.latency_p50_s = number_in(json.at("latency_s"), "p50");
+  summary.latency_p95_s = number_in(json.at("latency_s"), "p95");
+  summary.latency_max_s = number_in(json.at("latency_s"), "max");
   summary.maps = count_in(json, "maps");
   summary.bound_overruns = count_in(json, "bound_overruns");
-  summary.budget_use_p50 = number(json.at("budget_use_p50"));
-  summary.decision_host_us_p50 = number(json.at("decision_host_us").at("p50"));
-  summary.decision_host_us_p99 = number(json.at("decision_host_us").at("p99"));
+  summary.budget_use_p50 = number_in(json, "budget_use_p50");
+  summary.decision_host_us_p50 = number_in(json.at("decision_host_us"), "p50");
+  summary.decision_host_us_p99 = number_in(json.at("decision_host_us"), "p99");
   summary.throttle_events = count_in(json, "throttle_events");
   if (const Json& hottest = json.at("hottest_c"); !hottest.is_null()) {
     summary.hottest_c = hottest.get<double>();
   }
   read_bounds(json.at("latency_bounds"), summary);
   read_kernels(json.at("kernels"), summary);
-  for (const auto& [name, value] : json.at("quality").items()) {
-    summary.quality[name] = number(value);
+  const Json& quality = json.at("quality");
+  for (const auto& [name, value] : quality.items()) {
+    summary.quality[name] = number_in(quality, name);
   }
 }
 

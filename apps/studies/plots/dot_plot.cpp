@@ -118,7 +118,7 @@ std::string dot_plot_svg(const std::string& title, const std::vector<PlottedValu
   std::string content =
       "<text x=\"0\" y=\"14\" font-weight=\"600\">" + html_text(title) + "</text>";
   const double step = tick_step(x.high);
-  for (double tick = 0.0; tick <= x.high; tick += step) {
+  for (const double tick : svg::ticks(x)) {
     content += line(x.at(tick), 24.0, x.at(tick), foot_px, grid) +
                text(x.at(tick), foot_px + 14.0, "middle", number(tick, step));
   }

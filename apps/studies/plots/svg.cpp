@@ -67,6 +67,19 @@ double tick_step(double span) {
   return 10.0 * power;
 }
 
+std::vector<double> ticks(const Scale& scale) {
+  const double span = scale.high - scale.low;
+  if (!std::isfinite(span)) {  // Its step is infinite, too, or none: adding it would get nowhere.
+    return {};
+  }
+  const double step = tick_step(span);
+  std::vector<double> all;
+  for (double tick = std::ceil(scale.low / step) * step; tick <= scale.high; tick += step) {
+    all.push_back(tick);
+  }
+  return all;
+}
+
 std::string number(double value, double step) {
   const int digits = static_cast<int>(std::max(0.0, std::ceil(-std::log10(step) - 1e-9)));
   return rounded(value, digits);
@@ -86,7 +99,7 @@ std::string axes(const Frame& frame) {
   const auto& [x, y] = frame;
   std::string content;
   const double step_x = tick_step(x.high - x.low);
-  for (double tick = std::ceil(x.low / step_x) * step_x; tick <= x.high; tick += step_x) {
+  for (const double tick : ticks(x)) {
     content += line(x.at(tick), y.to_px, x.at(tick), y.from_px, grid) +
                text(x.at(tick), y.from_px + 16.0, "middle", number(tick, step_x));
   }
@@ -97,7 +110,7 @@ std::string y_axis(const Frame& frame) {
   const auto& [x, y] = frame;
   std::string content;
   const double step_y = tick_step(y.high - y.low);
-  for (double tick = std::ceil(y.low / step_y) * step_y; tick <= y.high; tick += step_y) {
+  for (const double tick : ticks(y)) {
     content += line(x.from_px, y.at(tick), x.to_px, y.at(tick), grid) +
                text(x.from_px - 6.0, y.at(tick) + 4.0, "end", number(tick, step_y));
   }

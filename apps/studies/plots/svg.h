@@ -7,6 +7,7 @@
 #include "flyball/studies/statistics.h"
 
 #include <string>
+#include <vector>
 
 namespace flyball::svg {
 
@@ -61,6 +62,9 @@ struct Frame {
   Scale x{};
   Scale y{};
 };
+
+/// Multiples of `tick_step` on the scale, ascending; none where it is not finite.
+[[nodiscard]] std::vector<double> ticks(const Scale& scale);
 
 /// Lines and numbers behind a plot.
 [[nodiscard]] std::string axes(const Frame& frame);

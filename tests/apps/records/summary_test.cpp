@@ -151,6 +151,20 @@ TEST(Summary, a_count_that_is_none_is_named) {
   EXPECT_EQ(kept.policy, "kept");
 }
 
+TEST(Summary, a_number_that_was_not_finite_is_named) {
+  for (const char* member :
+       {"/mission_time_s", "/energy_j/rotor", "/latency_s/p95", "/kernels/octomap/mission_ms_mean",
+        "/quality/area_covered_percent", "/host_s"}) {
+    auto json = nlohmann::json::parse(to_json(made_summary("a", 1)));
+    const nlohmann::json::json_pointer place{member};
+    json.at(place) = nullptr;
+    const auto read = read_summary(json.dump());
+    ASSERT_FALSE(read.ok()) << member;
+    EXPECT_NE(read.error().message.find(place.back() + " = null is no number"), std::string::npos)
+        << read.error().message;
+  }
+}
+
 TEST(Summary, says_that_no_obstacle_was_near) {
   Summary summary = made_summary("a", 1);
   EXPECT_EQ(clearance_text(summary), "0.44");

@@ -3,6 +3,7 @@
 
 #include "text_count.h"
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,14 @@ TEST(ParetoPlot, writes_the_names_of_points_that_lie_on_each_other_in_rows) {
   std::sort(rows.begin(), rows.end());
   EXPECT_GE(rows[1] - rows[0], 14.0);
   EXPECT_GE(rows[2] - rows[1], 14.0);
+}
+
+// Its ticks were added up for ever.
+TEST(DotPlot, of_a_value_without_bounds_ends) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  const MedianInterval value{endless, 1.0, endless};
+  EXPECT_EQ(kit::count(dot_plot_svg("s", {{"one", value}}), "<circle"), 1U);
+  EXPECT_EQ(kit::count(pareto_plot_svg("s", "kJ", {{"one", value, value}}), "<circle"), 1U);
 }
 
 TEST(ParetoPlot, marks_what_nothing_beats_in_both) {
