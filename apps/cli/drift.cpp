@@ -246,12 +246,20 @@ int show(const DriftOptions& options,
   return exit_success;
 }
 
+/// Where no flight can be planned, the one that says why.
+std::vector<DriftCase> cases_of(const DriftOptions& options, std::uint64_t seed) {
+  const auto planned = plan_flight(options.flight, options.policies.front(), seed, "");
+  const auto* flight = std::get_if<PlannedFlight>(&planned);
+  return flight == nullptr ? std::vector<DriftCase>{{}}
+                           : drift_cases(options.at_s, flight->scenario);
+}
+
 int drift(const DriftOptions& options) {
   const Result<std::vector<std::uint64_t>> seeds = read_seeds(options.seeds);
   if (const auto errors = check_contest(options.flight, options.policies, seeds); !errors.empty()) {
     return refuse(errors);
   }
-  const std::vector<DriftCase> cases = drift_cases(options.at_s);
+  const std::vector<DriftCase> cases = cases_of(options, seeds->front());
   auto planned = plan(options, cases, *seeds);
   if (const auto* errors = std::get_if<std::vector<Error>>(&planned)) {
     return refuse(*errors);
@@ -262,6 +270,11 @@ int drift(const DriftOptions& options) {
       ClaimedFolder::claim(comparison_folder(options.flight, entries.front().scenario));
   if (!claimed) {
     return refuse({claimed.error()});
+  }
+  for (const DriftCase& one : cases) {
+    if (!one.caveat.empty()) {
+      remark(one.caveat);
+    }
   }
   std::vector<const PlannedFlight*> flights;
   for (const DriftEntry& entry : entries) {

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/studies/drift.h"
 
+#include "flyball/scenario/shipped_platform.h"
+
 #include "records/json_counts.h"
 #include "scenario/scenario_fields.h"
 #include <fstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 namespace flyball {
 namespace {
 
-std::vector<std::string> event(int number,
+std::vector<std::string> event(std::size_t number,
                                double at_s,
                                const std::string& kind,
                                const std::vector<std::string>& rest) {
@@ -20,6 +23,23 @@ std::vector<std::string> event(int number,
     settings.push_back(key + setting);
   }
   return settings;
+}
+
+DriftCase heat_case(std::vector<std::string> settings, const Scenario& flown) {
+  DriftCase heat{"heat", "the heat sink gets bad (20 K/W, air of 45 degrees Celsius)", {}, {}};
+  const std::string& name = flown.platform.name;
+  const Result<PlatformModel> platform = find_platform(name);
+  if (platform && !platform->thermal) {
+    settings.emplace_back("platform.name=jetson_tx2_passive");
+    heat.caveat =
+        "event heat flies on jetson_tx2_passive, because nothing is known of the heat of " + name +
+        ": it has no [thermal] table";
+  }
+  if (flown.platform.start_temperature_c == 0.0) {  // A flight ends before a cold one gets hot.
+    settings.emplace_back("platform.start_temperature_c=78");
+  }
+  heat.settings = std::move(settings);
+  return heat;
 }
 
 void take_row(const nlohmann::json& row, DriftRecord& record) {
@@ -32,16 +52,15 @@ void take_row(const nlohmann::json& row, DriftRecord& record) {
 
 }  // namespace
 
-std::vector<DriftCase> drift_cases(double at_s) {
-  std::vector<std::string> hot = event(1, at_s, "cooling", {"resistance_k_w=20", "ambient_c=45"});
-  hot.insert(hot.end(), {"platform.name=jetson_tx2_passive", "platform.start_temperature_c=78"});
+std::vector<DriftCase> drift_cases(double at_s, const Scenario& flown) {
+  const std::size_t number = flown.events.size() + 1;  // Behind the scenario's own ones.
   return {
       {"none", "nothing happens", {}},
       {"slowdown", "all kernels cost 3 times what the platform's file says",
-       event(1, at_s, "slowdown", {"factor=3"})},
+       event(number, at_s, "slowdown", {"factor=3"})},
       {"co_runner", "somebody takes 3 of 4 cores and half of the memory's bandwidth",
-       event(1, at_s, "co_runner", {"cores=3", "memory_share=0.5"})},
-      {"heat", "the heat sink gets bad (20 K/W, air of 45 degrees Celsius)", hot},
+       event(number, at_s, "co_runner", {"cores=3", "memory_share=0.5"})},
+      heat_case(event(number, at_s, "cooling", {"resistance_k_w=20", "ambient_c=45"}), flown),
   };
 }
 

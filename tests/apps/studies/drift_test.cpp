@@ -51,11 +51,54 @@ TEST(Drift, a_damaged_record_is_refused) {
   }
 }
 
-TEST(Drift, every_case_is_settings_of_a_scenario) {
-  for (const DriftCase& one : drift_cases(event_s)) {
-    const auto loaded = load_scenario("delivery_congestion", one.settings);
-    EXPECT_TRUE(std::holds_alternative<LoadedScenario>(loaded)) << one.name;
+Scenario loaded_with(const std::vector<std::string>& settings) {
+  auto loaded = load_scenario("delivery_congestion", settings);
+  return std::get<LoadedScenario>(loaded).scenario;
+}
+
+/// The scenarios of all cases on top of these settings.
+std::vector<Scenario> cases_on(const std::vector<std::string>& settings) {
+  std::vector<Scenario> all;
+  for (const DriftCase& one : drift_cases(event_s, loaded_with(settings))) {
+    std::vector<std::string> both = settings;
+    both.insert(both.end(), one.settings.begin(), one.settings.end());
+    all.push_back(loaded_with(both));
   }
+  return all;
+}
+
+TEST(Drift, events_come_after_those_of_the_scenario) {
+  const auto all = cases_on({"events.1.kind=slowdown", "events.1.at_s=5", "events.1.factor=2"});
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].events.size(), 1U);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ASSERT_EQ(all[i].events.size(), 2U);
+    EXPECT_EQ(all[i].events[0].at_s, 5.0);
+    EXPECT_EQ(all[i].events[1].at_s, event_s);
+  }
+}
+
+TEST(Drift, heat_comes_to_the_computer_that_was_chosen_if_its_heat_is_known) {
+  const ScratchFolder folder;
+  const std::string mine = folder.file("mine.toml", R"(
+    like = "jetson_tx2"
+    name = "mine"
+    [thermal]
+    ambient_c = 40.0
+    resistance_k_w = 8.0
+    time_constant_s = 540.0
+    [[thermal.trips]]
+    at_c = 90.0
+    hysteresis_k = 2.0
+    cap_hz = 345.6e6
+  )");
+  EXPECT_EQ(cases_on({"platform.name=" + mine}).back().platform.name, mine);
+  EXPECT_EQ(drift_cases(event_s, loaded_with({"platform.name=" + mine})).back().caveat, "");
+  const auto warm = cases_on({"platform.name=" + mine, "platform.start_temperature_c=50"});
+  EXPECT_EQ(warm.back().platform.start_temperature_c, 50.0);
+  const auto unknown = drift_cases(event_s, loaded_with({"platform.name=jetson_tx2"})).back();
+  EXPECT_NE(unknown.caveat.find("on jetson_tx2_passive, because"), std::string::npos);
+  EXPECT_EQ(cases_on({"platform.name=jetson_tx2"}).back().platform.name, "jetson_tx2_passive");
 }
 
 /// Over open ground, long enough for 300 decisions; small pictures, which are what costs host time.
@@ -79,7 +122,7 @@ DriftCount late_after(const MissionRecord& record) {
 
 // The share that is asked for is 5 %.
 TEST(Drift, a_calibrated_bound_holds_when_costs_triple_and_one_calibrated_once_does_not) {
-  const DriftCase slowdown = drift_cases(event_s)[1];
+  const DriftCase slowdown = drift_cases(event_s, loaded_with({}))[1];
   ASSERT_EQ(slowdown.name, "slowdown");
   const MissionRecord calibrated = flown_with("mission_energy", slowdown);
   EXPECT_NE(calibrated.summary.failure, MissionFailure::collision);

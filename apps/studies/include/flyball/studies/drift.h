@@ -8,6 +8,7 @@
 #include "flyball/runtime/recorder.h"
 #include "flyball/runtime/result.h"
 #include "flyball/runtime/time.h"
+#include "flyball/scenario/scenario.h"
 
 #include <cstdint>
 #include <string>
@@ -20,11 +21,15 @@ struct DriftCase {
   std::string name{};
   std::string description{};
   std::vector<std::string> settings{};
+  std::string caveat{};  ///< A sentence for the user where it changes more than the event.
 };
 
 /// `none`, and one of each: costs that are three times the file's, a co-runner with half the cores
-/// and memory, a computer behind a heat sink that gets bad.
-[[nodiscard]] std::vector<DriftCase> drift_cases(double at_s);
+/// and memory, a computer behind a heat sink that gets bad. The last one needs a thermal model: a
+/// platform without one is exchanged.
+///
+/// @param flown  The scenario that the settings are for. Its own events stay.
+[[nodiscard]] std::vector<DriftCase> drift_cases(double at_s, const Scenario& flown);
 
 /// The count of a policy's latency bounds at one moment, as recorded.
 struct BoundRow {
