@@ -15,6 +15,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -47,8 +48,13 @@ struct Outcome {
   std::size_t flights{};
   std::size_t succeeded{};
   std::size_t collisions{};
-  double energy_j{};  ///< Sum.
+  double energy_j{};  ///< Sum of those that succeeded: one that failed early needed little.
   PolicyTrouble trouble{};
+
+  /// Empty where none succeeded.
+  [[nodiscard]] std::optional<double> energy_mean_j() const {
+    return succeeded == 0 ? std::nullopt : std::optional{energy_j / static_cast<double>(succeeded)};
+  }
 };
 
 using DriftEntries = std::vector<DriftEntry>;
@@ -112,9 +118,11 @@ Status add(const DriftEntry& entry, double at_s, Outcome& outcome) {
                   : record.error();
   }
   ++outcome.flights;
-  outcome.succeeded += has_succeeded(picture->summary) ? 1 : 0;
+  if (has_succeeded(picture->summary)) {
+    ++outcome.succeeded;
+    outcome.energy_j += picture->summary.energy_total_j();
+  }
   outcome.collisions += picture->summary.failure == MissionFailure::collision ? 1 : 0;
-  outcome.energy_j += picture->summary.energy_total_j();
   outcome.trouble.add(picture->summary);
   const DriftCount count =
       count_bounds(*record, MissionTime{from_seconds(at_s)}, first_bound, last_bound);
@@ -175,13 +183,13 @@ std::string to_text(const DriftOptions& options,
       {"event", "policy", "late", "of bounds", "share", "succeeded", "collisions", "energy kJ"}};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& one = outcomes[i];
-    lines.push_back({cases[i / options.policies.size()].name,
-                     options.policies[i % options.policies.size()],
-                     std::to_string(one.latency_bounds.late),
-                     std::to_string(one.latency_bounds.decisions), share_of(one.latency_bounds),
-                     std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
-                     std::to_string(one.collisions),
-                     rounded(1e-3 * one.energy_j / static_cast<double>(one.flights), 1)});
+    const std::optional<double> energy_j = one.energy_mean_j();
+    lines.push_back(
+        {cases[i / options.policies.size()].name, options.policies[i % options.policies.size()],
+         std::to_string(one.latency_bounds.late), std::to_string(one.latency_bounds.decisions),
+         share_of(one.latency_bounds),
+         std::to_string(one.succeeded) + "/" + std::to_string(one.flights),
+         std::to_string(one.collisions), energy_j ? rounded(1e-3 * *energy_j, 1) : "-"});
   }
   std::string text = "Latency bounds " + std::to_string(first_bound) + " to " +
                      std::to_string(last_bound) + " after the event, over all seeds:\n" +
@@ -215,6 +223,7 @@ std::string to_json(const DriftOptions& options,
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& one = outcomes[i];
+    const std::optional<double> energy_j = one.energy_mean_j();
     all.push_back({{"event", cases[i / options.policies.size()].name},
                    {"policy", options.policies[i % options.policies.size()]},
                    {"latency_bounds", one.latency_bounds.decisions},
@@ -226,7 +235,8 @@ std::string to_json(const DriftOptions& options,
                    {"collisions", one.collisions},
                    {"policy_faults", one.trouble.faults},
                    {"policy_trouble", one.trouble.why},
-                   {"energy_mean_j", one.energy_j / static_cast<double>(one.flights)}});
+                   {"energy_mean_j",
+                    energy_j ? nlohmann::ordered_json(*energy_j) : nlohmann::ordered_json()}});
   }
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -164,6 +164,19 @@ TEST(ManyFlights, say_that_a_policy_failed_and_do_not_choose_it) {
   EXPECT_TRUE(has(asked.output, sentence)) << asked.output << asked.errors;
 }
 
+TEST(ManyFlights, that_failed_count_for_no_energy_of_a_drift) {
+  const FlyballProgram flyball;
+  const std::string command = "drift delivery_forest" + std::string{few_metres} +
+                              "--policies fixed_fine --at 0.5 --set mission.time_limit_s=1";
+  const auto table = flyball.run(command);
+  EXPECT_EQ(table.exit_code, 0) << table.errors;
+  EXPECT_TRUE(has(table.output, "0/1        0           -\n")) << table.output;
+  EXPECT_TRUE(has(table.errors, "event heat flies on jetson_tx2_passive, because "))
+      << table.errors;
+  const auto json = flyball.run(command + " --json");
+  EXPECT_TRUE(has(json.output, "\"energy_mean_j\": null")) << json.output;
+}
+
 TEST(ManyFlights, show_the_knobs_of_each_policy_on_one_page_also_of_flights_from_the_store) {
   const FlyballProgram flyball;
   const std::string command =
