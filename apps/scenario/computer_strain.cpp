@@ -3,6 +3,7 @@
 
 #include "scenario/scenario_fields.h"
 #include <algorithm>
+#include <set>
 
 namespace flyball {
 namespace {
@@ -20,12 +21,33 @@ double most_taken(const std::vector<ComputerEvent>& events) {
   return most;
 }
 
+/// The names between the commas, also empty ones.
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list) {
+    if (c == ',') {
+      names.emplace_back();
+    } else if (c != ' ' && c != '\t') {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
 /// @param place  Of the slowdown in the list of events.
 void check_prices(const ComputerEvent& slowdown,
                   std::size_t place,
                   const PlatformModel& platform,
                   std::vector<Error>& errors) {
+  std::set<std::string> known;
   for (const std::string& name : kernels_of(slowdown)) {
+    if (name.empty() || !known.insert(name).second) {  // The factor would count twice.
+      errors.push_back(
+          impossible(place, ".kernels = \"" + slowdown.kernels + "\" has " +
+                                (name.empty() ? "an empty name" : "\"" + name + "\" twice") +
+                                "; name each kernel once, with commas between, or give all"));
+      return;
+    }
     if (platform.kernels.find(name) == platform.kernels.end()) {
       errors.push_back(impossible(place, ".kernels: " + platform.name +
                                              " has no price for a kernel \"" + name +
@@ -37,18 +59,7 @@ void check_prices(const ComputerEvent& slowdown,
 }  // namespace
 
 std::vector<std::string> kernels_of(const ComputerEvent& event) {
-  std::vector<std::string> names;
-  std::string name;
-  for (const char c : event.kernels + ",") {
-    if (c == ',') {
-      if (!name.empty()) {
-        names.push_back(name);
-      }
-      name.clear();
-    } else if (c != ' ' && c != '\t') {
-      name += c;
-    }
-  }
+  std::vector<std::string> names = names_in(event.kernels);
   return names == std::vector<std::string>{"all"} ? std::vector<std::string>{} : names;
 }
 

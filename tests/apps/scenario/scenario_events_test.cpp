@@ -125,6 +125,15 @@ TEST(ScenarioEvents, what_the_platform_cannot_do_is_refused) {
       said_of("[[events]]\nkind = \"slowdown\"\nat_s = 1\nfactor = 3\nkernels = \"octomop\"\n")
           .find("jetson_tx2 has no price for a kernel \"octomop\""),
       std::string::npos);
+  for (const auto& [kernels, has] : {std::pair{"octomap, octomap", "\"octomap\" twice"},
+                                     {",", "an empty name"},
+                                     {"octomap,", "an empty name"}}) {
+    const std::string list{kernels};
+    EXPECT_EQ(said_of("[[events]]\nkind = \"slowdown\"\nat_s = 1\nfactor = 3\nkernels = \"" + list +
+                      "\"\n"),
+              "events.1.kernels = \"" + list + "\" has " + has +
+                  "; name each kernel once, with commas between, or give all\n");
+  }
   EXPECT_NE(said_of("[[events]]\nkind = \"cooling\"\nat_s = 1\nresistance_k_w = 9\nambient_c = 9\n")
                 .find("jetson_tx2 has no [thermal] table"),
             std::string::npos);
