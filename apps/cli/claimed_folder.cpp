@@ -16,14 +16,24 @@
 namespace flyball {
 namespace {
 
-/// On a file system without locks no process waits for another one.
-void lock(int folder, const std::string& path) {
+/// On a file system without locks no process waits for another one. A signal ends a process that
+/// waits: it has nothing to keep, and one that is only remembered might come just before the wait.
+/// @return False where a signal came before.
+bool lock(int folder, const std::string& path) {
   if (flock(folder, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-    return;
+    return true;
+  }
+  const bool was_caught = release_interrupt();
+  if (was_interrupted()) {
+    return false;
   }
   note("another flyball flies into \"" + path + "\"; waiting until it has finished");
   while (flock(folder, LOCK_EX) != 0 && errno == EINTR) {
   }
+  if (was_caught) {
+    catch_interrupt();
+  }
+  return true;
 }
 
 /// The process that had the folder before may have removed it.
@@ -46,10 +56,11 @@ Result<ClaimedFolder> ClaimedFolder::claim(const std::string& path) {
     if (folder < 0 && errno == ENOENT) {
       continue;  // The process that had it before has removed it since.
     }
-    if (folder >= 0) {
-      lock(folder, path);
-    }
     ClaimedFolder claimed{folder, std::move(*made)};
+    if (folder >= 0 && !lock(folder, path)) {
+      return Error{ErrorCode::unavailable,
+                   "interrupted while another flyball flew into \"" + path + "\"; nothing flew"};
+    }
     if (folder < 0 || is_still_there(folder, path)) {  // One that cannot be read can be written.
       return claimed;
     }

@@ -16,7 +16,7 @@ namespace flyball {
 class ClaimedFolder {
  public:
   /// Makes the folder where it is missing. Waits, and says so, while another process has it.
-  /// @error Those of `prepare_folder`.
+  /// @error Those of `prepare_folder`; `unavailable` when it was interrupted while it waited.
   static Result<ClaimedFolder> claim(const std::string& path);
   ClaimedFolder(ClaimedFolder&& other) noexcept;
   ClaimedFolder& operator=(ClaimedFolder&&) = delete;

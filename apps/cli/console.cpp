@@ -131,6 +131,19 @@ void catch_interrupt() {
   }
 }
 
+bool release_interrupt() {
+  bool was_caught = false;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == remember) {
+      std::signal(signal, SIG_DFL);
+      was_caught = true;
+    }
+  }
+  return was_caught;
+}
+
 bool was_interrupted() {
   return interrupted != 0;
 }

@@ -41,6 +41,9 @@ void remark(const std::string& sentence);
 /// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP are only remembered, unless they are ignored; a
 /// second one ends the program at once.
 void catch_interrupt();
+/// They end the program again, while it waits without anything to keep.
+/// @return Whether `catch_interrupt` had caught any of them.
+bool release_interrupt();
 [[nodiscard]] bool was_interrupted();
 /// 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP.
 [[nodiscard]] int interrupted_exit_code();

@@ -10,6 +10,7 @@
 #include "flyball/simulation/mission.h"
 #include "flyball/simulation/tracking_remarks.h"
 
+#include "claimed_folder.h"
 #include "cli/computer/autopilot_option.h"
 #include "cli/computer/depth_camera_option.h"
 #include "cli/computer/real_computer.h"
@@ -338,11 +339,12 @@ int run(const RunOptions& options) {
     remark(told);
   }
   catch_interrupt();  // A flight can be ended as soon as anything of it shows.
-  const Result<std::vector<std::string>> prepared = prepare_folder(folder);
-  if (!prepared) {
-    return refuse({prepared.error()});
+  const auto claimed = ClaimedFolder::claim(folder);
+  if (!claimed) {
+    const int refused = refuse({claimed.error()});
+    return was_interrupted() ? interrupted_exit_code() : refused;
   }
-  return fly_into(folder, *prepared, options, scenario,
+  return fly_into(folder, claimed->made(), options, scenario,
                   {**computer, autopilot->get(), depth_camera->get()});
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 
 namespace {
 
@@ -123,6 +124,30 @@ TEST(CliSignals, two_at_once_in_one_folder_both_finish_without_loss) {
   EXPECT_FALSE(fs::exists(flyball.place.path("t/near"))) << "no flight is left uncounted";
   const Words comparison{"compare", near, "--seeds", "1..2", "--out", "c", "--json"};
   expect_both_finish(flyball, comparison, "fixed_fine,fixed_coarse", "fixed_fine,fixed_coarse");
+}
+
+TEST(CliSignals, a_run_waits_for_its_folder_and_can_be_ended_meanwhile) {
+  const FlyballProgram flyball;
+  const std::string near =
+      flyball.place.file("near.toml",
+                         "name = \"near\"\n[world]\ngenerator = \"empty\"\ngoal_distance_m = 5.0\n"
+                         "[camera]\nwidth_px = 32\nheight_px = 18\n");
+  const std::string place = flyball.place.path("r");
+  fs::create_directory(place);
+  const int folder = open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(flock(folder, LOCK_EX), 0);
+  const Words run{"run", near, "--out", "r"};
+  FlyballProcess ended{flyball, run};
+  ended.wait_for_words("another flyball flies into \"r\"");
+  ended.send(SIGINT);
+  EXPECT_EQ(ended.exit_code(), -SIGINT);
+  EXPECT_TRUE(fs::is_empty(place));
+  FlyballProcess patient{flyball, run};
+  patient.wait_for_words("another flyball flies into \"r\"");
+  flock(folder, LOCK_UN);
+  EXPECT_EQ(patient.exit_code(), 0) << patient.errors();
+  EXPECT_TRUE(fs::exists(place + "/mission.toml"));
+  close(folder);
 }
 
 }  // namespace

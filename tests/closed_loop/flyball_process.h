@@ -55,14 +55,11 @@ class FlyballProcess {
 
   /// Until it has written a file or folder; a failure if it ends before.
   void wait_for_file(const std::string& name) {
-    while (!std::filesystem::exists(place_ + name)) {
-      if (waitpid(id_, &status_, WNOHANG) == id_) {
-        has_ended_ = true;
-        ADD_FAILURE() << "ended too early, status " << status_ << "\n" << errors();
-        return;
-      }
-      std::this_thread::yield();
-    }
+    wait_for([&] { return std::filesystem::exists(place_ + name); });
+  }
+  /// Until it has said so on standard error; a failure if it ends before.
+  void wait_for_words(const std::string& words) {
+    wait_for([&] { return errors().find(words) != std::string::npos; });
   }
   void send(int signal) const {
     if (!has_ended_) {
@@ -103,6 +100,17 @@ class FlyballProcess {
   [[nodiscard]] std::string errors() const { return said_.content("err"); }
 
  private:
+  template <class Condition>
+  void wait_for(Condition holds) {
+    while (!holds()) {
+      if (waitpid(id_, &status_, WNOHANG) == id_) {
+        has_ended_ = true;
+        ADD_FAILURE() << "ended too early, status " << status_ << "\n" << errors();
+        return;
+      }
+      std::this_thread::yield();
+    }
+  }
   static pid_t parent_of(const std::string& process) {
     std::ifstream file{"/proc/" + process + "/stat"};
     std::string word;
