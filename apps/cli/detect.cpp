@@ -114,8 +114,10 @@ void add_detect(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.05, 8.0));
   refuse_empty(*command->add_option("--set", options->settings, "parameter of the detector")
                     ->type_name("NAME=VALUE"));
-  command->add_option("--models", run.models_folder, "folder that is searched first for weights")
-      ->type_name("DIR");
+  refuse_empty(
+      *command
+           ->add_option("--models", run.models_folder, "folder that is searched first for weights")
+           ->type_name("DIR"));
   command->add_option("--every", run.every, "analyses every Nth frame of a video")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
   refuse_empty(

@@ -131,15 +131,17 @@ void add_localize(CLI::App& program, int& exit_code) {
       "localize", "finds the path of a recorded flight (TUM RGB-D or EuRoC layout)");
   const auto options = std::make_shared<LocalizeOptions>();  // Owners: the parser's callbacks.
   add_recording_options(*command, options->recording);
-  command->add_option("--localizer", options->localizer, "visual_slam or visual_inertial")
-      ->type_name("NAME");
+  refuse_empty(
+      *command->add_option("--localizer", options->localizer, "visual_slam or visual_inertial")
+           ->type_name("NAME"));
   refuse_nan(*command
                   ->add_option("--uncertain-above", options->uncertain_above_m,
                                "counts poses whose expected error is larger; 0.1 by default")
                   ->type_name("M")
                   ->check(CLI::Range(1e-4, 1000.0)));
-  command->add_option("--out", options->out, "writes the path there, as TUM's tools read it")
-      ->type_name("FILE");
+  refuse_empty(
+      *command->add_option("--out", options->out, "writes the path there, as TUM's tools read it")
+           ->type_name("FILE"));
   command->add_flag("--json", options->as_json, "prints JSON");
   add_kernels(*command, options->plugins);
   command->callback([options, &exit_code] { exit_code = localize(*options); });

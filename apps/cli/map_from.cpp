@@ -195,14 +195,15 @@ void add_map_from(CLI::App& map, int& exit_code) {
       ->add_option("--range", options->settings.map.range_m,
                    "depth beyond it frees space and marks nothing occupied")
       ->type_name("M");
-  command
-      ->add_option("--poses", options->poses,
-                   "a file of lines `time tx ty tz qx qy qz qw`, in place of the true path")
-      ->type_name("FILE");
-  command
-      ->add_option("--localizer", options->localizer,
-                   "finds the poses: visual_slam or visual_inertial")
-      ->type_name("NAME");
+  refuse_empty(
+      *command
+           ->add_option("--poses", options->poses,
+                        "a file of lines `time tx ty tz qx qy qz qw`, in place of the true path")
+           ->type_name("FILE"));
+  refuse_empty(*command
+                    ->add_option("--localizer", options->localizer,
+                                 "finds the poses: visual_slam or visual_inertial")
+                    ->type_name("NAME"));
   command->add_option("--every", options->settings.every, "uses every Nth frame")->type_name("N");
   command->add_flag("--json", options->as_json, "prints JSON");
   add_kernels(*command, options->plugins);

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "flight_options.h"
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -49,7 +50,8 @@ void add_models(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "models", "prints which networks' weights are known, and checks those that are here");
   const auto folder = std::make_shared<std::string>("shipped");  // Owners: the parser's callbacks.
-  command->add_option("--folder", *folder, "folder that is searched first")->type_name("DIR");
+  refuse_empty(
+      *command->add_option("--folder", *folder, "folder that is searched first")->type_name("DIR"));
   command->callback([folder, &exit_code] { exit_code = list_models(*folder); });
 }
 

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/computer/real_computer.h"
 #include "cli/console.h"
+#include "cli/flight_options.h"
 #include <filesystem>
 #include <memory>
 
@@ -73,22 +74,26 @@ void add_board(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "board", "prints what this computer has, what may be set, what not and why");
   const auto given = std::make_shared<BoardArguments>();  // Owners: the parser's callbacks.
-  command->add_option("--root", given->root, "looks at /sys and /proc below this folder instead")
-      ->type_name("DIR");
-  command
-      ->add_option("--board", given->board,
-                   "a name from `flyball list boards`, if the model of this computer does not tell")
-      ->type_name("NAME");
+  refuse_empty(
+      *command
+           ->add_option("--root", given->root, "looks at /sys and /proc below this folder instead")
+           ->type_name("DIR"));
+  refuse_empty(
+      *command
+           ->add_option(
+               "--board", given->board,
+               "a name from `flyball list boards`, if the model of this computer does not tell")
+           ->type_name("NAME"));
   CLI::App* setup_command =
       command->add_subcommand("setup", "tells how a user other than root may set clocks and cores");
   setup_command->add_flag("--print", given->prints, "prints a script for root; writes nothing");
   setup_command->callback([given, &exit_code] { exit_code = setup(*given); });
   CLI::App* restore_command = command->add_subcommand(
       "restore", "restores what a session left that was killed together with its watchdog");
-  restore_command
-      ->add_option("--run-folder", given->run_folder,
-                   "the folder with its lock and journal (default: /run/flyball)")
-      ->type_name("DIR");
+  refuse_empty(*restore_command
+                    ->add_option("--run-folder", given->run_folder,
+                                 "the folder with its lock and journal (default: /run/flyball)")
+                    ->type_name("DIR"));
   restore_command->callback([given, &exit_code] { exit_code = restore(*given); });
   command->callback([command, given, &exit_code] {
     if (command->get_subcommands().empty()) {

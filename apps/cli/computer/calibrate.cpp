@@ -313,10 +313,12 @@ void add_calibrate(CLI::App& program, int& exit_code) {
            ->capture_default_str());
   command->add_flag("--set-clocks", given->sets_clocks,
                     "measures at every clock that may be set, and restores it");
-  command
-      ->add_option("--board", given->board,
-                   "a name from `flyball list boards`, if the model of this computer does not tell")
-      ->type_name("NAME");
+  refuse_empty(
+      *command
+           ->add_option(
+               "--board", given->board,
+               "a name from `flyball list boards`, if the model of this computer does not tell")
+           ->type_name("NAME"));
   command->callback([given, &exit_code] {
     catch_interrupt();
     exit_code = calibrate_into(*given);

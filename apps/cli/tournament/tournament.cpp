@@ -279,7 +279,13 @@ void add_tournament(CLI::App& program, int& exit_code) {
       ->type_name("[POLICY]");
   command->get_option("--policies")->required(false);
   add_output(*command, options->flight);
-  command->callback([options, &exit_code] { exit_code = hold_tournament(*options); });
+  command->callback([options, command, &exit_code] {
+    // The option may stand alone, so that no check of its own would see an empty name.
+    if (command->count("--ablate") > 0 && options->ablated.empty()) {
+      throw CLI::ValidationError{"--ablate", "is empty"};
+    }
+    exit_code = hold_tournament(*options);
+  });
 }
 
 }  // namespace flyball

@@ -21,6 +21,14 @@ TEST(WrongNames, are_answered_with_what_was_meant) {
       {"reproduce resolution_enrgy", "did you mean resolution_energy? try: flyball list"},
       {"tune delivery_forest --try range_m=7 --preset x.txt", "--preset x.txt must end in .toml"},
       {"run delivery_forest --seed 18446744073709551615", "from 0 to 2^63 - 1"},
+      {"tournament --worlds delivery_forest --policies two_level --ablate ''",
+       "--ablate: is empty"},
+      {"localize . --out ''", "--out: is empty"},
+      {"map from . --out m.bt --poses ''", "--poses: is empty"},
+      {"map from . --out m.bt --localizer ''", "--localizer: is empty"},
+      {"board --board ''", "--board: is empty"},
+      {"detect . --models ''", "--models: is empty"},
+      {"models --folder ''", "--folder: is empty"},
   };
   for (const auto& [arguments, sentence] : refused) {
     const auto outcome = flyball.run(arguments);
