@@ -18,10 +18,13 @@ namespace {
 constexpr const char* left_out = "without";  // The parameter.
 
 /// The preset of this name, or the policy with its default parameters.
-Result<Preset> preset_of(const std::string& name) {
+Result<Preset> preset_of(const std::string& name, const Plugins& plugins) {
   const auto file = find_shipped("presets", name);
   if (file) {
     return load_preset(*file);
+  }
+  if (!plugins.make<Policy>(name)) {
+    return Error{file.error().code, "--ablate: " + file.error().message};
   }
   Preset preset;
   preset.policy = name;
@@ -37,7 +40,7 @@ std::string Ablations::file_of(const AblatedPolicy& variant) const {
 Result<Ablations> find_ablations(const std::string& name,
                                  const Plugins& plugins,
                                  const std::string& folder) {
-  auto preset = preset_of(name);
+  auto preset = preset_of(name, plugins);
   if (!preset) {
     return preset.error();
   }

@@ -145,7 +145,7 @@ TEST_F(Cli, refuses_pairs_of_policies_that_do_not_fly) {
 TEST_F(Cli, refuses_to_leave_out_parts_that_a_policy_has_not) {
   const std::string line = "tournament --worlds delivery_forest --out t ";
   expect_refused(line + "--ablate fixed_fine", "--ablate fixed_fine has no parameter \"without\"");
-  expect_refused(line + "--ablate nobody", "--ablate nobody has no parameter");
+  expect_refused(line + "--ablate nobody", "--ablate: no policy \"nobody\"");
   expect_refused(line, "give --policies A,B,C, or --ablate");
   expect_refused(line + "--policies two_level --pairs fixed_best:two_level",
                  "give two of --policies with a colon between");
