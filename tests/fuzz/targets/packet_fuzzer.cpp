@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       decision.reason = static_cast<flyball::Reason>(answer.reason);
       require(!flyball::to_string(decision.reason).empty(), "a reason has a name");
       for (std::size_t i = 0; i < answer.size; ++i) {
-        decision.set(answer.unknown.data(), answer.wishes[i].value);
+        decision.set("any", answer.wishes[i].value);
       }
       require(!decision.overflowed(), "it holds as many wishes as a packet has");
     }
