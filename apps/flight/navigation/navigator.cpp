@@ -122,6 +122,11 @@ void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) 
     return;
   }
   search_.reset();
+  // Where nothing is mapped, the path is as free as before, and a new one would begin again with
+  // what has been scanned.
+  if (!brief_->maps_obstacles && follower_.has_path()) {
+    return;
+  }
   hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
   if (goal_W_) {
     patience_.resume(now);

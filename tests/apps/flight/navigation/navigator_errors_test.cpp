@@ -62,6 +62,21 @@ TEST(Navigator, stays_where_a_search_for_its_place_has_ended) {
   }
 }
 
+TEST(Navigator, flies_its_path_on_after_a_search_for_its_place_where_nothing_is_mapped) {
+  Trip trip;
+  trip.rig.brief->maps_obstacles = false;
+  trip.set_goal(Vec3{20, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  Setpoint search;
+  search.p_WB = trip.where.X_WB.translation() - Vec3{2, 0, 0};
+  (void)trip.navigator.tick(trip.now, 20ms, trip.where, search);
+  trip.tick(1);
+  EXPECT_FALSE(trip.navigator.next_query(trip.now));
+  trip.tick(2000);
+  EXPECT_TRUE(trip.navigator.has_arrived());
+}
+
 // A long search on a slow computer, or one on the way from an edge computer.
 TEST(Navigator, takes_a_path_that_it_has_nearly_given_up) {
   Trip trip;
