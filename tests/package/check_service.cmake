@@ -12,3 +12,33 @@ execute_process(COMMAND ${analyze} verify --man=no ${folder}/flyball@delivery_fo
 if(failed OR said)
   message(FATAL_ERROR "systemd-analyze verify: ${failed}\n${said}")
 endif()
+
+# setting(<name>): `value`, what the unit says behind it, or nothing.
+function(setting name)
+  set(value "")
+  if(unit MATCHES "\n${name}=([^\n]*)")
+    set(value "${CMAKE_MATCH_1}")
+  endif()
+  set(value "${value}" PARENT_SCOPE)
+endfunction()
+
+# Of a dynamic user systemd makes the group, too, and refuses when there is one of that name: the setup
+# makes those of SupplementaryGroups=. Without User= it takes the unit's name up to the @.
+setting(DynamicUser)
+set(dynamic ${value})
+setting(SupplementaryGroups)
+string(REPLACE " " ";" groups "${value}")
+setting(User)
+if(dynamic AND (value STREQUAL "" OR value IN_LIST groups))
+  message(FATAL_ERROR "DynamicUser=yes with User=${value} cannot start where there is a group \"flyball\"; "
+                      "give User= a name that no group has")
+endif()
+
+# `systemctl enable` makes the link that starts it with the board.
+set(root ${folder}/root)
+file(COPY ${flyball}/apps/cli/service/flyball@.service DESTINATION ${root}/usr/lib/systemd/system)
+execute_process(COMMAND systemctl --root=${root} enable flyball@delivery_forest.service
+                RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)
+if(failed OR NOT IS_SYMLINK ${root}/etc/systemd/system/multi-user.target.wants/flyball@delivery_forest.service)
+  message(FATAL_ERROR "systemctl enable: ${failed}, and no link in multi-user.target.wants\n${said}")
+endif()
