@@ -17,7 +17,7 @@ LIST
 
 # What the build links: of the one list of packages the libraries, and those of the compiler.
 libraries() {
-  build_packages | awk '$1 ~ /-dev$/ && $1 != "libbenchmark-dev" { printf "%s,", $1 }'
+  build_packages | awk '$1 ~ /-dev$/ && $1 !~ /^(libbenchmark|dpkg)-dev$/ { printf "%s,", $1 }'
   printf 'libc6-dev,libstdc++-12-dev,opencv-data'
 }
 

@@ -33,6 +33,9 @@ nlohmann-json3-dev      3.11.2
 liblua5.4-dev           5.4.4
 libgtest-dev            1.12.1
 libbenchmark-dev        1.7.1
+python3                 3.11.2
+dpkg-dev                1.21.22
+file                    5.44
 LIST
 }
 lint_packages() {

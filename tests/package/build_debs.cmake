@@ -27,6 +27,15 @@ function(refuse text pattern what)
   endif()
 endfunction()
 
+# Packages whose dependencies nobody can tell are not made.
+execute_process(COMMAND ${CMAKE_CPACK_COMMAND} --config ${built}/CPackConfig.cmake -B ${folder}/none
+                        -D CMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF -D CMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF
+                RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)
+if(NOT failed)
+  message(FATAL_ERROR "cpack makes packages without dpkg-shlibdeps:\n${said}")
+endif()
+expect("${said}" "there is no dpkg-shlibdeps here" "cpack without dpkg-shlibdeps")
+
 # This build was not made for /usr; what lies where beneath it is the same.
 run(${CMAKE_CPACK_COMMAND} --config ${built}/CPackConfig.cmake -B ${folder}
     -D CPACK_PACKAGING_INSTALL_PREFIX=/usr -D CPACK_DEBIAN_COMPRESSION_TYPE=zstd)
