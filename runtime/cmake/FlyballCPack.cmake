@@ -57,9 +57,14 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers, libraries and CMake files of Flyball")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "${CPACK_DEBIAN_GOVERNOR_PACKAGE_NAME} ${same_version}, flyball-data ${same_version}, libeigen3-dev, liblua5.4-dev")
+# Compiled in, it is found with the component `policies`.
+get_property(needs GLOBAL PROPERTY FLYBALL_NEEDS_policies)
+if(needs MATCHES "NLopt")
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libnlopt-dev")
+endif()
 if(FLYBALL_BUILD_SIM)
   set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
-      "libassimp-dev, libembree-dev, libmrpt-graphslam-dev, libmrpt-poses-dev, libmrpt-topography-dev, libnlopt-dev, liboctomap-dev, libompl-dev, libopencv-contrib-dev, libopencv-dev, libpng-dev, libsimbody-dev, libsqlite3-dev, libzstd-dev, nlohmann-json3-dev")
+      "libassimp-dev, libembree-dev, libmrpt-graphslam-dev, libmrpt-poses-dev, libmrpt-topography-dev, liboctomap-dev, libompl-dev, libopencv-contrib-dev, libopencv-dev, libpng-dev, libsimbody-dev, libsqlite3-dev, libzstd-dev, nlohmann-json3-dev")
 endif()
 
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)

@@ -67,6 +67,13 @@ expect("${depends}" "libflyball-governor0 \\(= " "libflyball-dev's Depends")
 expect("${files}" "/include/flyball/governors/governor\\.h" "libflyball-dev")
 expect("${files}" "/libflyball_runtime\\.a" "libflyball-dev")
 expect("${files}" "/cmake/Flyball/FlyballConfig\\.cmake" "libflyball-dev")
+# What the governors and policies look for is there wherever the package is.
+file(GLOB_RECURSE config ${folder}/root/usr/lib/FlyballConfig.cmake)
+file(READ ${config} config)
+expect("${depends}" "libeigen3-dev" "libflyball-dev's Depends")
+if(config MATCHES "find_dependency\\(NLopt")
+  expect("${depends}" "libnlopt-dev" "libflyball-dev's Depends")
+endif()
 
 package(flyball-data)
 expect("${files}" "/share/flyball/boards/.*\\.toml" "flyball-data")
