@@ -1,5 +1,5 @@
-# What the packages for 64-bit Arm depend on. dpkg-shlibdeps would need their libraries' packages installed
-# on this machine; here the list does that arm64_sysroot.sh keeps: `LIBRARY VERSION PACKAGES` in a line.
+# What the command's package for 64-bit Arm depends on. dpkg-shlibdeps would need its libraries' packages
+# installed on this machine; here the list does that arm64_sysroot.sh keeps: `LIBRARY VERSION PACKAGES` in a line.
 # cpack reads this when it begins (CPACK_PROJECT_CONFIG_FILE).
 
 # flyball_shlibs(<variable> <file>...): the packages of the libraries that these files link.
@@ -34,8 +34,6 @@ function(flyball_shlibs variable)
 endfunction()
 
 set(built ${CPACK_FLYBALL_BUILT})
-file(GLOB governor ${built}/governors/shared/libflyball_governor.so)
-flyball_shlibs(CPACK_DEBIAN_GOVERNOR_PACKAGE_DEPENDS ${governor})
 if(EXISTS ${built}/bin/flyball)
   file(GLOB modules ${built}/lib/flyball/*.so)
   flyball_shlibs(libraries ${built}/bin/flyball ${modules})
