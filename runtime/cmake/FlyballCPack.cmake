@@ -74,6 +74,13 @@ if(FLYBALL_BUILD_SIM)
       "libassimp-dev, libembree-dev, libmrpt-graphslam-dev, libmrpt-poses-dev, libmrpt-topography-dev, liboctomap-dev, libompl-dev, libopencv-contrib-dev, libopencv-dev, libpng-dev, libsimbody-dev, libsqlite3-dev, libzstd-dev, nlohmann-json3-dev")
 endif()
 
+# The licence asks to go with every copy, and this is where Debian's packages have theirs.
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  string(TOUPPER ${component} upper)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright COMPONENT ${component}
+          DESTINATION share/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+endforeach()
+
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
 endif()

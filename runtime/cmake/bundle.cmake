@@ -47,6 +47,53 @@ if(missing)
   message(FATAL_ERROR "these libraries are nowhere: ${missing}")
 endif()
 
+# bundle_licence(<package>): what its authors ask to go with copies, as far as it is on this machine.
+function(bundle_licence package)
+  set(file ${sysroot}/usr/share/doc/${package}/copyright)
+  if(EXISTS ${file})
+    file(REAL_PATH ${file} real)
+    file(MAKE_DIRECTORY ${root}/share/doc/${package})
+    file(COPY_FILE ${real} ${root}/share/doc/${package}/copyright)
+  endif()
+endfunction()
+
+# bundle_licence_of(<library>...): those of the packages that have these files. Some of Debian's packages
+# name them below /lib, others below /usr/lib.
+function(bundle_licence_of)
+  find_program(dpkg_query dpkg-query NO_CACHE)
+  if(NOT dpkg_query)
+    return()
+  endif()
+  set(names "")
+  foreach(library IN LISTS ARGN)
+    file(REAL_PATH ${library} real)
+    string(REGEX REPLACE "^/usr/" "/" short "${real}")
+    list(APPEND names ${real} ${short})
+  endforeach()
+  execute_process(COMMAND ${dpkg_query} --search ${names} OUTPUT_VARIABLE found ERROR_QUIET)
+  string(REGEX MATCHALL "[^\n:]+:[^\n]*" found "${found}")
+  list(TRANSFORM found REPLACE ":.*" "")
+  list(REMOVE_DUPLICATES found)
+  foreach(package IN LISTS found)
+    bundle_licence(${package})
+  endforeach()
+endfunction()
+
+# Beneath a root packages were unpacked only, so that nobody knows whose a file is: all of them.
+if(DEFINED sysroot)
+  file(GLOB packages RELATIVE ${sysroot}/usr/share/doc ${sysroot}/usr/share/doc/*)
+else()
+  bundle_licence_of(${libraries})
+  set(packages libcli11-dev libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev)  # Headers, compiled in.
+endif()
+foreach(package IN LISTS packages)
+  bundle_licence(${package})
+endforeach()
+# Where they speak of the GPL and its like, they name these.
+if(EXISTS ${sysroot}/usr/share/common-licenses)
+  file(COPY ${sysroot}/usr/share/common-licenses DESTINATION ${root}/share)
+endif()
+
 file(MAKE_DIRECTORY ${root}/lib/bundle)
 foreach(library IN LISTS libraries)
   cmake_path(GET library FILENAME file)

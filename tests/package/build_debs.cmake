@@ -54,6 +54,11 @@ function(package name)
   run(dpkg-deb -c ${deb})
   set(files "${said}" PARENT_SCOPE)
   run(dpkg-deb -x ${deb} ${folder}/root)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${flyball}/LICENSE ${folder}/root/usr/share/doc/${name}/copyright
+                  RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${name} has no share/doc/${name}/copyright with the licence")
+  endif()
 endfunction()
 
 package(libflyball-governor0)

@@ -7,6 +7,21 @@ file(MAKE_DIRECTORY ${folder}/root/tmp)
 
 execute_process(COMMAND ${CMAKE_COMMAND} -D built=${built} -D out=${folder}/root/opt/flyball -P
                         ${CMAKE_CURRENT_LIST_DIR}/../../runtime/cmake/bundle.cmake COMMAND_ERROR_IS_FATAL ANY)
+# With the licences of what is in it: this program's, libraries', headers'.
+set(licences ${folder}/root/opt/flyball/share/doc/flyball/copyright)
+find_program(dpkg_query dpkg-query)
+if(dpkg_query)
+  foreach(package libc6 libsimbody3.7 libgomp1 libeigen3-dev)
+    if(EXISTS /usr/share/doc/${package}/copyright)
+      list(APPEND licences ${folder}/root/opt/flyball/share/doc/${package}/copyright)
+    endif()
+  endforeach()
+endif()
+foreach(licence IN LISTS licences)
+  if(NOT EXISTS ${licence})
+    message(FATAL_ERROR "the bundle lacks ${licence}")
+  endif()
+endforeach()
 set(inside unshare --map-root-user --root=${folder}/root)
 execute_process(COMMAND ${inside} /opt/flyball/bin/flyball version RESULT_VARIABLE failed
                 OUTPUT_VARIABLE said ERROR_VARIABLE why)
