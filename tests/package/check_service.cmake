@@ -42,3 +42,17 @@ execute_process(COMMAND systemctl --root=${root} enable flyball@delivery_forest.
 if(failed OR NOT IS_SYMLINK ${root}/etc/systemd/system/multi-user.target.wants/flyball@delivery_forest.service)
   message(FATAL_ERROR "systemctl enable: ${failed}, and no link in multi-user.target.wants\n${said}")
 endif()
+
+# The guide takes away each file that the setup writes.
+execute_process(COMMAND ${built}/bin/flyball board setup --print OUTPUT_VARIABLE setup COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "> /etc/[^ \n]+" written "${setup}")
+list(TRANSFORM written REPLACE "^> " "")
+file(READ ${flyball}/runtime/boards/GUIDE.md guide)
+if(NOT written)
+  message(FATAL_ERROR "the setup writes no file below /etc:\n${setup}")
+endif()
+foreach(file IN LISTS written)
+  if(NOT guide MATCHES "sudo rm -f[^\n]* ${file}[ \n]")
+    message(FATAL_ERROR "step 9 of runtime/boards/GUIDE.md does not remove ${file}, which the setup writes")
+  endif()
+endforeach()

@@ -145,9 +145,12 @@ set -eu
 groupadd --system --force flyball
 usermod --append --groups flyball "${SUDO_USER:-$(id -un)}"
 
-# The kernel makes these files anew when a core comes on-line, so that a rule of udev is needed.
-cat > /etc/udev/rules.d/70-flyball.rules <<'END'
-ACTION=="add|online|change", SUBSYSTEM=="cpu", RUN+="/bin/sh -c 'cd /sys/devices/system/cpu; chgrp -f flyball cpu*/online cpu*/cpufreq/scaling_governor cpu*/cpufreq/scaling_min_freq cpu*/cpufreq/scaling_max_freq cpu*/cpufreq/scaling_setspeed; chmod -f g+w cpu*/online cpu*/cpufreq/scaling_governor cpu*/cpufreq/scaling_min_freq cpu*/cpufreq/scaling_max_freq cpu*/cpufreq/scaling_setspeed'"
+# The kernel makes these files anew when a core comes on-line, so that a rule of udev is needed. It comes
+# after 80-drivers.rules, which loads drivers that are modules; others come with a device of their own.
+cat > /etc/udev/rules.d/99-flyball.rules <<'END'
+ACTION=="add|online|change", SUBSYSTEM=="cpu", ENV{.FLYBALL_CLOCKS}="1"
+ACTION=="bind", SUBSYSTEM=="platform", DRIVER=="*cpufreq*", ENV{.FLYBALL_CLOCKS}="1"
+ENV{.FLYBALL_CLOCKS}=="1", RUN+="/bin/sh -c 'cd /sys/devices/system/cpu; chgrp -f flyball cpu*/online cpu*/cpufreq/scaling_governor cpu*/cpufreq/scaling_min_freq cpu*/cpufreq/scaling_max_freq cpu*/cpufreq/scaling_setspeed; chmod -f g+w cpu*/online cpu*/cpufreq/scaling_governor cpu*/cpufreq/scaling_min_freq cpu*/cpufreq/scaling_max_freq cpu*/cpufreq/scaling_setspeed'"
 ACTION=="add|change", SUBSYSTEM=="powercap", RUN+="/bin/sh -c 'cd /sys/class/powercap; chgrp -f flyball */energy_uj; chmod -f g+r */energy_uj'"
 END
 udevadm control --reload
@@ -157,7 +160,7 @@ udevadm trigger --action=change --subsystem-match=cpu --subsystem-match=powercap
 echo 'd /run/flyball 2775 root flyball -' > /etc/tmpfiles.d/flyball.conf
 systemd-tmpfiles --create /etc/tmpfiles.d/flyball.conf
 
-# Real-time priorities and locked memory; cycles of the program's own threads.
+# Real-time priorities and locked memory for the group; for everybody, cycles of their own programs.
 printf '@flyball - rtprio 80\n@flyball - memlock unlimited\n' > /etc/security/limits.d/70-flyball.conf
 echo 'kernel.perf_event_paranoid = 1' > /etc/sysctl.d/70-flyball.conf
 sysctl --load=/etc/sysctl.d/70-flyball.conf
