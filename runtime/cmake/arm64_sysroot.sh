@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # arm64_sysroot.sh [FOLDER]: the headers and libraries of a Debian 12 for arm64, which the preset
 # `arm64` builds against. Takes some minutes and 2 GB; a folder that is complete is left alone.
-# Needs root, because it unpacks packages as their owners.
+# Needs root, because it unpacks packages as their owners. A folder that it has begun and not completed is
+# removed and made anew; one that holds anything else is refused.
 set -euo pipefail
 top=$(dirname -- "$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")")
 source "$top/runtime/cmake/setup.sh"
@@ -54,13 +55,19 @@ if [[ -e $sysroot/.complete ]]; then
   printf '%s is complete; remove it to make it anew\n' "$sysroot"
   exit 0
 fi
+# With root's rights nothing is removed that was not made here.
+if [[ -e $sysroot && ! -e $sysroot/.made-by-flyball ]] && ! { [[ -d $sysroot ]] && [[ -z $(ls -A -- "$sysroot") ]]; }; then
+  fail "\"$sysroot\" is not empty, and no sysroot that this script has begun; name another folder, or remove it yourself"
+fi
 ensure_packages cross_packages
-rm -rf "$sysroot"
+rm -rf -- "$sysroot"
 mkdir -p "$(dirname "$sysroot")"
-# Which package has which shared library stands in the packages, and they are gone afterwards.
-# shellcheck disable=SC2016 # $1: the hook's own
+# Which package has which shared library stands in the packages, and they are gone afterwards. The marker
+# comes first, because mmdebstrap takes an empty folder only.
+# shellcheck disable=SC2016 # $1: the hooks' own
 mmdebstrap --mode=root --architectures=arm64 --variant=extract --include="$(libraries)" \
   --aptopt='APT::Install-Recommends "false"' \
+  --setup-hook='touch "$1/.made-by-flyball"' \
   --extract-hook='for deb in "$1"/var/cache/apt/archives/*.deb; do dpkg-deb --info "$deb" shlibs 2> /dev/null || true; done > "$1/shlibs"' \
   bookworm "$sysroot" >&2
 make_links_relative "$sysroot"

@@ -24,6 +24,9 @@ if(dpkg_shlibdeps)
                                      -P ${CMAKE_CURRENT_LIST_DIR}/build_debs.cmake)
   set_tests_properties(package.debs PROPERTIES LABELS package TIMEOUT 600)
 endif()
+add_test(NAME package.sysroot COMMAND ${CMAKE_COMMAND} ${consumer_settings}
+                                      -P ${CMAKE_CURRENT_LIST_DIR}/keep_folder.cmake)
+set_tests_properties(package.sysroot PROPERTIES LABELS package TIMEOUT 60)
 find_program(systemd_analyze systemd-analyze)
 if(FLYBALL_BUILD_SIM AND systemd_analyze)
   add_test(NAME package.service COMMAND ${CMAKE_COMMAND} ${consumer_settings} -D analyze=${systemd_analyze}
