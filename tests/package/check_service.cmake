@@ -34,6 +34,17 @@ if(dynamic AND (value STREQUAL "" OR value IN_LIST groups))
                       "give User= a name that no group has")
 endif()
 
+# A flight that was asked to end is not killed while its vehicle lands.
+file(READ ${flyball}/apps/vehicles/autopilot_link.cpp link)
+if(NOT link MATCHES "landed_within = ([0-9]+)min;")
+  message(FATAL_ERROR "apps/vehicles/autopilot_link.cpp does not say how long a landing may take")
+endif()
+math(EXPR landing "60 * ${CMAKE_MATCH_1}")
+setting(TimeoutStopSec)
+if(NOT value GREATER landing)
+  message(FATAL_ERROR "TimeoutStopSec=${value} kills a flight that may take ${landing} s to land")
+endif()
+
 # `systemctl enable` makes the link that starts it with the board.
 set(root ${folder}/root)
 file(COPY ${flyball}/apps/cli/service/flyball@.service DESTINATION ${root}/usr/lib/systemd/system)
