@@ -71,11 +71,13 @@ ensure_packages() {
   fi
   mapfile -t missing < <(missing_of <<< "$lists")
   ((${#missing[@]})) || return 0
-  printf 'flyball: packages to install: %s\n' "${missing[*]}" >&2
-  if [[ -t 0 && -t 2 ]]; then
+  # The question goes to the terminal that answers it: messages may go to a file.
+  if [[ -t 0 ]]; then
     local answer
-    read -r -p 'Install them with apt-get? [Y/n] ' answer
+    read -r -p "flyball: packages to install: ${missing[*]}"$'\n''Install them with apt-get? [Y/n] ' answer 2>&0
     [[ -z $answer || $answer == [Yy]* ]] || fail 'not installed; nothing was changed'
+  else
+    printf 'flyball: packages to install: %s\n' "${missing[*]}" >&2
   fi
   install_packages "${missing[@]}"
 }
