@@ -86,7 +86,9 @@ int keep_only(int socket) {
   return kept;
 }
 
-pid_t parent_id = 0;  // Of the process that this one was forked from.
+// Of the process that this one was forked from.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler sees no more
+pid_t parent_id = 0;
 
 /// The kernel sends the signal when the thread that forked ends, too.
 void end_with_parent(int /*signal*/) {
@@ -103,7 +105,7 @@ void follow_parent(pid_t parent) {
   sigset_t one;
   sigemptyset(&one);
   sigaddset(&one, parent_ended_signal);
-  sigprocmask(SIG_UNBLOCK, &one, nullptr);  // The thread that forked may have blocked it.
+  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);  // The thread that forked may have blocked it.
   prctl(PR_SET_PDEATHSIG, parent_ended_signal);
   end_with_parent(0);  // It may have ended before that line.
 }
