@@ -105,7 +105,8 @@ void follow_parent(pid_t parent) {
   sigset_t one;
   sigemptyset(&one);
   sigaddset(&one, parent_ended_signal);
-  pthread_sigmask(SIG_UNBLOCK, &one, nullptr);  // The thread that forked may have blocked it.
+  // The thread that forked may have blocked it. pthread_sigmask would need glibc 2.32.
+  sigprocmask(SIG_UNBLOCK, &one, nullptr);  // NOLINT(concurrency-mt-unsafe): one thread
   prctl(PR_SET_PDEATHSIG, parent_ended_signal);
   end_with_parent(0);  // It may have ended before that line.
 }
