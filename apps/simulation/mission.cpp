@@ -71,7 +71,8 @@ void connect(SimulatedFlight& flight, const MissionHooks& hooks) {
   }
   flight.loop->start();
   flight.referee->start();
-  flight.drift->start(flight.computer.nominal().thermal);
+  // A model's heat caps no clock of a computer that is not modeled, so none is modeled for it.
+  flight.drift->start(hooks.executor ? std::nullopt : flight.computer.nominal().thermal);
   flight.soft_errors->start();
   flight.board.measure();
   flight.loop->on_energy([&flight] { flight.board.measure(); });

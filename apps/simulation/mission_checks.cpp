@@ -30,11 +30,8 @@ Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {
     key = "edge.platform = \"" + scenario.edge.platform + "\"";
   } else if (scenario.faults.detector != "none") {
     key = "faults.detector = \"" + scenario.faults.detector + "\"";
-  }
-  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
-    if (scenario.events[i].kind == "bit_flip") {
-      key = "events." + std::to_string(i + 1) + ".kind = \"bit_flip\"";
-    }
+  } else if (!scenario.events.empty()) {
+    key = "events.1.kind = \"" + scenario.events.front().kind + "\"";
   }
   return key.empty() ? Status{Done{}}
                      : Status{Error{ErrorCode::invalid_input,

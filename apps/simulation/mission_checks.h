@@ -14,7 +14,7 @@ namespace flyball {
 
 /// Before the flight: after it a wrong name would cost the map.
 [[nodiscard]] Status check_map_name(const std::string& path);
-/// Links and faults exist on a modeled computer only.
+/// Links, faults and events exist on a modeled computer only.
 [[nodiscard]] Status check_executor(const Scenario& scenario, const MissionHooks& hooks);
 /// A real depth camera hangs on a real vehicle, alone: no other camera can be real.
 [[nodiscard]] Status check_depth_camera(const Scenario& scenario,

@@ -51,5 +51,23 @@ TEST(MissionChecks, a_camera_that_sees_the_whole_height_too_far_ahead_cannot_lea
   EXPECT_TRUE(check_start(brief));
 }
 
+TEST(MissionChecks, no_event_happens_to_a_computer_that_is_not_modeled) {
+  MissionHooks real;
+  real.executor = [](const Graph&, const Platform&, EventQueue&, const OperatingPoint&) {
+    return std::unique_ptr<Executor>{};
+  };
+  for (const char* kind : {"slowdown", "co_runner", "cooling", "bit_flip"}) {
+    Scenario scenario;
+    EXPECT_TRUE(check_executor(scenario, real));
+    scenario.events.emplace_back().kind = kind;
+    EXPECT_TRUE(check_executor(scenario, {}));
+    const Status refused = check_executor(scenario, real);
+    ASSERT_FALSE(refused) << kind;
+    EXPECT_EQ(refused.error().message, "events.1.kind = \"" + std::string{kind} +
+                                           "\" needs the modeled computer; leave "
+                                           "it out, or fly without --executor realtime");
+  }
+}
+
 }  // namespace
 }  // namespace flyball
