@@ -5,6 +5,7 @@
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/scenario/shipped_platform.h"
+#include "flyball/sim/gimbal.h"
 #include "flyball/sim/worlds.h"
 
 #include "scenario/kernel_choice.h"
@@ -19,25 +20,45 @@
 namespace flyball {
 namespace {
 
+/// What `ClosedLoop` hangs under the vehicle beside its payload, for a workload that looks for
+/// people.
+double gimbal_kg(const Scenario& scenario) {
+  const auto workload = scenario.plugins.make<Workload>(scenario.mission.workload);
+  return workload && workload->looks_for_people() ? GimbalSpec{}.mass_kg : 0.0;
+}
+
+Status check_lift(const Scenario& scenario, const Airframe& airframe) {
+  const double most_kg = airframe.most_payload_kg();
+  const double gimbal = gimbal_kg(scenario);
+  if (scenario.vehicle.payload_kg + gimbal <= most_kg) {
+    return Done{};
+  }
+  const std::string with_gimbal = gimbal > 0.0 ? " with the gimbal of " + toml_number(gimbal) +
+                                                     " kg that workload \"" +
+                                                     scenario.mission.workload + "\" needs"
+                                               : "";
+  return Error{ErrorCode::invalid_input,
+               "vehicle.payload_kg = " + toml_number(scenario.vehicle.payload_kg) + with_gimbal +
+                   " is too heavy for airframe \"" + scenario.vehicle.airframe +
+                   "\", which lifts " + toml_number(std::floor(1e3 * most_kg) * 1e-3) +
+                   " with a fifth of its thrust to spare; " +
+                   (gimbal < most_kg ? "carry less" : "choose a larger vehicle.airframe")};
+}
+
 Result<Airframe> make_airframe(const Scenario& scenario) {
   const auto file = find_shipped("airframes", scenario.vehicle.airframe);
   auto airframe = file ? load_airframe(*file) : Result<Airframe>{file.error()};
   if (!airframe) {
     return airframe;
   }
-  const std::string name = "airframe \"" + scenario.vehicle.airframe + "\"";
   if (scenario.vehicle.rotor_power == "regression" && !airframe->has_regression()) {
-    return Error{ErrorCode::invalid_input,
-                 "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and " +
-                     name + " has none; set vehicle.rotor_power to \"thrust\""};
+    return Error{
+        ErrorCode::invalid_input,
+        "vehicle.rotor_power = \"regression\" needs the coefficients of eq. 1, and airframe \"" +
+            scenario.vehicle.airframe + "\" has none; set vehicle.rotor_power to \"thrust\""};
   }
-  const double most_kg = airframe->most_payload_kg();
-  if (scenario.vehicle.payload_kg > most_kg) {
-    return Error{ErrorCode::invalid_input,
-                 "vehicle.payload_kg = " + toml_number(scenario.vehicle.payload_kg) +
-                     " is too heavy for " + name + ", which lifts " +
-                     toml_number(std::floor(1e3 * most_kg) * 1e-3) +
-                     " with a fifth of its thrust to spare; carry less"};
+  if (const Status lifts = check_lift(scenario, *airframe); !lifts) {
+    return lifts.error();
   }
   return airframe;
 }

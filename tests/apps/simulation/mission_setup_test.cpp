@@ -218,5 +218,23 @@ TEST(MissionSetup, refuses_a_payload_that_the_vehicle_cannot_lift) {
       "fifth of its thrust to spare; carry less");
 }
 
+// By hand: the spark's .248 kg, less the gimbal's .15 kg; the tello lifts 44 g.
+TEST(MissionSetup, counts_the_gimbal_of_who_looks_for_people_as_payload) {
+  Scenario scenario;
+  scenario.mission.workload = "aerial_photography";
+  scenario.vehicle.airframe = "spark";
+  scenario.vehicle.payload_kg = 0.09;
+  EXPECT_EQ(refusal(scenario).find("too heavy"), std::string::npos) << refusal(scenario);
+  scenario.vehicle.payload_kg = 0.11;
+  EXPECT_EQ(refusal(scenario),
+            "vehicle.payload_kg = 0.11 with the gimbal of 0.15 kg that workload "
+            "\"aerial_photography\" needs is too heavy for airframe \"spark\", which lifts 0.248 "
+            "with a fifth of its thrust to spare; carry less");
+  scenario.vehicle.airframe = "tello";
+  scenario.vehicle.payload_kg = 0.0;
+  const std::string why = refusal(scenario);
+  EXPECT_NE(why.find("choose a larger vehicle.airframe"), std::string::npos) << why;
+}
+
 }  // namespace
 }  // namespace flyball
