@@ -145,7 +145,10 @@ Status check_graph(const Scenario& scenario,
                    const MissionSetup& setup,
                    const SimulatedFlight& flight,
                    const MissionHooks& hooks) {
-  Status possible = check_start(*flight.parts.brief);
+  Status possible = check_room(setup.things, flight.workload->flies_to_goal());
+  if (possible) {
+    possible = check_start(*flight.parts.brief);
+  }
   if (possible &&
       !hooks.executor) {  // One that is given measures what jobs take, or need not know it.
     possible = check_prices_of_nodes(scenario, flight.computer, flight.graph);

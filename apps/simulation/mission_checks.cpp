@@ -62,6 +62,28 @@ Status check_depth_camera(const Scenario& scenario,
                                     "a real depth camera cannot be flown with: " + why}};
 }
 
+Status check_room(const SimulatedThings& things, bool lands_at_goal) {
+  const World& world = things.world;
+  const Cylinder body = things.airframe.body();
+  const double high_m = world.cruise_height_m + body.half_height_m;
+  const Cylinder column{body.radius_m, 0.5 * high_m};
+  const Clearance clearance{world};
+  for (const bool is_goal : {false, true}) {
+    const Vec3& place_W = is_goal ? world.goal_W : world.start_W;
+    const Vec3 middle_W = place_W + 0.5 * high_m * Vec3::UnitZ();
+    if ((is_goal && !lands_at_goal) || clearance.distance_m(middle_W, column, 1.0, true) > 0.0) {
+      continue;
+    }
+    return Error{ErrorCode::invalid_input,
+                 std::string{is_goal ? "goal (" : "start ("} + rounded(place_W.x(), 2) + ", " +
+                     rounded(place_W.y(), 2) + ") m has no room for a vehicle that is " +
+                     rounded(2.0 * body.radius_m, 2) + " m wide, between the ground and " +
+                     rounded(high_m, 2) + " m above it; choose another place in [world], or a " +
+                     "smaller vehicle.airframe"};
+  }
+  return Done{};
+}
+
 Status check_start(const Brief& brief) {
   const bool is_held_closely = brief.tube.at_rest_m <= TrackingTube{}.at_rest_m;
   if (!brief.maps_obstacles || is_held_closely) {

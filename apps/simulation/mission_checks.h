@@ -21,6 +21,10 @@ namespace flyball {
                                         const MissionSetup& setup,
                                         const MissionHooks& hooks);
 
+/// The airframe fits where it stands, and above that up to where it flies; where it lands, too. A
+/// world's generator does not know the airframe, and a place that was scanned has low things.
+[[nodiscard]] Status check_room(const SimulatedThings& things, bool lands_at_goal);
+
 /// A vehicle leaves the space that is declared clear around its start into space that its camera
 /// has seen, so that has to begin where the clear space ends, over the whole height of the body
 /// with its tube. A camera that looks up or down by half its field or more is left out, and so is a

@@ -51,6 +51,31 @@ TEST(MissionChecks, a_camera_that_sees_the_whole_height_too_far_ahead_cannot_lea
   EXPECT_TRUE(check_start(brief));
 }
 
+// A body of .65 m takes the air up to 1.32 m; a stool of .4 m stands .3 m from its middle.
+TEST(MissionChecks, a_vehicle_neither_starts_nor_lands_in_something_low) {
+  SimulatedThings things;
+  things.airframe.body_diameter_m = 0.65;
+  things.airframe.body_height_m = 0.24;
+  things.world.cruise_height_m = 1.2;
+  things.world.goal_W = {10.0, 0.0, 0.0};
+  EXPECT_TRUE(check_room(things, true));
+  const Vec3 stool_m{0.4, 0.4, 0.4};
+  const Vec3 beside{0.3, -0.2, 0.0};
+  things.world.boxes = {{things.world.goal_W + beside, things.world.goal_W + beside + stool_m}};
+  EXPECT_TRUE(check_room(things, false)) << "a mission that does not land there";
+  const Status refused = check_room(things, true);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "goal (10.00, 0.00) m has no room for a vehicle that is 0.65 m wide, between the "
+            "ground and 1.32 m above it; choose another place in [world], or a smaller "
+            "vehicle.airframe");
+  things.airframe.body_diameter_m = 0.58;
+  EXPECT_TRUE(check_room(things, true)) << "a narrower one";
+  things.world.boxes = {{beside, beside + stool_m}};
+  things.airframe.body_diameter_m = 0.65;
+  EXPECT_FALSE(check_room(things, false));
+}
+
 TEST(MissionChecks, no_event_happens_to_a_computer_that_is_not_modeled) {
   MissionHooks real;
   real.executor = [](const Graph&, const Platform&, EventQueue&, const OperatingPoint&) {
