@@ -78,7 +78,9 @@ ClosedLoop::ClosedLoop(MissionLink& link,
       gps_{scenario.gps, things.origin, scenario.seed},
       barometer_{scenario.barometer, things.origin.height_m, scenario.seed},
       imu_{ImuSpec{}, scenario.seed},
-      wind_{wind_spec(scenario.vehicle), scenario.seed} {}
+      wind_{wind_spec(scenario.vehicle), scenario.seed} {
+  imu_.set_hover(airframe_.hover_rev_s(vehicle_.carried_kg()));
+}
 
 void ClosedLoop::hear_localizer(Topic<PoseEstimate> pose,
                                 std::optional<Topic<LocalizationStatus>> status) {
@@ -232,6 +234,7 @@ void ClosedLoop::publish_pose() {
 void ClosedLoop::obey(const FlightCommand& command) {
   if (command.kind == FlightCommand::Kind::release_payload) {
     vehicle_.set_payload(0.0);
+    imu_.set_hover(airframe_.hover_rev_s(vehicle_.carried_kg()));
   }
   pilot_->obey(command);
 }

@@ -50,6 +50,8 @@ TEST(Airframe, the_default_vehicle_hovers_as_derived_from_its_coefficients) {
   // T = C_T rho n^2 D^4 = m g / 4, written out with the datasheet's numbers.
   const double n = std::sqrt(2.431 * 9.80665 / (4.0 * 0.109919 * 1.225 * std::pow(0.3302, 4)));
   EXPECT_NEAR(60.0 * n, 3662.0, 2.0);
+  EXPECT_NEAR(a->hover_rev_s(0.0), n, 1e-9);
+  EXPECT_NEAR(a->hover_rev_s(3.0 * 2.431), 2.0 * n, 1e-9);  // Four times the weight.
   EXPECT_NEAR(4.0 * a->thrust_per_n2() * n * n, 2.431 * 9.80665, 1e-9);
   EXPECT_NEAR(4.0 * a->power_per_n3() * n * n * n, 176.0, 1.0);
   // Torque times angular speed is power.

@@ -251,6 +251,10 @@ std::vector<Error> Airframe::validate() const {
   return errors;
 }
 
+double Airframe::hover_rev_s(double carried_kg) const {
+  return std::sqrt((mass_kg + carried_kg) * gravity_m_s2 / (4.0 * thrust_per_n2()));
+}
+
 double Airframe::most_payload_kg() const {
   return lift_n(*this) / (spare * gravity_m_s2) - mass_kg;
 }

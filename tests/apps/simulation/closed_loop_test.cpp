@@ -2,6 +2,8 @@
 // test-label: closed_loop
 #include "simulation/closed_loop.h"
 
+#include "flyball/runtime/modeled/virtual_executor.h"
+
 #include "short_delivery.h"
 #include <cmath>
 
@@ -74,6 +76,43 @@ TEST(ClosedLoop, publishes_a_depth_image_when_the_cameras_delay_has_passed) {
   EXPECT_EQ(first_release(), MissionTime{frame});
   scenario.camera.delay_s = 0.03;
   EXPECT_EQ(first_release(), MissionTime{frame + from_seconds(0.03)});
+}
+
+/// Flies with a listener on one topic of the vehicle.
+template <class T, class Listen>
+void fly_and_hear(const Scenario& scenario, const char* topic, const Listen& listen) {
+  MissionHooks hooks;
+  hooks.executor = [&](const Graph& graph, const Platform& platform, EventQueue& queue,
+                       const OperatingPoint& start) {
+    auto executor = std::make_unique<VirtualExecutor>(graph, platform, queue, start);
+    executor->subscribe<T>(graph.find<T>(topic).value(), listen);
+    return executor;
+  };
+  const auto record = fly(scenario, hooks);
+  ASSERT_TRUE(record) << record.error().message;
+}
+
+// The figure of `ImuSpec` is the square of 3.08 m/s^2, in hover; the tello's rotors turn 3.4 times
+// as fast as the Matrice's in theirs.
+TEST(ClosedLoop, shakes_every_airframe_as_was_measured_in_hover) {
+  for (const char* airframe : {"matrice_100", "tello"}) {
+    Scenario scenario = kit::short_delivery();
+    scenario.vehicle.airframe = airframe;
+    scenario.vehicle.payload_kg = airframe == std::string{"tello"} ? 0.02 : 0.5;
+    scenario.kernels.localizer = "visual_inertial";
+    scenario.camera.width_px = 32;
+    scenario.camera.height_px = 18;
+    scenario.mission.time_limit_s = 4.0;
+    double sum_m2_s4 = 0.0;
+    int samples = 0;
+    fly_and_hear<ImuSample>(scenario, "imu", [&](const ImuSample& felt) {
+      const bool is_flying = felt.stamp > MissionTime{std::chrono::seconds{2}};
+      sum_m2_s4 += is_flying ? felt.f_B.y() * felt.f_B.y() : 0.0;
+      samples += is_flying ? 1 : 0;
+    });
+    ASSERT_GT(samples, 300);
+    EXPECT_NEAR(std::sqrt(sum_m2_s4 / samples), 3.08, 0.5) << airframe;
+  }
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ struct Airframe {
   /// Shaft power of one rotor over n^3 [W s^3].
   [[nodiscard]] double power_per_n3() const;
   [[nodiscard]] double max_rotor_rev_s() const { return max_rotor_rpm / 60.0; }
+  /// At which its rotors hold the vehicle with so much beside it in calm air [1/s].
+  [[nodiscard]] double hover_rev_s(double carried_kg) const;
   /// So much its rotors lift with a fifth to spare, beside the vehicle itself.
   [[nodiscard]] double most_payload_kg() const;
 

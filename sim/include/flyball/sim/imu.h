@@ -27,7 +27,10 @@ struct ImuSpec {
   /// Variance of the accelerometer in hover, measured in flight beside MAVBench's simulated
   /// 1.75e-3: 9.46 (m/s^2)^2. It goes with the fourth power of the rotors' speed.
   double vibration_m2_s4{9.46};
-  double hover_rev_s{61.0};  ///< At which `vibration_m2_s4` holds: Matrice 100, 3662 rpm.
+  /// At which `vibration_m2_s4` holds, here that of the Matrice 100 without payload. Any other
+  /// vehicle is taken to shake as hard in its own hover (`Imu::set_hover`): what is out of balance
+  /// presses with a share of the weight that the rotors carry.
+  double hover_rev_s{61.0};
 };
 
 class Imu {
@@ -38,6 +41,8 @@ class Imu {
   /// frequency and grows with the square of its speed; the gyro feels a thousandth of it (rad/s per
   /// m/s^2). Calls in order of time.
   [[nodiscard]] ImuSample sample(const VehicleState& state, MissionTime now);
+  /// The vehicle hovers at another speed of its rotors from now on: its mass has changed.
+  void set_hover(double rev_s) { spec_.hover_rev_s = rev_s; }
 
  private:
   [[nodiscard]] Vec3 vibration_B(const VehicleState& state, double dt_s);
