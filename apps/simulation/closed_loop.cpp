@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr auto energy_period = 10ms;      // Power changes with rotor lag (tens of ms).
 constexpr auto navigation_period = 10ms;  // 100 Hz: what an autopilot streams.
+constexpr double navigation_hz = 100.0;
 constexpr double hover_below_m_s = 0.1;
 
 Vec3 start_position(const World& world, const Airframe& airframe) {
@@ -41,6 +42,15 @@ std::unique_ptr<Pilot> make_pilot(Vehicle& vehicle,
                                    {Vec3::Zero(), ground_z_m, max_acceleration_m_s2}, queue,
                                    *autopilot)
              : make_simulated_pilot(vehicle, things.airframe, ground_z_m, queue);
+}
+
+/// Whether a navigation sample brings a fix: the first one does, and then as many as fall due, each
+/// with the next sample. A product and a quotient of whole numbers round nothing.
+bool brings_fix(std::uint64_t sample, double rate_hz) {
+  const auto due = [rate_hz](std::uint64_t samples) {
+    return std::floor(static_cast<double>(samples) * rate_hz / navigation_hz);
+  };
+  return sample == 0 || due(sample) > due(sample - 1);
 }
 
 double start_yaw(const World& world) {
@@ -215,10 +225,7 @@ void ClosedLoop::publish_navigation() {
 }
 
 void ClosedLoop::publish_pose() {
-  const auto per_fix = std::max<std::uint64_t>(
-      1, static_cast<std::uint64_t>(
-             std::lround(1.0 / (scenario_.gps.rate_hz * to_seconds(Duration{navigation_period})))));
-  const bool with_fix = navigation_count_++ % per_fix == 0;
+  const bool with_fix = brings_fix(navigation_count_++, scenario_.gps.rate_hz);
   NavigationSample sample = gps_.sample(vehicle_.state(), queue_.now(), with_fix);
   sample.pressure_pa = barometer_.sample(vehicle_.state().X_WB.translation().z(), queue_.now());
   const TruePose truth{queue_.now(), vehicle_.state().X_WB, vehicle_.state().v_WB};

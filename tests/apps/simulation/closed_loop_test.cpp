@@ -92,6 +92,18 @@ void fly_and_hear(const Scenario& scenario, const char* topic, const Listen& lis
   ASSERT_TRUE(record) << record.error().message;
 }
 
+TEST(ClosedLoop, brings_as_many_fixes_a_second_as_the_receiver_makes) {
+  for (const double rate_hz : {0.5, 10.0, 30.0, 70.0, 100.0}) {
+    Scenario scenario = kit::short_delivery();
+    scenario.mission.time_limit_s = 4.0;
+    scenario.gps.rate_hz = rate_hz;
+    int fixes = 0;
+    fly_and_hear<NavigationSample>(scenario, "navigation",
+                                   [&](const NavigationSample& seen) { fixes += seen.has_fix; });
+    EXPECT_NEAR(fixes, 4.0 * rate_hz, 1.0) << rate_hz;
+  }
+}
+
 // The figure of `ImuSpec` is the square of 3.08 m/s^2, in hover; the tello's rotors turn 3.4 times
 // as fast as the Matrice's in theirs.
 TEST(ClosedLoop, shakes_every_airframe_as_was_measured_in_hover) {
