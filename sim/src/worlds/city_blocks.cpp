@@ -63,7 +63,8 @@ class CityBlocks final : public flyball::WorldGenerator {
             {"street_m", 12.0, 6.0, 40.0, "From house to house."},
             {"roof_m", 20.0, 8.0, 200.0, "Mean height; each house's is within 50 % of it."},
             {"squares", 0.15, 0.0, 1.0, "Share of the blocks that are squares with trees."},
-            {"cars_1_km", 60.0, 0.0, 200.0, "Parked along the kerbs, per kilometre of street."},
+            {"cars_1_km", 60.0, 0.0, 200.0,
+             "Parked on one side of streets that run east, per kilometre of block."},
             {"lorries", 0.0, 0.0, 100.0, "That go to and fro between two crossings."},
             {"lorry_speed_m_s", 5.0, 0.0, 15.0, "Of each of them."},
             {"cruise_height_m", 2.0, 2.0, 6.0, "Above the street."}};
