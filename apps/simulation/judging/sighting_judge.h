@@ -33,14 +33,16 @@ class SightingJudge final : public Judge {
   /// `false_alarm` when the finding is farther than a metre from everybody.
   [[nodiscard]] MissionFailure objection() const override;
   /// `false_positives` (places where nobody stands that were taken for a person),
-  /// `position_error_m` of the finding and, when it is right, `time_to_find_s`.
+  /// `position_error_m` of the finding, where the world has people, and, when it is right,
+  /// `time_to_find_s`.
   [[nodiscard]] std::map<std::string, double> figures() const override;
   [[nodiscard]] std::vector<MissionFrame> frames() const override { return frames_; }
 
  private:
   void saw(const Sightings& seen);
   void found(const Finding& finding);
-  [[nodiscard]] double distance_to_person_m(MissionTime at, const Vec3& p_W) const;
+  /// From the nearest; empty in a world without people.
+  [[nodiscard]] std::optional<double> distance_to_person_m(MissionTime at, const Vec3& p_W) const;
   [[nodiscard]] bool is_new(const Vec3& p_W) const;
   void keep(const ColourFrame& frame, const ImageBox& box, bool is_right, const std::string& what);
 
@@ -49,7 +51,7 @@ class SightingJudge final : public Judge {
   const EventQueue& queue_;
   std::vector<Vec3> mistaken_W_{};
   std::optional<double> found_s_{};
-  double error_m_{};  ///< Of the finding.
+  std::optional<double> error_m_{};  ///< Of the finding; empty without people as well.
   std::vector<MissionFrame> frames_{};
 };
 

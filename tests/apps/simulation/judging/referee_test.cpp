@@ -96,6 +96,15 @@ TEST_F(Sighted, a_report_of_somebody_who_is_not_there_is_a_false_alarm) {
   EXPECT_EQ(judge.figures().count("time_to_find_s"), 0U);
 }
 
+TEST_F(Sighted, a_report_in_a_world_without_people_is_a_false_alarm_at_no_distance) {
+  people.clear();
+  report({9.0, 0.0, 1.0});
+  EXPECT_EQ(judge.objection(), MissionFailure::false_alarm);
+  EXPECT_EQ(judge.figures().count("position_error_m"), 0U);
+  EXPECT_EQ(judge.frames().back().caption, "at 0.0 s: reported as found");
+  EXPECT_EQ(judge.figures().count("time_to_find_s"), 0U);
+}
+
 TEST_F(Judged, a_scan_is_judged_by_where_the_camera_truly_was) {
   const auto pictures = graph.topic<GroundPicture>("picture");
   VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
