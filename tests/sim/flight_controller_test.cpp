@@ -101,12 +101,14 @@ TEST(FlightController, passes_a_door_at_one_metre_a_second_within_three_centimet
   }
 }
 
-TEST(FlightController, keeps_within_five_centimetres_of_a_gentle_curve) {
-  for (const double step_s : {0.001, 0.002, 0.004}) {
+TEST(FlightController,
+     keeps_within_five_centimetres_of_a_gentle_curve_at_every_step_that_it_is_good_for) {
+  for (const double step_s : {0.0005, 0.001, 0.002, 0.004, 0.008, 0.010}) {
     Flight flight{0.5, step_s};
     const TrackingError e = flight.follow(7.0, Turn{});
     EXPECT_LT(e.lateral_m, 0.05) << "at steps of " << step_s;
     EXPECT_LT(std::max(e.ahead_m, e.behind_m), 0.1);
+    EXPECT_LT(brake_from(6.0, 0.5, step_s).length_m - 3.0, 0.15) << "at steps of " << step_s;
   }
 }
 

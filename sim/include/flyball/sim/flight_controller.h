@@ -30,7 +30,7 @@ class FlightController {
   /// one it holds (PX4's off-board loss).
   void follow(const Setpoint& setpoint);
 
-  /// Rotor speeds for the next step, good for `dt_s` of .5 to 4 ms. `total_mass_kg` is what it
+  /// Rotor speeds for the next step, good for `dt_s` of .5 to 10 ms. `total_mass_kg` is what it
   /// believes to carry; a wrong belief is corrected within a second, as is wind.
   [[nodiscard]] RotorSpeeds update(const VehicleState& state,
                                    double total_mass_kg,
