@@ -46,7 +46,7 @@ void Referee::appoint(const Graph& graph, Executor& executor, const Mapper& mapp
   const auto sightings = graph.find<Sightings>("sightings");
   const auto finding = graph.find<Finding>("finding");
   if (sightings && finding) {
-    judges_.push_back(std::make_unique<SightingJudge>(link_, things_.world.people, executor, queue_,
+    judges_.push_back(std::make_unique<SightingJudge>(link_, things_.world.people, executor,
                                                       SearchTopics{*sightings, *finding}));
   }
   if (graph.find<ExploreQuery>("explore.request")) {

@@ -23,9 +23,8 @@ bool is_close(const std::optional<double>& error_m) {
 SightingJudge::SightingJudge(MissionLink& link,
                              const std::vector<Person>& people,
                              Executor& executor,
-                             const EventQueue& queue,
                              const SearchTopics& topics)
-    : link_{link}, people_{people}, queue_{queue} {
+    : link_{link}, people_{people} {
   executor.subscribe<Sightings>(topics.sightings, [this](const Sightings& seen) { saw(seen); });
   executor.subscribe<Finding>(topics.finding, [this](const Finding& what) { found(what); });
 }

@@ -5,7 +5,6 @@
 /// Whether a person stands where the vehicle reported one.
 
 #include "flyball/flight/people/person_finding.h"
-#include "flyball/runtime/event_queue.h"
 #include "flyball/runtime/executor.h"
 #include "flyball/sim/person.h"
 
@@ -27,7 +26,6 @@ class SightingJudge final : public Judge {
   SightingJudge(MissionLink& link,
                 const std::vector<Person>& people,
                 Executor& executor,
-                const EventQueue& queue,
                 const SearchTopics& topics);
 
   /// `false_alarm` when the finding is farther than a metre from everybody.
@@ -48,7 +46,6 @@ class SightingJudge final : public Judge {
 
   MissionLink& link_;
   const std::vector<Person>& people_;
-  const EventQueue& queue_;
   std::vector<Vec3> mistaken_W_{};
   std::optional<double> found_s_{};
   std::optional<double> error_m_{};  ///< Of the finding; empty without people as well.

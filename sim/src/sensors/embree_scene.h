@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// What every camera does with Embree. One thread and a fixed instruction set: the same image on
-/// every host of a CPU class. Only for .cpp files.
+/// What the colour camera does with Embree. One thread and a fixed instruction set: the same image
+/// on every host of a CPU class. Only for .cpp files.
 
 #include "flyball/runtime/assert.h"
 
@@ -50,24 +50,6 @@ struct Ray {
   Eigen::Vector3f direction;
   float range;
 };
-
-/// Sets one lane of a packet.
-inline void aim(RTCRayHit8& rays, int lane, const Ray& ray) {
-  rays.ray.org_x[lane] = ray.origin.x();
-  rays.ray.org_y[lane] = ray.origin.y();
-  rays.ray.org_z[lane] = ray.origin.z();
-  rays.ray.dir_x[lane] = ray.direction.x();
-  rays.ray.dir_y[lane] = ray.direction.y();
-  rays.ray.dir_z[lane] = ray.direction.z();
-  rays.ray.tnear[lane] = 0.0F;
-  rays.ray.tfar[lane] = ray.range;
-  rays.ray.time[lane] = 0.0F;
-  rays.ray.mask[lane] = ~0U;
-  rays.ray.id[lane] = 0;
-  rays.ray.flags[lane] = 0;
-  rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-  rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-}
 
 /// Of a tile: its first pixel.
 struct Corner {

@@ -209,9 +209,6 @@ void Vehicle::set_payload(double payload_kg) {
   }
 }
 
-double Vehicle::payload_kg() const {
-  return body_->made_of.payload_kg;
-}
 double Vehicle::mass_kg() const {
   return body_->made_of.mass_kg();
 }

@@ -53,7 +53,6 @@ class Vehicle {
   [[nodiscard]] const VehicleState& state() const;
   /// Mass changes at once, motion goes on (the payload leaves at rest relative to the body).
   void set_payload(double payload_kg);
-  [[nodiscard]] double payload_kg() const;
   [[nodiscard]] double mass_kg() const;
   /// Beyond the bare airframe: payload and gimbal.
   [[nodiscard]] double carried_kg() const;

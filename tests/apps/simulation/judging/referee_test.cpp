@@ -76,7 +76,7 @@ class Sighted : public Judged {
   Topic<Finding> finding{graph.topic<Finding>("finding")};
   VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
   MissionLink link{rig.brief, graph, topics, executor, queue};
-  SightingJudge judge{link, people, executor, queue, {sightings, finding}};
+  SightingJudge judge{link, people, executor, {sightings, finding}};
 };
 
 TEST_F(Sighted, a_search_that_reports_nobody_has_found_nobody) {
