@@ -34,6 +34,25 @@ TEST(CollapsedBuilding, has_one_person_inside_with_nothing_upon_it) {
   }
 }
 
+TEST(CollapsedBuilding, has_room_for_a_person_who_lies) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto world = made_world("collapsed_building", seed, {{"person", std::string{"lying"}}});
+    ASSERT_TRUE(world) << world.error().message;
+    const Person& person = world->people.front();
+    EXPECT_TRUE(person.lies);
+    EXPECT_LT(person.height_m, 0.35);
+    EXPECT_DOUBLE_EQ(2.0 * person.radius_m, Person{}.height_m)
+        << "as long as one who stands is tall";
+    const Clearance clearance{*world};
+    EXPECT_GT(clearance.distance_m(person.centre_W({}), {person.radius_m, 0.1}, 1.0, true), 0.0)
+        << "seed " << seed;
+    const Cylinder vehicle{0.325, 0.125};
+    const Vec3 above_W = person.centre_W({}) + Vec3::UnitZ();
+    EXPECT_NEAR(distance_to_people_m(world->people, {}, above_W, vehicle, 5.0), 0.72, 1e-9)
+        << "it may be flown over";
+  }
+}
+
 TEST(CollapsedBuilding, has_slabs_and_rubble_but_keeps_the_start_clear) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto world = made_world("collapsed_building", seed);

@@ -183,6 +183,32 @@ TEST_F(SomebodyWalks, and_each_of_two_threads_sees_the_person_where_its_picture_
   EXPECT_EQ(right, (std::array<int, 2>{pictures, pictures}));
 }
 
+TEST_F(SomebodyWalks, and_who_lies_is_seen_as_low_as_the_solid_that_depth_cameras_see) {
+  Person& person = world.people.front();
+  person.walk = {{0.0, {6.0, 0.0, 0.0}}};
+  person.lies = true;
+  person.radius_m = 0.875;
+  person.height_m = 0.31;
+  spec.sun_elevation_rad = 1.57;  // No shadow beside the body.
+  camera = std::move(*ColourCamera::make(world, spec));
+  const Pose X_WC = looking_east({0.0, 0.0, 1.0});
+  const ColourImage with = camera->capture(X_WC, at_s(0.0), 0);
+  const ColourImage without = (*ColourCamera::make(World{}, spec))->capture(X_WC, at_s(0.0), 0);
+  const auto box = box_of(person, at_s(0.0), X_WC, with.camera);
+  ASSERT_TRUE(box.has_value());
+  int differ = 0;
+  for (int i = 0; i < 64 * 48; ++i) {
+    if (pixel(with, i % 64, i / 64).red != pixel(without, i % 64, i / 64).red) {
+      ++differ;
+      EXPECT_GE(i / 64 + 1, box->y_px - 1);
+      EXPECT_LE(i / 64, box->y_px + box->height_px + 1);
+      EXPECT_GE(i % 64 + 1, box->x_px - 2);  // Its hands reach a decimetre beyond the cylinder.
+      EXPECT_LE(i % 64, box->x_px + box->width_px + 2);
+    }
+  }
+  EXPECT_GT(differ, 0.2 * box->area_px2());
+}
+
 TEST(ColourCamera, says_what_is_missing_when_there_is_no_mesh_for_a_person) {
   World world;
   world.people.resize(1);

@@ -54,5 +54,20 @@ TEST(PersonMesh, stands_one_metre_tall_above_the_origin) {
   }
 }
 
+// A figure of three points: feet, crown and nose; the nose looks along x.
+TEST(PersonMesh, that_is_laid_down_looks_up_with_its_feet_in_front) {
+  PersonMesh person;
+  person.vertices = {{-0.1F, 0.0F, 0.0F}, {0.0F, 0.2F, 1.0F}, {0.1F, 0.0F, 0.9F}};
+  person.normals = {-Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX()};
+  lay_down(person);
+  const auto at = [&](std::size_t i) { return Eigen::Vector3f{person.vertices[i].data()}; };
+  EXPECT_TRUE(at(0).isApprox(Eigen::Vector3f{0.5F, 0.0F, 0.0F}));
+  EXPECT_TRUE(at(1).isApprox(Eigen::Vector3f{-0.5F, 0.2F, 0.1F}));
+  EXPECT_TRUE(at(2).isApprox(Eigen::Vector3f{-0.4F, 0.0F, 0.2F}));
+  EXPECT_EQ(person.normals[0], Eigen::Vector3f::UnitX());
+  EXPECT_EQ(person.normals[1], -Eigen::Vector3f::UnitX());
+  EXPECT_EQ(person.normals[2], Eigen::Vector3f::UnitZ());
+}
+
 }  // namespace
 }  // namespace flyball

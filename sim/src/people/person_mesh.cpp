@@ -224,6 +224,19 @@ std::vector<std::string> person_looks() {
   return names;
 }
 
+void lay_down(PersonMesh& person) {
+  float back = 0.0F;
+  for (const auto& p : person.vertices) {
+    back = std::min(back, p[0]);
+  }
+  for (auto& p : person.vertices) {
+    p = {0.5F - p[2], p[1], p[0] - back};
+  }
+  for (Eigen::Vector3f& normal : person.normals) {
+    normal = {-normal.z(), normal.y(), normal.x()};
+  }
+}
+
 Result<PersonMesh> load_person_mesh(const std::string& look, const std::string& folder) {
   const Look* wanted = find_look(look);
   if (wanted == nullptr) {

@@ -26,6 +26,9 @@ struct PersonMesh {
   std::vector<Texture> textures{};
 };
 
+/// Puts it on its back, head towards -x, its middle over the origin: one metre long then.
+void lay_down(PersonMesh& person);
+
 /// The mesh of a look (see `person_looks`).
 ///
 /// @error `not_found`: no such look, or its file is not in `folder`; `invalid_input`: a file that

@@ -10,7 +10,7 @@ namespace {
 constexpr double ground_reach_m = 300.0;  // Beyond it the image shows the horizon.
 constexpr unsigned solids_instance = 0;   // The first one that is attached; people follow.
 
-RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float height_m) {
+RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float length_m) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<std::array<float, 3>*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -22,7 +22,7 @@ RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float height_
                  "Embree has no memory for %zu triangles", mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const auto& p = mesh.vertices[i];
-    vertices[i] = {height_m * p[0], height_m * p[1], height_m * p[2]};
+    vertices[i] = {length_m * p[0], length_m * p[1], length_m * p[2]};
   }
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
   rtcCommitGeometry(geometry);
@@ -90,11 +90,15 @@ void ColourScene::attach_solids(const World& world) {
 
 void ColourScene::attach(Body& body) {
   body.shape = rtcNewScene(device_.handle);
-  const auto height_m = static_cast<float>(body.person.height_m);
-  RTCGeometry triangles = triangles_of(device_.handle, body.mesh, height_m);
+  const Person& person = body.person;
+  const auto length_m = static_cast<float>(person.lies ? 2.0 * person.radius_m : person.height_m);
+  if (person.lies) {
+    lay_down(body.mesh);
+  }
+  RTCGeometry triangles = triangles_of(device_.handle, body.mesh, length_m);
   rtcAttachGeometry(body.shape, triangles);
   rtcReleaseGeometry(triangles);
-  body.texel_m = height_m;  // The pictures show about one body's height across.
+  body.texel_m = length_m;  // The pictures show about one body's height across.
   body.instance = attach_instance(body.shape);
 }
 

@@ -31,6 +31,7 @@ constexpr double passage_m = 1.6;      // Kept free around start and holes.
 constexpr double behind_wall_m = 1.6;  // Between the last cross wall and the person, at least, ...
 constexpr double before_wall_m = 1.0;  // ... and from there to the east wall.
 constexpr double person_room_m = 1.0;  // Kept free around the person.
+constexpr double lying_m = 0.31;       // Of the figure "victim", .176 of its length of 1.75 m.
 constexpr int tries = 60;
 
 double apart_m(const Aabb& box, const Vec3& place_W) {
@@ -68,7 +69,7 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
              std::string{"standing"},
              0.0,
              0.0,
-             "How the person is found.",
+             "How the person is found; who lies, by yolo.",
              {"standing", "lying"}}};
   }
 
@@ -185,7 +186,14 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
         continue;
       }
       flyball::Person person;
-      person.look = lies ? "victim" : "walker";
+      if (lies) {
+        person.look = "victim";
+        person.lies = true;
+        person.radius_m = 0.5 * person.height_m;
+        person.height_m = lying_m;
+      } else {
+        person.look = "walker";
+      }
       person.walk = {{0.0, foot_W}};
       person.heading_rad = random.uniform(-3.0, 3.0);
       ruin.world.people.push_back(person);

@@ -25,12 +25,15 @@ struct PersonPose {
 
 struct Person {
   std::string look{"walker"};  ///< A name of `person_looks()`.
-  double height_m{1.75};
-  double radius_m{0.3};
+  double height_m{1.75};  ///< Of the upright cylinder that depth cameras see and vehicles touch,
+  double radius_m{0.3};   ///< as this is.
   /// In order of time; at even pace along the line between two points, before the first and after
   /// the last one at rest. One point: a person who stays. Never empty.
   std::vector<WalkPoint> walk{{}};
   double heading_rad{};  ///< Of a person who stays; a walker looks where it goes.
+  /// On the back, feet towards the heading and the middle over the foot point: as long as the
+  /// cylinder, which is a low one then, is wide.
+  bool lies{};
 
   /// A function of time alone.
   [[nodiscard]] PersonPose at(MissionTime now) const;
