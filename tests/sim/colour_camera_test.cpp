@@ -119,6 +119,33 @@ TEST(ColourCamera, renders_a_part_as_it_renders_the_whole) {
   }
 }
 
+TEST(ColourCamera, sees_a_mover_where_it_is_and_its_pattern_goes_along) {
+  World world;
+  Mover lorry;
+  lorry.size_m = {2.0, 3.0, 3.0};
+  lorry.from_W = {7.0, -20.0, 0.0};
+  lorry.to_W = {7.0, 20.0, 0.0};
+  lorry.speed_m_s = 4.0;
+  world.movers = {lorry};
+  const auto camera = ColourCamera::make(world, small_camera());
+  ASSERT_TRUE(camera.ok());
+  const auto empty = ColourCamera::make(World{}, small_camera());
+  const auto seen = [](const ColourCamera& by, double y_m, double t_s) {
+    return by.capture(looking_east({0.0, y_m, 1.0}), at_s(t_s), 0);
+  };
+  const ColourImage here = seen(**camera, 0.0, 5.0);
+  const ColourImage gone = seen(**camera, 0.0, 0.0);
+  const ColourImage grass = seen(**empty, 0.0, 0.0);
+  const ColourImage later = seen(**camera, 4.0, 6.0);  // The lorry is 4 m on, and so is the camera.
+  for (int i = 0; i < 2 * 5; ++i) {                    // Two rows between the horizon and its foot.
+    const int x = 14 + i % 5;
+    const int y = 13 + i / 5;
+    EXPECT_GT(pixel(here, x, y).blue, pixel(grass, x, y).blue + 20);
+    EXPECT_EQ(pixel(gone, x, y).blue, pixel(grass, x, y).blue) << "it is 20 m to the south";
+    EXPECT_NEAR(pixel(later, x, y).red, pixel(here, x, y).red, 1) << "the same place on it";
+  }
+}
+
 class SomebodyWalks : public testing::Test {
  protected:
   void SetUp() override {

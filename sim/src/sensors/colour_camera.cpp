@@ -134,7 +134,7 @@ void ColourCamera::render(const Pose& X_WC,
                           ColourImage& into) const {
   const std::lock_guard lock{scene_->mutex};
   const FlushDenormals flush;
-  scene_->things.move_people(into.captured);
+  scene_->things.move(into.captured);
   const Eigen::Isometry3f X_WC_single = X_WC.cast<float>();
   for (const PixelRegion& region : regions) {
     // Always the tiles of the whole image: which rays travel together may show in the last bit.

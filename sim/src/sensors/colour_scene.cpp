@@ -8,7 +8,8 @@ namespace flyball {
 namespace {
 
 constexpr double ground_reach_m = 300.0;  // Beyond it the image shows the horizon.
-constexpr unsigned solids_instance = 0;   // The first one that is attached; people follow.
+constexpr unsigned solids_instance =
+    0;  // The first one that is attached; people follow, and movers.
 
 RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float length_m) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -27,6 +28,12 @@ RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float length_
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
   rtcCommitGeometry(geometry);
   return geometry;
+}
+
+void place(RTCGeometry instance, const Eigen::Isometry3f& X_WI) {
+  const Eigen::Matrix4f columns = X_WI.matrix();
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, columns.data());
+  rtcCommitGeometry(instance);
 }
 
 template <class Rays>
@@ -56,7 +63,11 @@ ColourScene::ColourScene(const World& world, std::vector<PersonMesh> meshes) {
     bodies_[i].mesh = std::move(meshes[i]);
     attach(bodies_[i]);
   }
-  move_people(MissionTime{});
+  for (const Mover& mover : world.movers) {
+    boxes_.push_back({mover});
+    attach(boxes_.back());
+  }
+  move(MissionTime{});
   const RTCError error = rtcGetDeviceError(device_.handle);
   FLYBALL_ASSERT(error == RTC_ERROR_NONE, "Embree error %d", static_cast<int>(error));
 }
@@ -67,6 +78,10 @@ ColourScene::~ColourScene() {
   for (const Body& body : bodies_) {
     rtcReleaseGeometry(body.instance);
     rtcReleaseScene(body.shape);
+  }
+  for (const MovingBox& box : boxes_) {
+    rtcReleaseGeometry(box.instance);
+    rtcReleaseScene(box.shape);
   }
 }
 
@@ -102,16 +117,31 @@ void ColourScene::attach(Body& body) {
   body.instance = attach_instance(body.shape);
 }
 
-void ColourScene::move_people(MissionTime now) {
+void ColourScene::attach(MovingBox& box) {
+  box.shape = rtcNewScene(device_.handle);
+  Mover resting;
+  resting.size_m = box.mover.size_m;
+  World alone;
+  alone.has_ground = false;
+  alone.boxes = {box_at(resting, MissionTime{})};
+  attach_quads(device_.handle, box.shape, solid_mesh(alone, 0.0));
+  box.instance = attach_instance(box.shape);
+}
+
+void ColourScene::move(MissionTime now) {
   for (Body& body : bodies_) {
     const PersonPose pose = body.person.at(now);
     Pose X_WP = Pose::Identity();
     X_WP.linear() = Eigen::AngleAxisd{pose.heading_rad, Vec3::UnitZ()}.toRotationMatrix();
     X_WP.translation() = pose.foot_W;
     body.X_WP = X_WP.cast<float>();
-    const Eigen::Matrix4f columns = body.X_WP.matrix();
-    rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, columns.data());
-    rtcCommitGeometry(body.instance);
+    place(body.instance, body.X_WP);
+  }
+  for (MovingBox& box : boxes_) {
+    const Aabb there = box_at(box.mover, now);
+    const Vec3 middle_W = 0.5 * (there.min + there.max);
+    box.foot_W = Vec3{middle_W.x(), middle_W.y(), there.min.z()}.cast<float>();
+    place(box.instance, Eigen::Isometry3f{Eigen::Translation3f{box.foot_W}});
   }
   rtcCommitScene(scene_);
 }
@@ -128,6 +158,17 @@ void ColourScene::colour_body(
   seen.normal_W = (body.X_WP.linear() * blend(body.mesh.normals)).normalized();
   seen.colour = body.mesh.textures[body.mesh.parts[triangle]].at(blend(body.mesh.texture_places),
                                                                  footprint_m / body.texel_m);
+}
+
+Eigen::Vector3f ColourScene::colour_of(unsigned instance,
+                                       unsigned quad,
+                                       const SurfacePoint& point) const {
+  if (instance == solids_instance) {
+    return surface_colour(materials_[quad], point);
+  }
+  SurfacePoint on_box = point;
+  on_box.p_W -= boxes_[instance - 1U - bodies_.size()].foot_W;
+  return surface_colour(Material::plaster, on_box);  // Nobody says what a mover is made of.
 }
 
 std::array<SurfaceHit, lanes> ColourScene::look(const Packet& packet, float pixel_rad) const {
@@ -157,7 +198,8 @@ std::array<SurfaceHit, lanes> ColourScene::look(const Packet& packet, float pixe
     seen.normal_W =
         Eigen::Vector3f{rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]}.normalized();
     const unsigned instance = rays.hit.instID[0][i];
-    if (instance != solids_instance) {
+    const bool is_person = instance != solids_instance && instance <= bodies_.size();
+    if (is_person) {
       colour_body(bodies_[instance - 1U], rays.hit, lane, seen, range_m * pixel_rad);
     }
     seen.facing = -seen.normal_W.dot(ray.direction);
@@ -165,11 +207,10 @@ std::array<SurfaceHit, lanes> ColourScene::look(const Packet& packet, float pixe
       seen.normal_W = -seen.normal_W;
       seen.facing = -seen.facing;
     }
-    if (instance == solids_instance) {
+    if (!is_person) {
       // Along the view a pixel covers more of a surface that it grazes; half way between the two.
       const float footprint_m = range_m * pixel_rad / std::sqrt(std::max(seen.facing, 0.01F));
-      seen.colour =
-          surface_colour(materials_[rays.hit.primID[i]], {seen.p_W, seen.normal_W, footprint_m});
+      seen.colour = colour_of(instance, rays.hit.primID[i], {seen.p_W, seen.normal_W, footprint_m});
     }
   }
   return hits;

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The world as rays of light meet it: solids, and people at a moment of the mission.
+/// The world as rays of light meet it: solids, and people and movers at a moment of the mission.
 
 #include "people/person_mesh.h"
 #include "sensors/embree_scene.h"
@@ -36,7 +36,8 @@ class ColourScene {
   ColourScene(const ColourScene&) = delete;
   ColourScene& operator=(const ColourScene&) = delete;
 
-  void move_people(MissionTime now);
+  /// People and movers.
+  void move(MissionTime now);
   /// @param pixel_rad  Angle between two pixels. @pre Directions have length 1.
   [[nodiscard]] std::array<SurfaceHit, lanes> look(const Packet& packet, float pixel_rad) const;
   /// Whether nothing is in a ray's way.
@@ -51,9 +52,20 @@ class ColourScene {
     Eigen::Isometry3f X_WP{Eigen::Isometry3f::Identity()};
     float texel_m{1.0F};  ///< Length on the body of one width of its pictures.
   };
+  struct MovingBox {
+    Mover mover{};
+    RTCScene shape{};
+    RTCGeometry instance{};
+    Eigen::Vector3f foot_W{Eigen::Vector3f::Zero()};
+  };
   void attach_solids(const World& world);
   void attach(Body& body);
+  void attach(MovingBox& box);
   [[nodiscard]] RTCGeometry attach_instance(RTCScene shape);
+  /// Of a ray that ended on a solid or a mover. Patterns move with what they are on.
+  [[nodiscard]] Eigen::Vector3f colour_of(unsigned instance,
+                                          unsigned quad,
+                                          const SurfacePoint& point) const;
   void colour_body(
       const Body& body, const RTCHit8& hit, int lane, SurfaceHit& seen, float footprint_m) const;
 
@@ -62,6 +74,7 @@ class ColourScene {
   RTCScene solids_scene_{};
   std::vector<Material> materials_{};  ///< By quad.
   std::vector<Body> bodies_{};
+  std::vector<MovingBox> boxes_{};
 };
 
 }  // namespace flyball
