@@ -104,10 +104,12 @@ void run(SimulatedFlight& flight, const MissionHooks& hooks) {
 }
 
 /// What is known at take-off, and where what is forgotten goes.
-Status begin_map(Mapper& mapper, const MissionHooks& hooks) {
+Status begin_map(const MissionEquipment& equipment, const MissionHooks& hooks) {
+  Mapper& mapper = *equipment.kernels.mapper;
   Status done = check_map_name(hooks.final_map);
   if (done && !hooks.start_map.empty()) {
     done = mapper.read(hooks.start_map);
+    done = done ? check_start_map(hooks.start_map, equipment) : done;
   }
   if (done && !hooks.final_map.empty()) {
     done = mapper.keep_forgotten(hooks.final_map + ".forgotten");
@@ -201,7 +203,7 @@ Result<MissionRecord> fly(const Scenario& scenario, const MissionHooks& hooks) {
     return real.error();
   }
   Mapper& mapper = *setup->equipment.kernels.mapper;  // Stays where it is when it is handed on.
-  if (const Status begun_map = begin_map(mapper, hooks); !begun_map) {
+  if (const Status begun_map = begin_map(setup->equipment, hooks); !begun_map) {
     return begun_map.error();
   }
   MissionRecord record = begin_record(*setup);

@@ -3,6 +3,7 @@
 
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/text/listed.h"
 
 #include "scenario/scenario_fields.h"
 #include <algorithm>
@@ -19,6 +20,29 @@ Status check_map_name(const std::string& path) {
                                                "(log-odds)"};
   }
   return path.empty() ? Status{Done{}} : check_place(path);
+}
+
+Status check_start_map(const std::string& path, const MissionEquipment& equipment) {
+  const std::vector<double> cells_m = equipment.kernels.mapper->resolutions_m();
+  const auto has = [&cells_m](double wanted_m) {
+    return std::any_of(cells_m.begin(), cells_m.end(), [wanted_m](double cell_m) {
+      return std::abs(cell_m - wanted_m) < 1e-9;  // As the mapper compares them.
+    });
+  };
+  const KnobSpec* knob = equipment.knobs.spec("map.resolution_m");
+  if (cells_m.empty() || knob == nullptr ||
+      (has(knob->fallback) && std::all_of(knob->legal.begin(), knob->legal.end(), has))) {
+    return Done{};
+  }
+  const std::vector<double> wanted_m =
+      knob->legal.empty() ? std::vector<double>{knob->fallback} : knob->legal;
+  return Error{ErrorCode::invalid_input,
+               "start map \"" + path + "\" has cells of " + listed(cells_m, toml_number) +
+                   " m, and the mission maps at " + listed(wanted_m, toml_number) +
+                   " m; set kernels.mapper_parameters.finest_m to " + toml_number(cells_m.front()) +
+                   " and map.resolution_m to one of the map's cells, or make the map with cells "
+                   "of " +
+                   toml_number(wanted_m.front()) + " m"};
 }
 
 Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {

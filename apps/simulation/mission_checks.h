@@ -14,6 +14,11 @@ namespace flyball {
 
 /// Before the flight: after it a wrong name would cost the map.
 [[nodiscard]] Status check_map_name(const std::string& path);
+/// A start map brings cells of its own size, and in flight each frame would be refused whose
+/// resolution is none of them.
+///
+/// @param equipment  Whose mapper has read the file, and whose knobs were made before.
+[[nodiscard]] Status check_start_map(const std::string& path, const MissionEquipment& equipment);
 /// Links, faults and events exist on a modeled computer only.
 [[nodiscard]] Status check_executor(const Scenario& scenario, const MissionHooks& hooks);
 /// A real depth camera hangs on a real vehicle, alone: no other camera can be real.

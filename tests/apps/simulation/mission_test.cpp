@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/simulation/mission.h"
 
+#include "flyball/kernels/mapper.h"
+
 #include "records/knob_history.h"
 #include "scratch_folder.h"
 #include "short_delivery.h"
@@ -64,6 +66,33 @@ TEST(Mission, says_once_that_it_is_over_before_its_map_is_written) {
   ASSERT_TRUE(record.ok());
   EXPECT_EQ(told, 1);
   EXPECT_TRUE(std::filesystem::exists(hooks.final_map));
+}
+
+TEST(Mission, a_start_map_whose_cells_are_not_the_missions_is_refused) {
+  const ScratchFolder folder;
+  MissionHooks hooks;
+  hooks.start_map = folder.path("start.bt");
+  hooks.stop = [] { return true; };
+  Scenario scenario = kit::short_delivery();
+  scenario.kernels.mapper = "flyball";
+  const auto fly_from_cells_of = [&](double cell_m) {
+    const auto mapper = Plugins{}.make<Mapper>("flyball");
+    PointCloud cloud;
+    cloud.hits_C = {{0.0F, 0.0F, 3.0F}};
+    EXPECT_TRUE(mapper->prepare(cloud, Pose::Identity(), {cell_m, 5.0}));
+    mapper->commit();
+    EXPECT_TRUE(mapper->write(hooks.start_map, cell_m));
+    return fly(scenario, hooks);
+  };
+  EXPECT_TRUE(fly_from_cells_of(0.15).ok());
+  const auto refused = fly_from_cells_of(0.1);
+  ASSERT_FALSE(refused.ok());
+  const std::string& why = refused.error().message;
+  EXPECT_NE(why.find("has cells of 0.1, 0.2, 0.4, 0.8 m"), std::string::npos) << why;
+  EXPECT_NE(why.find("kernels.mapper_parameters.finest_m to 0.1"), std::string::npos) << why;
+  scenario.kernels.mapper_parameters = {{"finest_m", 0.1}};
+  scenario.map.resolution_m = 0.4;
+  EXPECT_TRUE(fly(scenario, hooks).ok()) << "the way out that it names";
 }
 
 TEST(Mission, the_record_tells_how_the_knobs_stood_from_start_to_end) {
