@@ -11,7 +11,15 @@ namespace {
 constexpr std::array<GridCell, 6> neighbours{
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 // Chosen: the search begins in a cell up to this far from the start, which may touch unknown cells.
-constexpr double most_off_m = 0.6;
+constexpr double usually_off_m = 0.6;
+// Chosen: of cells up to this wide every second one is enough to look from.
+constexpr double thinned_cell_m = 0.3;
+
+/// In wide cells the centre of the very cell that the start lies in can be farther away.
+double most_off_m(double cell_m) {
+  const double half_diagonal_m = 0.5 * std::sqrt(3.0) * cell_m;
+  return std::max(usually_off_m, half_diagonal_m + 1e-6);
+}
 
 GridCell sum(const GridCell& a, const GridCell& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -99,8 +107,9 @@ bool StandingPlaces::is_open(const GridCell& cell, const Aabb& bounds_W) const {
 
 bool StandingPlaces::find_start(const Aabb& bounds_W, const Vec3& from_W, GridCell& start) const {
   const GridCell middle = grid_.cell_of(from_W);
-  const int reach = static_cast<int>(std::ceil(most_off_m / grid_.cell_m()));
-  double best_m = most_off_m;
+  const double limit_m = most_off_m(grid_.cell_m());
+  const int reach = static_cast<int>(std::ceil(limit_m / grid_.cell_m()));
+  double best_m = limit_m;
   for (int i = 0; i < (2 * reach + 1) * (2 * reach + 1) * (2 * reach + 1); ++i) {
     const int wide = 2 * reach + 1;
     const GridCell cell =
@@ -111,17 +120,19 @@ bool StandingPlaces::find_start(const Aabb& bounds_W, const Vec3& from_W, GridCe
       start = cell;
     }
   }
-  return best_m < most_off_m;
+  return best_m < limit_m;
 }
 
 // The search is breadth first, so the queue itself is sorted by length of path.
 void StandingPlaces::flood(const GridCell& start, const Aabb& bounds_W) {
+  // One row of wide cells may be all there is of a corridor, so none of them is left out.
+  const bool is_thinned = grid_.cell_m() <= thinned_cell_m + 1e-9;
   std::vector<GridCell> queue{start};
   steps_[grid_.index(start)] = 0;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const GridCell cell = queue[i];
     const std::uint32_t steps = steps_[grid_.index(cell)];
-    if (cell[0] % 2 == 0 && cell[1] % 2 == 0) {
+    if (!is_thinned || (cell[0] % 2 == 0 && cell[1] % 2 == 0)) {
       thinned_.push_back({cell, steps * grid_.cell_m()});
     }
     for (const GridCell& step : neighbours) {

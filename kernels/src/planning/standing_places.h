@@ -17,7 +17,8 @@ struct Place {
 
 class StandingPlaces {
  public:
-  /// Floods the grid from the place nearest to `from_W`, at most `most_off_m` away from it.
+  /// Floods the grid from the place nearest to `from_W`, at most .6 m or half the diagonal of a
+  /// cell away from it.
   ///
   /// @cost In proportion to the grid's cells, times the body's for those at a border of free space.
   StandingPlaces(const StateGrid& grid,
@@ -26,7 +27,8 @@ class StandingPlaces {
                  const Vec3& from_W);
 
   [[nodiscard]] const StateGrid& grid() const { return grid_; }
-  /// Every second one along each horizontal axis, nearest first: enough to look from.
+  /// Every second one along each horizontal axis, nearest first: enough to look from. In cells
+  /// wider than .3 m every one.
   [[nodiscard]] const std::vector<Place>& thinned() const { return thinned_; }
   /// Cells that the flood looked at.
   [[nodiscard]] double cells() const { return cells_; }

@@ -60,5 +60,19 @@ TEST(StandingPlaces, are_none_where_the_body_cannot_stand_at_the_start) {
   EXPECT_TRUE(Flooded(kit::two_rooms(), request).places.thinned().empty());
 }
 
+TEST(StandingPlaces, begin_in_the_cell_of_the_start_however_wide_it_is) {
+  const kit::GridMap map{{{0, 0, 0}, {12, 6, 3.6}}, 1.2, CellState::free};
+  // Near the corner of its cell, 1.02 m away from the centre.
+  const Flooded flooded{map, kit::request_from({3.59, 3.59, 1.21}, 0.0)};
+  EXPECT_TRUE(flooded.places.reaches(flooded.grid.cell_of({9.0, 3.0, 1.8})));
+}
+
+TEST(StandingPlaces, are_every_cell_of_a_corridor_that_is_one_wide_cell_across) {
+  kit::GridMap map{{{0, 0, 0}, {12, 6, 3.6}}, 1.2, CellState::occupied};
+  map.fill({{0, 1.2, 1.2}, {12, 2.4, 2.4}}, CellState::free);
+  const Flooded flooded{map, kit::request_from({0.6, 1.8, 1.8}, 0.0)};
+  EXPECT_EQ(flooded.places.thinned().size(), 10U);
+}
+
 }  // namespace
 }  // namespace flyball
