@@ -146,7 +146,8 @@ int map_from(MapFromOptions& options) {
   if (const Status usable = check(options); !usable) {
     return refuse({usable.error()});
   }
-  auto mapper = make_mapper(options.mapper, options.plugins);
+  // A mapper of several resolutions writes its finest cells, so those are what is asked for.
+  auto mapper = make_mapper(options.mapper, options.plugins, options.settings.map.resolution_m);
   if (!mapper) {
     return refuse({mapper.error()});
   }

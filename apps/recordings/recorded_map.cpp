@@ -4,6 +4,7 @@
 #include "flyball/kernels/pixel_point.h"
 #include "flyball/runtime/text/listed.h"
 
+#include "scenario/kernel_choice.h"
 #include <algorithm>
 #include <cmath>
 
@@ -79,12 +80,24 @@ std::optional<Pose> pose_between(const std::vector<TimedPose>& poses,
   return X_WB;
 }
 
-Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name, const Plugins& plugins) {
-  if (auto mapper = plugins.make<Mapper>(name)) {
-    return mapper;
+Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name,
+                                            const Plugins& plugins,
+                                            std::optional<double> finest_m) {
+  const auto unconfigured = plugins.make<Mapper>(name);
+  if (!unconfigured) {
+    return Error{ErrorCode::not_found,
+                 "no mapper \"" + name + "\"; there are: " + listed(plugins.names<Mapper>())};
   }
-  return Error{ErrorCode::not_found,
-               "no mapper \"" + name + "\"; there are: " + listed(plugins.names<Mapper>())};
+  KernelSettings chosen;
+  chosen.mapper = name;
+  const auto specs = unconfigured->parameters();
+  const bool has_finest = std::any_of(specs.begin(), specs.end(), [](const ParameterSpec& spec) {
+    return spec.name == "finest_m";
+  });
+  if (finest_m && has_finest) {
+    chosen.mapper_parameters["finest_m"] = *finest_m;
+  }
+  return make_kernel<Mapper>(plugins, chosen);
 }
 
 Result<MappingRun> map_recording(const Recording& recording,

@@ -44,6 +44,15 @@ TEST(Flyball, offers_no_range_that_it_refuses) {
   }
 }
 
+TEST(Flyball, reaches_as_far_as_the_cells_allow_that_an_empty_map_begins_with) {
+  const auto mapper = kit::made_mapper("flyball");
+  Pose X_WC = looking_along_x();
+  X_WC.translation().x() = 6000.0;  // Beyond 32768 cells of 0.15 m, but not of 0.5 m.
+  const auto prepared = mapper->prepare(wall_scan(3.0F), X_WC, {0.5, 100.0});
+  EXPECT_TRUE(prepared.ok()) << prepared.error().message;
+  EXPECT_FALSE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.5, 126.0}).ok());
+}
+
 TEST(Flyball, shows_a_scan_only_after_commit) {
   const auto mapper = kit::made_mapper("flyball");
   ASSERT_TRUE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.15, range_m}).ok());

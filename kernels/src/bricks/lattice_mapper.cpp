@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 namespace flyball {
 namespace {
@@ -196,18 +197,26 @@ class LatticeMapper final : public Mapper {
     }
   }
 
+  [[nodiscard]] std::optional<int> level_with(double resolution_m) const {
+    for (int level = 0; level <= coarsest_level; ++level) {
+      if (std::abs(map_.lattice().cell_m(level) - resolution_m) < 1e-9) {
+        return level;
+      }
+    }
+    return std::nullopt;
+  }
+
   /// A map that is still empty takes a resolution off its lattice as its finest.
+  [[nodiscard]] bool begins_anew_with(double resolution_m) const {
+    return map_.cells().chunks().empty() && !level_with(resolution_m);
+  }
+
   Result<int> level_of(double resolution_m) {
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      for (int level = 0; level <= coarsest_level; ++level) {
-        if (std::abs(map_.lattice().cell_m(level) - resolution_m) < 1e-9) {
-          return level;
-        }
-      }
-      if (!map_.cells().chunks().empty()) {
-        break;
-      }
+    if (begins_anew_with(resolution_m)) {
       begin(resolution_m);
+    }
+    if (const auto level = level_with(resolution_m)) {
+      return *level;
     }
     return invalid("map.resolution_m " + std::to_string(resolution_m) +
                    " must be 1, 2, 4 or 8 times " + std::to_string(map_.lattice().cell_m(0)));
@@ -216,11 +225,11 @@ class LatticeMapper final : public Mapper {
   [[nodiscard]] Status check(const PointCloud& cloud_C,
                              const Pose& X_WC,
                              const MapperSettings& settings) const {
-    const double finest_m = map_.cells().chunks().empty()
-                                ? std::min(settings.resolution_m, map_.lattice().cell_m(0))
-                                : map_.lattice().cell_m(0);
+    const Lattice lattice =
+        begins_anew_with(settings.resolution_m) ? Lattice{settings.resolution_m} : map_.lattice();
+    const double finest_m = lattice.cell_m(0);
     // A pyramid looks at the whole box around its view, up to the next chunk.
-    const double edge_m = map_.lattice().edge_m() - settings.range_m - 64.0 * finest_m;
+    const double edge_m = lattice.edge_m() - settings.range_m - 64.0 * finest_m;
     if (auto status = check_points(cloud_C, X_WC); !status) {
       return status;
     }

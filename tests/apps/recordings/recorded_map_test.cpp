@@ -203,6 +203,17 @@ TEST(MapFrom, writes_a_map_that_any_mapper_reads) {
   }
 }
 
+TEST(MapFrom, writes_cells_of_the_resolution_also_where_a_mapper_has_finer_ones) {
+  const FlyballProgram flyball;
+  for (const auto& [resolution, range] : {std::pair{"0.3", "12"}, std::pair{"0.6", "60"}}) {
+    const auto said = flyball.run("map from " + flight().place.path() +
+                                  " --intrinsics 112,112,111.5,83.5 --out a.bt --json " +
+                                  "--resolution " + resolution + " --range " + range);
+    ASSERT_EQ(said.exit_code, 0) << said.errors;
+    EXPECT_NEAR(nlohmann::json::parse(said.output).at("cell_m"), std::stod(resolution), 1e-9);
+  }
+}
+
 TEST(MapFrom, takes_poses_from_a_file) {
   const FlyballProgram flyball;
   const auto recording = flight().read();

@@ -49,9 +49,10 @@ struct MappingRun {
                                                MissionTime t,
                                                Duration widest_gap);
 
-/// A mapper, by its name among `plugins`.
-/// @error `not_found` with the names of those that there are.
-[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(const std::string& name,
-                                                          const Plugins& plugins);
+/// A mapper, by its name among `plugins`, configured.
+/// @param finest_m  Its finest cells, where it lets one choose them; empty: as it has them.
+/// @error `not_found` with the names of those that there are; those of `Kernel::configure`.
+[[nodiscard]] Result<std::unique_ptr<Mapper>> make_mapper(
+    const std::string& name, const Plugins& plugins, std::optional<double> finest_m = std::nullopt);
 
 }  // namespace flyball
