@@ -17,6 +17,7 @@ constexpr auto memory = 5s;  // A frame that is older than this corrects with wh
 void DeadReckoning::start(const Pose& X_WB) {
   samples_.clear();
   fix_ = std::nullopt;
+  q_WB_then_ = std::nullopt;
   climb_ = {};
   has_barometer_ = false;
   X_WB_start_ = X_WB;
@@ -27,8 +28,14 @@ void DeadReckoning::correct(const VisualFix& fix) {
     return;
   }
   fix_ = fix;
-  if (!samples_.empty()) {
-    height_then_m_ = sample_at(fix.captured).height_m;
+  q_WB_then_ = std::nullopt;
+  if (samples_.empty()) {
+    return;
+  }
+  const Sample& then = sample_at(fix.captured);
+  height_then_m_ = then.height_m;
+  if (then.stamp >= fix.captured) {
+    q_WB_then_ = then.q_WB;
   }
 }
 
@@ -39,6 +46,9 @@ void DeadReckoning::add_sample(const NavigationSample& sample) {
     has_barometer_ = true;
   }
   samples_.push_back({sample.stamp, sample.q_WB_ahrs.normalized(), climb_.height_m()});
+  if (fix_ && !q_WB_then_ && sample.stamp >= fix_->captured) {
+    q_WB_then_ = samples_.back().q_WB;
+  }
   while (samples_.front().stamp + memory < sample.stamp) {
     samples_.pop_front();
   }
@@ -62,7 +72,7 @@ Pose DeadReckoning::pose_at(MissionTime t) const {
   if (fix_) {
     const double age_s = to_seconds(t - fix_->captured);
     X_WB.translation() += std::clamp(age_s, 0.0, longest_reckoning_s) * fix_->v_WB;
-    const Eigen::Quaterniond turned = sample_at(fix_->captured).q_WB.conjugate() * then.q_WB;
+    const Eigen::Quaterniond turned = q_WB_then_.value_or(then.q_WB).conjugate() * then.q_WB;
     X_WB.linear() =
         (Eigen::Quaterniond{fix_->X_WB.linear()} * turned).normalized().toRotationMatrix();
   }

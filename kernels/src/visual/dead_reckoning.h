@@ -39,6 +39,9 @@ class DeadReckoning {
   bool has_barometer_{};
   double height_then_m_{};          ///< At the start, later at the fix.
   std::optional<VisualFix> fix_{};  ///< The last one that was tracked.
+  /// By the first sample at or after the fix, which is kept because a fix may grow older than the
+  /// samples. Empty: no sample is that new.
+  std::optional<Eigen::Quaterniond> q_WB_then_{};
   Pose X_WB_start_{Pose::Identity()};
 };
 

@@ -61,6 +61,21 @@ TEST(DeadReckoning, turns_as_the_attitude_did_since_the_fix) {
   EXPECT_NEAR(yaw_of(now.X_WB.linear().col(0)), 0.5 + 0.22, 1e-9);
 }
 
+TEST(DeadReckoning, knows_how_it_has_turned_since_a_fix_that_is_older_than_its_samples) {
+  for (const int fixed_at : {-1, 110}) {  // Before the first sample, too.
+    DeadReckoning reckoning;
+    reckoning.start(Pose::Identity());
+    PoseEstimate now;
+    for (int i = fixed_at; i <= 1000; ++i) {
+      if (i == fixed_at) {
+        reckoning.correct(fix(0.01 * i, {0, 0, 0}, {0, 0, 0}));
+      }
+      now = reckoning.estimate(sample(0.01 * i + 0.005, 0.002 * i));
+    }
+    EXPECT_NEAR(yaw_of(now.X_WB.linear().col(0)), 0.002 * (1000 - fixed_at), 1e-9) << fixed_at;
+  }
+}
+
 TEST(DeadReckoning, stands_still_when_fixes_fail_to_come) {
   DeadReckoning reckoning;
   reckoning.start(Pose::Identity());
