@@ -21,6 +21,9 @@ using flyball::Vec3;
 // Steady-state Kalman gain for 5 cm of white noise on a fix, and 5 cm/s on the velocity held for
 // the .1 s between fixes: q/r = (.005/.05)^2, gain = (-q/r + sqrt((q/r)^2 + 4 q/r)) / 2 = .095.
 constexpr double usual_gain = 0.1;
+// Chosen: no vehicle gets so far from its origin. A place that is pulled in from beyond it, or that
+// is not finite at all, would spoil the estimate for minutes or for ever.
+constexpr double farthest_m = 1e6;
 
 /// What kernels/modules/geodesy.cpp offers.
 using GeodeticToEnu = bool (*)(const double* place, const double* origin, double* p_W);
@@ -30,7 +33,8 @@ GeodeticToEnu load_conversion() {
   return reinterpret_cast<GeodeticToEnu>(function);  // NOLINT: what dlsym is for
 }
 
-/// Empty for a fix that is none: a receiver that lost its satellites, or a damaged message.
+/// Empty for a fix that is none: a receiver that lost its satellites, or a damaged message. Finite
+/// coordinates may still overflow where they are converted.
 std::optional<Vec3> to_world(GeodeticToEnu convert,
                              const flyball::NavigationSample& sample,
                              const flyball::GeodeticOrigin& origin) {
@@ -42,7 +46,9 @@ std::optional<Vec3> to_world(GeodeticToEnu convert,
   const std::array place{sample.latitude_rad, sample.longitude_rad, sample.height_m};
   const std::array centre{origin.latitude_rad, origin.longitude_rad, origin.height_m};
   Vec3 p_W;
-  return convert(place.data(), centre.data(), p_W.data()) ? std::optional{p_W} : std::nullopt;
+  const bool is_place = convert(place.data(), centre.data(), p_W.data()) && p_W.allFinite() &&
+                        p_W.norm() < farthest_m;
+  return is_place ? std::optional{p_W} : std::nullopt;
 }
 
 class GpsLocalizer final : public flyball::Localizer {

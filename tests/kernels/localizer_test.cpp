@@ -117,6 +117,18 @@ TEST(Gps, ignores_a_fix_that_is_not_finite) {
 
 // Steady state: for gain k and noise s, white noise leaves s sqrt(k / (2 - k)) = .23 s for k = .1;
 // the held velocity's noise adds .05 m/s * .1 s / sqrt(1 - (1 - k)^2) = .0115 m. Per axis, .0162 m.
+TEST(Gps, ignores_a_fix_at_a_place_where_no_vehicle_can_be) {
+  for (const double height_m : {1e308, 1e150, -2e6}) {
+    const auto gps = make("gps");
+    Work work;
+    (void)gps->estimate(fix_at(0.0, {5, 0, 0}, {1, 0, 0}), work);
+    NavigationSample broken = fix_at(0.1, {5, 0, 0}, {1, 0, 0});
+    broken.height_m = height_m;
+    const PoseEstimate estimate = gps->estimate(broken, work).value();
+    EXPECT_LT((estimate.X_WB.translation() - Vec3{5.1, 0, 0}).norm(), 0.01) << height_m;
+  }
+}
+
 TEST(Gps, averages_the_noise_of_fixes_on_a_moving_vehicle) {
   const auto gps = make("gps");
   std::mt19937 generator{3};
