@@ -53,6 +53,9 @@ class FlyballMapper final : public flyball::Mapper {
   }
 
   [[nodiscard]] std::vector<double> resolutions_m() const override { return map_->resolutions_m(); }
+  [[nodiscard]] double longest_range_m(double resolution_m) const override {
+    return map_->longest_range_m(resolution_m);
+  }
   /// One lattice of cells refuses longer rays than so many of its finest ones.
   [[nodiscard]] std::vector<flyball::KnobSpec> knobs() const override {
     auto all = Mapper::knobs();

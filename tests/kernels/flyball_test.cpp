@@ -51,6 +51,7 @@ TEST(Flyball, reaches_as_far_as_the_cells_allow_that_an_empty_map_begins_with) {
   const auto prepared = mapper->prepare(wall_scan(3.0F), X_WC, {0.5, 100.0});
   EXPECT_TRUE(prepared.ok()) << prepared.error().message;
   EXPECT_FALSE(mapper->prepare(wall_scan(3.0F), looking_along_x(), {0.5, 126.0}).ok());
+  EXPECT_EQ(mapper->longest_range_m(0.5), 125.0);
 }
 
 TEST(Flyball, shows_a_scan_only_after_commit) {

@@ -89,7 +89,7 @@ bool Navigator::has_arrived() const {
 void Navigator::note_map(MissionTime now, const PathClearance& clearance) {
   (void)newest_.note_terms(now, terms_of(*knobs_, *brief_));
   newest_.note(clearance.revision, clearance.published);
-  follower_.map_captured(newest_.captured());
+  follower_.map_captured(newest_.captured(), newest_.revision().longest_range_m);
   follower_.set_latency_bound(newest_.age_bound());
 }
 

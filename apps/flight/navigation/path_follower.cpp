@@ -134,8 +134,8 @@ double PathFollower::room_m(std::size_t tier) const {
   if (!brief_->maps_obstacles) {
     return from_here_m;
   }
-  const double in_range_m =
-      knobs_->value("map.range_m") - brief_->body_at(tier_speeds_m_s(*knobs_)[tier]).radius_m;
+  const double range_m = std::min(knobs_->value("map.range_m"), longest_range_m_);
+  const double in_range_m = range_m - brief_->body_at(tier_speeds_m_s(*knobs_)[tier]).radius_m;
   return std::min(from_here_m + distance_since(newest_capture_), in_range_m);
 }
 

@@ -113,8 +113,10 @@ class Map {
               const PointCloudFrame& frame,
               const PoseEstimate& pose,
               const KnobsInForce& knobs) {
-    const MapperSettings settings{knobs.value("map.resolution_m"), knobs.value("map.range_m")};
     mapper_->apply(knobs.knobs);
+    const double resolution_m = knobs.value("map.resolution_m");
+    const double longest_m = mapper_->longest_range_m(resolution_m);
+    const MapperSettings settings{resolution_m, std::min(knobs.value("map.range_m"), longest_m)};
     const auto work =
         mapper_->prepare_frame(frame, camera_pose(pose.X_WB, brief_->settings.camera), settings);
     if (!work) {
@@ -125,6 +127,7 @@ class Map {
     MapRevision revision{++number_, frame.captured, settings.resolution_m, mapper_->revision()};
     revision.range_m =
         frame.range_m > 0.0 ? std::min(frame.range_m, settings.range_m) : settings.range_m;
+    revision.longest_range_m = longest_m;
     if (brief_->settings.has_edge) {
       revision.bytes = octree_bytes(*mapper_, settings.resolution_m);
     }

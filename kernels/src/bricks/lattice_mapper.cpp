@@ -74,6 +74,10 @@ class LatticeMapper final : public Mapper {
     return cells_m;
   }
 
+  [[nodiscard]] double longest_range_m(double resolution_m) const override {
+    return RayScan::most_cells_per_ray * lattice_for(resolution_m).cell_m(0);
+  }
+
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
                        const MapperSettings& settings) override {
@@ -211,6 +215,10 @@ class LatticeMapper final : public Mapper {
     return map_.cells().chunks().empty() && !level_with(resolution_m);
   }
 
+  [[nodiscard]] Lattice lattice_for(double resolution_m) const {
+    return begins_anew_with(resolution_m) ? Lattice{resolution_m} : map_.lattice();
+  }
+
   Result<int> level_of(double resolution_m) {
     if (begins_anew_with(resolution_m)) {
       begin(resolution_m);
@@ -225,8 +233,7 @@ class LatticeMapper final : public Mapper {
   [[nodiscard]] Status check(const PointCloud& cloud_C,
                              const Pose& X_WC,
                              const MapperSettings& settings) const {
-    const Lattice lattice =
-        begins_anew_with(settings.resolution_m) ? Lattice{settings.resolution_m} : map_.lattice();
+    const Lattice lattice = lattice_for(settings.resolution_m);
     const double finest_m = lattice.cell_m(0);
     // A pyramid looks at the whole box around its view, up to the next chunk.
     const double edge_m = lattice.edge_m() - settings.range_m - 64.0 * finest_m;

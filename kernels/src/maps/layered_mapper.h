@@ -26,6 +26,7 @@
 #include "maps/shown_cells.h"
 #include "scans/clear_cells.h"
 #include "scans/exact_scan.h"
+#include "scans/ray_scan.h"
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -39,6 +40,10 @@ inline constexpr float confirmed_log_odds = 2.2F;
 template <class Store>
 class LayeredMapper final : public Mapper {
  public:
+  [[nodiscard]] double longest_range_m(double resolution_m) const override {
+    return RayScan::most_cells_per_ray * resolution_m;
+  }
+
   Result<Work> prepare(const PointCloud& cloud_C,
                        const Pose& X_WC,
                        const MapperSettings& settings) override {

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +75,11 @@ class Mapper : public Kernel {
  public:
   /// Resolutions that this implementation maps at, ascending, once it is configured; empty: any.
   [[nodiscard]] virtual std::vector<double> resolutions_m() const { return {}; }
+  /// The range that `prepare` takes at most at this resolution. The knobs of both are turned by
+  /// themselves, so whoever uses them has to cut the range.
+  [[nodiscard]] virtual double longest_range_m([[maybe_unused]] double resolution_m) const {
+    return std::numeric_limits<double>::infinity();
+  }
   /// At which resolution, how far and how often depth is integrated.
   [[nodiscard]] std::vector<KnobSpec> knobs() const override {
     return {resolution_knob(resolutions_m()),
@@ -97,8 +103,8 @@ class Mapper : public Kernel {
   ///                  resolution; the others answer where it is still unknown.
   /// @return          Work: `rays`, `traversals` (cells walked, with repeats), `updates` (unique
   /// cells).
-  /// @error           `invalid_input` if a coordinate is not finite or a setting is not positive;
-  ///                  nothing is prepared.
+  /// @error           `invalid_input` if a coordinate is not finite, a setting is not positive or
+  ///                  the range is beyond `longest_range_m`; nothing is prepared.
   virtual Result<Work> prepare(const PointCloud& cloud_C,
                                const Pose& X_WC,
                                const MapperSettings& settings) = 0;

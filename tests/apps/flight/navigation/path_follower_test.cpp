@@ -172,6 +172,19 @@ TEST(PathFollower, does_not_trust_free_space_beyond_what_the_newest_frame_can_se
   EXPECT_NEAR(ride.follower.speed_m_s(), safe_speed(6.0, delta_s, range_m - body_m), 0.05);
 }
 
+TEST(PathFollower, goes_by_the_range_of_the_map_where_its_mapper_cuts_that_of_the_knob) {
+  Ride ride{60.0};
+  for (int i = 0; i < 200; ++i) {
+    ride.now += 20ms;
+    ride.follower.map_captured(ride.now, 4.0);
+    ride.follower.refresh_known_free(ride.map);
+    ride.follower.tick(ride.now, 20ms, Vec3::Zero());
+  }
+  const double body_m = ride.rig.brief->body_at(10.0).radius_m;
+  const double delta_s = 0.2 + to_seconds(ride.follower.guard().reaction_time());
+  EXPECT_NEAR(ride.follower.speed_m_s(), safe_speed(6.0, delta_s, 4.0 - body_m), 0.05);
+}
+
 TEST(PathFollower, believes_declared_space_to_any_distance_where_there_is_no_map) {
   GridMap map = kit::corridor(45.0);
   kit::MissionRig rig{map};

@@ -126,6 +126,28 @@ TEST(Map, tells_its_mapper_what_is_clear_and_what_is_in_doubt) {
   EXPECT_EQ(mapper->doubted_m, std::vector<double>{12.0});
 }
 
+TEST(Map, cuts_the_range_to_what_its_mapper_takes_in_small_cells_and_says_so) {
+  const kit::GridMap map = kit::corridor(10.0);
+  kit::MissionRig rig{map};
+  rig.kernels.mapper = rig.scenario.plugins.make<Mapper>("octomap");
+  ASSERT_TRUE(rig.set("map.resolution_m", 0.06) && rig.set("map.range_m", 20.0));
+  Graph graph{"perception"};
+  const FlightParts parts = rig.parts(graph);
+  const PerceptionTopics topics = add_perception(graph, parts);
+  EventQueue queue;
+  VirtualExecutor executor{graph, *rig.platform, queue, {1, Hertz{1e9}}};
+  std::vector<MapRevision> revisions;
+  executor.subscribe<MapRevision>(
+      topics.map, [&](const MapRevision& revision) { revisions.push_back(revision); });
+  executor.publish(parts.mission.knobs, *rig.knobs);
+  executor.publish(topics.localization.poses, pose_at(0ms, 0.0));
+  executor.publish(topics.cloud, PointCloudFrame{});
+  queue.run([&] { return queue.now() >= MissionTime{1s}; });
+  ASSERT_EQ(revisions.size(), 1U);
+  EXPECT_NEAR(revisions[0].range_m, 15.0, 1e-9);
+  EXPECT_NEAR(revisions[0].longest_range_m, 15.0, 1e-9);
+}
+
 TEST(Localize, publishes_no_pose_before_anything_tells_where_the_vehicle_is) {
   const kit::GridMap map = kit::corridor(10.0);
   kit::MissionRig rig{map};

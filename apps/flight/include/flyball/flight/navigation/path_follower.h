@@ -11,6 +11,7 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -82,7 +83,12 @@ class PathFollower {
   /// The known-free distances of this path, measured by the node `check` in a newer map.
   void set_known_free(const TierDistances& free_until_m) { free_until_m_ = free_until_m; }
   /// A map with frames up to this time is the newest one.
-  void map_captured(MissionTime captured) { newest_capture_ = captured; }
+  /// @param longest_range_m  Of a frame in it, whatever the knob of the range says.
+  void map_captured(MissionTime captured,
+                    double longest_range_m = std::numeric_limits<double>::infinity()) {
+    newest_capture_ = captured;
+    longest_range_m_ = longest_range_m;
+  }
   /// Bound on the age of a map (`MapLatency::age_bound`): the latency from sensor to published map
   /// plus the interval between maps, which is delta without t_b. Until it is set, the vehicle does
   /// not move through space that has to be mapped.
@@ -172,6 +178,7 @@ class PathFollower {
   double travelled_m_{};
   Duration latency_bound_{};
   MissionTime newest_capture_{};
+  double longest_range_m_{std::numeric_limits<double>::infinity()};
   std::optional<Stall> stall_{};
   std::optional<double> face_yaw_rad_{};
   bool must_stop_{};

@@ -8,6 +8,7 @@
 #include "flyball/runtime/time.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace flyball {
@@ -21,6 +22,8 @@ struct MapRevision {
   std::shared_ptr<const OccupancyView> map{};
   double range_m{};  ///< Of the newest frame in it; 0: nobody says.
   double bytes{};    ///< On a link; 0 where there is none.
+  /// That its mapper takes at this resolution, whatever the knob of the range says.
+  double longest_range_m{std::numeric_limits<double>::infinity()};
 };
 
 [[nodiscard]] inline double wire_bytes(const MapRevision& revision) {
