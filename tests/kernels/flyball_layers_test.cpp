@@ -75,6 +75,30 @@ TEST(FlyballLayers, answer_and_count_as_stock_does_while_the_resolution_changes)
   }
 }
 
+TEST(FlyballLayers, are_forgotten_beyond_sixteen_that_were_used_later) {
+  for (const bool is_octomap : {false, true}) {
+    const auto mapper = is_octomap ? kit::made_mapper("octomap") : make_layers();
+    for (int i = 0; i < 4; ++i) {
+      kit::insert(*mapper, kit::wall_scan(5.0F), {0.5, range_m});  // A wall beyond doubt.
+    }
+    const Vec3 wall_W{5.01, 0.1, 0.1};
+    const Vec3 before_W{4.2, 0.1, 0.1};
+    const auto revision = mapper->revision();
+    ASSERT_EQ(mapper->view().state(wall_W), CellState::occupied);
+    for (int i = 0; i < 40; ++i) {
+      kit::insert(*mapper, kit::wall_scan(1.0F), {0.51 + 0.01 * i, range_m});
+      EXPECT_EQ(mapper->view().resolution_m(), 0.51 + 0.01 * i);
+    }
+    EXPECT_EQ(mapper->contents().levels.size(), 16U);
+    EXPECT_EQ(mapper->view().state(wall_W), CellState::unknown);
+    EXPECT_EQ(mapper->view().state(before_W), CellState::unknown);
+    EXPECT_EQ(revision->state(wall_W), CellState::occupied) << "revisions keep their answers";
+    kit::insert(*mapper, kit::wall_scan(1.0F), {0.75, range_m});  // The one that is next to go.
+    kit::insert(*mapper, kit::wall_scan(1.0F), {2.0, range_m});
+    EXPECT_NEAR(mapper->contents().levels.front().cell_m, 0.75, 1e-9) << "it was used again";
+  }
+}
+
 TEST(FlyballLayers, come_back_from_a_file) {
   const ScratchFolder folder;
   const std::string path = folder.path("map.ot");

@@ -88,6 +88,7 @@ class LayeredMapper final : public Mapper {
         pending_->confirm(masks_->bricks);
       }
       pending_->show_in(view_);
+      note_use_of(*pending_);
       pending_ = nullptr;
     }
   }
@@ -156,6 +157,9 @@ class LayeredMapper final : public Mapper {
  private:
   // A finer map trusts only those free cells of this size and wider that surely hold no wall.
   static constexpr double coarse_cell_m = 0.3;
+  // Chosen: four times as many as one lattice has. A policy that asks for another
+  // resolution with each frame would otherwise fill the memory, and each question asks every layer.
+  static constexpr std::size_t most_layers = 16;
   // In a cell wider than this the body can fly beside the wall that the cell contains, and rays
   // that pass there without touching it would free the cell: stock OctoMap forgets the wall.
   static constexpr double wide_cell_m = 0.3;
@@ -274,7 +278,21 @@ class LayeredMapper final : public Mapper {
     return *layers_.emplace_back(std::make_unique<Layer>(Store{resolution_m}));
   }
 
-  std::vector<std::unique_ptr<Layer>> layers_{};
+  /// Forgets those that were used longest ago where there are too many. They answered, also by
+  /// their walls, only where no later one knows anything, so what they knew becomes unknown, and
+  /// never free.
+  void note_use_of(const Layer& used) {
+    const auto here = std::find_if(layers_.begin(), layers_.end(),
+                                   [&](const auto& layer) { return layer.get() == &used; });
+    std::rotate(here, here + 1, layers_.end());
+    while (layers_.size() > most_layers) {
+      view_.forget(layers_.front()->store.cells());
+      view_.forget(layers_.front()->walls.cells());
+      layers_.erase(layers_.begin());
+    }
+  }
+
+  std::vector<std::unique_ptr<Layer>> layers_{};  ///< That used last comes last.
   LayeredView view_{};
   const ScanMasks* masks_{};  ///< Of the pending layer.
   Layer* pending_{};

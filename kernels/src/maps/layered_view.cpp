@@ -58,9 +58,13 @@ void for_each_cube(const BrickCells& map, Visit&& visit) {
 
 }  // namespace
 
-void LayeredView::activate(const Layer& layer) {
-  const auto is_it = [&](const Layer& other) { return other.cells == layer.cells; };
+void LayeredView::forget(const BrickCells& cells) {
+  const auto is_it = [&](const Layer& layer) { return layer.cells == &cells; };
   layers_.erase(std::remove_if(layers_.begin(), layers_.end(), is_it), layers_.end());
+}
+
+void LayeredView::activate(const Layer& layer) {
+  forget(*layer.cells);
   layers_.insert(layers_.begin(), layer);
 }
 

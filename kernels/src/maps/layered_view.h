@@ -36,6 +36,8 @@ class LayeredView final : public OccupancyView {
   /// Makes the layer the one that answers first. Its maps outlive the view.
   void activate(const Layer& layer);
   void activate(const BrickCells& cells) { activate({&cells, nullptr}); }
+  /// Asks it no more.
+  void forget(const BrickCells& cells);
   /// The active one first.
   [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
   /// Back to knowing no map.
