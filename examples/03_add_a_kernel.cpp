@@ -2,10 +2,11 @@
 //
 // Adds the kernel of kernels/blue_trousers.cpp to a program of one's own: any program that links
 // flyball::apps can hand its own kernels, worlds and workloads to `fly`. This one checks the
-// detector on a painted picture and then follows a person with it.
+// detector on painted pictures, by the contract of its family, and then follows a person with it.
 //
 // Without a program the same file flies as a library; README.md beside it has the command.
 
+#include "flyball/kernels/conformance/detector_conformance.h"
 #include "flyball/kernels/detector.h"
 #include "flyball/scenario/plugins.h"
 #include "flyball/simulation/mission.h"
@@ -19,15 +20,15 @@ namespace {
 
 using flyball::ColourImage;
 
-/// A meadow of 80 x 60 pixels with blue trousers of 6 x 12 in it.
-ColourImage painted() {
+/// A meadow of 80 x 60 pixels with blue trousers of 6 x 12 in it, whose upper edge is at `top`.
+ColourImage painted(int top) {
   ColourImage image;
   image.camera.width_px = 80;
   image.camera.height_px = 60;
   for (int i = 0; i < 80 * 60; ++i) {
     const int u = i % 80;
     const int v = i / 80;
-    const bool is_trousers = u >= 30 && u < 36 && v >= 40 && v < 52;
+    const bool is_trousers = u >= 30 && u < 36 && v >= top && v < top + 12;
     const std::uint8_t meadow[] = {70, 110, 40};
     const std::uint8_t trousers[] = {40, 50, 90};
     image.rgb.insert(image.rgb.end(), is_trousers ? trousers : meadow,
@@ -36,12 +37,27 @@ ColourImage painted() {
   return image;
 }
 
-bool finds_what_was_painted(const flyball::Plugins& plugins) {
+bool finds(const flyball::Plugins& plugins, int top, const flyball::ImageBox& person) {
   const auto detector = plugins.make<flyball::Detector>("blue_trousers");
   flyball::Work work;
-  const auto found = detector->detect(painted(), 1.0, work);
-  const flyball::ImageBox person{30.0, 28.0, 6.0, 24.0};
+  const auto found = detector->detect(painted(top), 1.0, work);
   return found && found->size() == 1 && flyball::overlap(found->front().box, person) > 0.99;
+}
+
+/// Somebody as a whole, and somebody whose head is above the picture.
+bool finds_what_was_painted(const flyball::Plugins& plugins) {
+  return finds(plugins, 40, {30.0, 28.0, 6.0, 24.0}) && finds(plugins, 4, {30.0, 0.0, 6.0, 16.0});
+}
+
+/// Every family has such checks, which need no test framework.
+bool keeps_the_contract(const flyball::Plugins& plugins) {
+  flyball::DetectorConformance conformance{
+      {[&plugins] { return plugins.make<flyball::Detector>("blue_trousers"); }}};
+  const auto breaches = conformance.breaches();
+  for (const std::string& breach : breaches) {
+    std::printf("blue_trousers %s\n", breach.c_str());
+  }
+  return breaches.empty();
 }
 
 /// Ten seconds of the shipped photography, priced as HOG: the modeled computer has no price for a
@@ -63,11 +79,11 @@ flyball::Result<flyball::MissionRecord> follow_somebody(const flyball::Plugins& 
 
 int main() {
   const flyball::Plugins plugins = flyball::Plugins{}.with(flyball_plugin_blue_trousers);
-  const bool finds = finds_what_was_painted(plugins);
+  const bool is_sound = finds_what_was_painted(plugins) && keeps_the_contract(plugins);
   const auto flown = follow_somebody(plugins);
   if (!flown && flown.error().code == flyball::ErrorCode::not_found) {
     std::printf("not flown: %s\n", flown.error().message.c_str());  // No mesh of a person.
-    return finds ? 0 : 1;
+    return is_sound ? 0 : 1;
   }
   const bool follows = flown && flown->summary.status == flyball::MissionStatus::succeeded;
   if (flown) {
@@ -75,6 +91,6 @@ int main() {
                 flown->summary.quality.at("tracked_s"),
                 flown->summary.quality.at("mean_centre_error_percent"));
   }
-  std::puts(finds && follows ? "right" : "wrong");
-  return finds && follows ? 0 : 1;
+  std::puts(is_sound && follows ? "right" : "wrong");
+  return is_sound && follows ? 0 : 1;
 }

@@ -9,6 +9,7 @@
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
+#include <string>
 
 namespace {
 
@@ -17,7 +18,7 @@ using flyball::Detection;
 using flyball::ImageBox;
 using flyball::Work;
 
-/// The widest run of rows in which something is clearly bluer than it is red or green. Trousers are
+/// Takes all that is clearly bluer than it is red or green for one pair of trousers, and those for
 /// the lower half of a person.
 class BlueTrousers final : public flyball::Detector {
  public:
@@ -50,8 +51,12 @@ class BlueTrousers final : public flyball::Detector {
   }
 
   flyball::Result<std::vector<Detection>> detect(const ColourImage& image,
-                                                 double /*scale: every pixel is looked at*/,
+                                                 double scale,  // Every pixel is looked at.
                                                  Work& work) override {
+    if (!(scale > 0.0 && scale <= 8.0)) {
+      return flyball::Error{flyball::ErrorCode::invalid_input,
+                            "scale " + std::to_string(scale) + " must be above 0 and at most 8"};
+    }
     const int width = image.camera.width_px;
     const int height = image.camera.height_px;
     if (width <= 0 || image.rgb.size() != 3UL * width * height) {
@@ -73,8 +78,9 @@ class BlueTrousers final : public flyball::Detector {
     if (count < least_px_ || box.height_px < box.width_px) {
       return std::vector<Detection>{};
     }
+    const double feet_px = box.y_px + box.height_px;
     box.y_px = std::max(0.0, box.y_px - box.height_px);
-    box.height_px *= 2.0;
+    box.height_px = feet_px - box.y_px;  // Less than twice the trousers where the head is cut off.
     return std::vector<Detection>{{box, count}};
   }
 
