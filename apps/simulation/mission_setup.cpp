@@ -40,7 +40,7 @@ Status check_lift(const Scenario& scenario, const Airframe& airframe) {
   return Error{ErrorCode::invalid_input,
                "vehicle.payload_kg = " + toml_number(scenario.vehicle.payload_kg) + with_gimbal +
                    " is too heavy for airframe \"" + scenario.vehicle.airframe +
-                   "\", which lifts " + toml_number(std::floor(1e3 * most_kg) * 1e-3) +
+                   "\", which lifts " + toml_number(std::floor(1e3 * most_kg) / 1e3) +
                    " with a fifth of its thrust to spare; " +
                    (gimbal < most_kg ? "carry less" : "choose a larger vehicle.airframe")};
 }
