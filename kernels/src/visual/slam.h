@@ -42,7 +42,6 @@ class Slam {
   /// @error As `FeatureExtractor::extract`; the map is unchanged.
   [[nodiscard]] Result<SlamOutcome> track(const VisualFrame& frame, Work& work);
   [[nodiscard]] const LandmarkMap& map() const { return map_; }
-  [[nodiscard]] bool is_lost() const { return lost_; }
 
  private:
   struct Found {
