@@ -53,6 +53,12 @@ bool brings_fix(std::uint64_t sample, double rate_hz) {
   return sample == 0 || due(sample) > due(sample - 1);
 }
 
+ImuSpec imu_spec(const Airframe& airframe, const Vehicle& vehicle) {
+  ImuSpec spec;
+  spec.hover_rev_s = airframe.hover_rev_s(vehicle.carried_kg());
+  return spec;
+}
+
 double start_yaw(const World& world) {
   return yaw_of(world.goal_W - world.start_W);
 }
@@ -87,10 +93,8 @@ ClosedLoop::ClosedLoop(MissionLink& link,
       cameras_{scenario, things, executor, queue, topics},
       gps_{scenario.gps, things.origin, scenario.seed},
       barometer_{scenario.barometer, things.origin.height_m, scenario.seed},
-      imu_{ImuSpec{}, scenario.seed},
-      wind_{wind_spec(scenario.vehicle), scenario.seed} {
-  imu_.set_hover(airframe_.hover_rev_s(vehicle_.carried_kg()));
-}
+      imu_{imu_spec(things.airframe, vehicle_), scenario.seed},
+      wind_{wind_spec(scenario.vehicle), scenario.seed} {}
 
 void ClosedLoop::hear_localizer(Topic<PoseEstimate> pose,
                                 std::optional<Topic<LocalizationStatus>> status) {
