@@ -8,8 +8,7 @@ namespace flyball {
 namespace {
 
 constexpr double ground_reach_m = 300.0;  // Beyond it the image shows the horizon.
-constexpr unsigned solids_instance =
-    0;  // The first one that is attached; people follow, and movers.
+constexpr unsigned solids_instance = 0;   // The first one; people follow, then movers.
 
 RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float length_m) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -31,8 +30,7 @@ RTCGeometry triangles_of(RTCDevice device, const PersonMesh& mesh, float length_
 }
 
 void place(RTCGeometry instance, const Eigen::Isometry3f& X_WI) {
-  const Eigen::Matrix4f columns = X_WI.matrix();
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, columns.data());
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, X_WI.matrix().data());
   rtcCommitGeometry(instance);
 }
 
