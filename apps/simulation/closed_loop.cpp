@@ -216,7 +216,7 @@ void ClosedLoop::energy_step() {
     log_.measured_s += measured ? dt_s : 0.0;
   }
   if (on_energy_) {
-    on_energy_();
+    on_energy_(dt_s);
   }
 }
 

@@ -61,8 +61,8 @@ class ClosedLoop {
   void on_navigation(std::function<void(const TruePose&)> listener) {
     on_navigation_ = std::move(listener);
   }
-  /// Calls `listener` when power and the battery's charge have moved on.
-  void on_energy(std::function<void()> listener) { on_energy_ = std::move(listener); }
+  /// Calls `listener` with the seconds since the last call when power and charge have moved on.
+  void on_energy(std::function<void(double)> listener) { on_energy_ = std::move(listener); }
 
   /// Asks `meter` for the computer's power, where it is not modeled; 0 W: it has no meter, and the
   /// platform's model is asked as ever.
@@ -122,7 +122,7 @@ class ClosedLoop {
   Imu imu_;
   Wind wind_;
   std::function<void(const TruePose&)> on_navigation_{};
-  std::function<void()> on_energy_{};
+  std::function<void(double)> on_energy_{};
   std::function<Watts()> computer_meter_{};
   FlightLog log_{};
   double last_busy_core_s_{};

@@ -4,6 +4,14 @@
 
 namespace flyball {
 
+SimulatedBoard::SimulatedBoard(const OperatingPoint& start,
+                               double battery_percent,
+                               std::uint64_t seed)
+    : power_module_{battery_percent, seed} {
+  unconnected_.granted = start;
+  gauges_.battery_percent = power_module_.battery_percent();
+}
+
 void SimulatedBoard::connect(Executor& executor,
                              const Graph& graph,
                              const ClosedLoop& loop,
@@ -19,25 +27,46 @@ void SimulatedBoard::connect(Executor& executor,
   }
   executor.on_miss([this](int, OnMiss) { ++deadline_misses_; });
   nodes_.connect(executor);
-  measure();
 }
 
-void SimulatedBoard::measure() {
+void SimulatedBoard::measure(double dt_s) {
   BoardReading now;
-  now.computer_power = Watts{loop_->log().computer_w};
-  now.rotor_power = Watts{loop_->log().rotor_w};
-  now.battery_percent = loop_->battery().percent();
+  measure_computer(now, dt_s);
+  measure_battery(now, dt_s);
+  const std::lock_guard lock{mutex_};
+  gauges_ = now;
+}
+
+void SimulatedBoard::measure_computer(BoardReading& now, double dt_s) {
+  const Watts power{loop_->log().computer_w};
   if (computer_ != nullptr) {
     const BoardReading real = computer_->meters();
+    now.computer_power = power;
     now.temperature_c = real.temperature_c;
     now.trip_c = real.trip_c;
     now.rails = real.rails;
-  } else if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
-    now.temperature_c = heat->temperature_c();
+    return;
+  }
+  power_monitor_.add(power, dt_s);
+  now.computer_power = power_monitor_.power();
+  if (const ThermalState* heat = drift_ != nullptr ? drift_->heat() : nullptr) {
+    now.temperature_c = thermal_zone_c(heat->temperature_c());
     now.trip_c = heat->first_trip_c().value_or(0.0);
   }
-  const std::lock_guard lock{mutex_};
-  gauges_ = now;
+}
+
+/// What an autopilot reports was measured, and gets no second noise.
+void SimulatedBoard::measure_battery(BoardReading& now, double dt_s) {
+  const Watts rotors{loop_->log().rotor_w};
+  const double percent = loop_->battery().percent();
+  if (const auto& reported = loop_->log().reported_battery) {
+    now.rotor_power = rotors;
+    now.battery_percent = reported->percent.value_or(percent);
+    return;
+  }
+  power_module_.add(rotors, percent, dt_s);
+  now.rotor_power = power_module_.rotor_power();
+  now.battery_percent = power_module_.battery_percent();
 }
 
 BoardReading SimulatedBoard::gauges() const {

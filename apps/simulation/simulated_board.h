@@ -3,11 +3,12 @@
 
 /// @file
 /// The modeled companion computer, its meters and the vehicle's battery gauge, as a governor reads
-/// them.
+/// them: what is modeled, with the steps and the noise that real meters have.
 
 #include "flyball/runtime/board.h"
 #include "flyball/runtime/node_meter.h"
 #include "flyball/runtime/realtime/realtime_board.h"
+#include "flyball/sim/power_meters.h"
 
 #include "simulation/closed_loop.h"
 #include "simulation/computer_drift.h"
@@ -21,7 +22,7 @@ namespace flyball {
 class SimulatedBoard final : public Board {
  public:
   /// Until it is connected it says that this is granted, and hears no request.
-  explicit SimulatedBoard(const OperatingPoint& start) { unconnected_.granted = start; }
+  SimulatedBoard(const OperatingPoint& start, double battery_percent, std::uint64_t seed);
   /// All arguments outlive the board; `drift` may be null: then nothing is known of heat. With a
   /// `computer`, which runs the nodes and is not modeled, watts and heat are what it measures.
   void connect(Executor& executor,
@@ -29,8 +30,8 @@ class SimulatedBoard final : public Board {
                const ClosedLoop& loop,
                const ComputerDrift* drift,
                RealtimeBoard* computer = nullptr);
-  /// The gauges show what the simulator says now. To be called whenever that has changed.
-  void measure();
+  /// The meters follow what the simulator says now, `dt_s` after the last call.
+  void measure(double dt_s);
 
   [[nodiscard]] BoardReading read() const override;
   [[nodiscard]] NodeUse use_of(int node) const override { return nodes_.of(node); }
@@ -39,6 +40,8 @@ class SimulatedBoard final : public Board {
 
  private:
   [[nodiscard]] BoardReading gauges() const;
+  void measure_computer(BoardReading& now, double dt_s);
+  void measure_battery(BoardReading& now, double dt_s);
 
   BoardReading unconnected_{};
   Executor* executor_{};
@@ -48,6 +51,8 @@ class SimulatedBoard final : public Board {
   const RealtimeBoard* computer_{};
   std::atomic<std::uint64_t> deadline_misses_{};
   NodeMeter nodes_{};
+  PowerMonitor power_monitor_{};
+  PowerModule power_module_;
   mutable std::mutex mutex_{};  ///< Of `gauges_`.
   BoardReading gauges_{};       ///< Power, battery and heat; the rest is left out.
 };

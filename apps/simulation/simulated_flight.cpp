@@ -50,7 +50,7 @@ SimulatedFlight::SimulatedFlight(const Scenario& scenario,
     : workload{std::move(made)},
       graph{scenario.mission.workload},
       computer{setup.platform->model()},
-      board{start_point(scenario)},
+      board{start_point(scenario), 100.0 * scenario.vehicle.battery_charge, scenario.seed},
       has_autopilot{on.autopilot != nullptr} {
   parts.brief = adapted_brief(scenario, setup, on);
   parts.vehicle = add_vehicle_topics(graph, extras_of(setup));
