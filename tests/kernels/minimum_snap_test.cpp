@@ -238,6 +238,50 @@ TEST(MinimumSnap, turns_once_where_it_comes_from_another_direction) {
   EXPECT_EQ(stops(Path{beside->trajectory}), 0);
 }
 
+double steepest_straight(const SmoothPath& smooth) {
+  double steepest = 0.0;
+  const Path path{smooth.trajectory};
+  const auto& samples = path.samples();
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Vec3 piece_W = samples[i].p_W - samples[i - 1].p_W;
+    const bool is_straight = samples[i].curvature_1_m + samples[i - 1].curvature_1_m < 1e-6;
+    if (is_straight && piece_W.norm() > 0.02) {
+      steepest = std::max(steepest, std::abs(piece_W.z()) / piece_W.head<2>().norm());
+    }
+  }
+  return steepest;
+}
+
+// A piece straight ahead leaves less room to climb in than the plan had.
+TEST(MinimumSnap, climbs_no_more_steeply_behind_a_piece_straight_ahead) {
+  auto request = request_along({{0, 0, 1.5}, {12, 0, 5.3}, {40, 0, 5.3}});
+  for (const double turn : {0.1, 0.3, 0.6}) {
+    request.start_velocity_W = {std::cos(turn), std::sin(turn), 0.0};
+    const SmoothPath smooth = smoothed(request);
+    expect_sound(smooth.trajectory, request);
+    EXPECT_LT(steepest_straight(smooth), 1.001 * std::tan(request.max_slope_rad)) << turn;
+    auto steeper = request;
+    steeper.max_slope_rad = 1.2;
+    EXPECT_GT(steepest_straight(smoothed(steeper)), std::tan(request.max_slope_rad)) << turn;
+  }
+}
+
+TEST(MinimumSnap, keeps_its_bounds_where_it_comes_from_another_direction) {
+  auto request = request_along({{0, 0, 1.5}, {22, 0, 1.5}});
+  request.start_velocity_W = {std::cos(0.3), std::sin(0.3), 0.0};
+  const auto widest_y_m = [&] {
+    double most_m = 0.0;
+    const Path path{smoothed(request).trajectory};
+    for (const auto& sample : path.samples()) {
+      most_m = std::max(most_m, sample.p_W.y());
+    }
+    return most_m;
+  };
+  EXPECT_GT(widest_y_m(), 0.5);
+  request.bounds_W = {{-1.0, -0.3, 0.0}, {30.0, 0.3, 3.0}};
+  EXPECT_LT(widest_y_m(), 0.36);
+}
+
 TEST(MinimumSnap, cuts_a_corner_less_where_something_stands_inside_it) {
   GridMap map{{{0, -3, 0}, {24, 24, 3}}, 0.15};
   const auto request = request_along({{2, 0, 1.5}, {20, 0, 1.5}, {20, 20, 1.5}});

@@ -139,6 +139,7 @@ PlannedPath smoothed(const PlanAnswer& answer,
   request.max_speed_m_s = situation.knobs.value("mission.max_speed_m_s");
   request.max_acceleration_m_s2 = 0.5 * situation.brief.settings.mission.max_acceleration_m_s2;
   request.body = answer.body;
+  request.bounds_W = situation.brief.site.bounds_W;
   auto smooth = smoother.smooth(request, situation.map);
   if (smooth) {
     planned.trajectory = std::move(smooth->trajectory);

@@ -25,7 +25,7 @@ constexpr double chord_margin_m =
     0.002;  // The curve is checked and flown as chords, not the same ones.
 constexpr double chord_tolerance_m = 0.0005;  // A quarter of that margin.
 constexpr double longest_chord_m = 1.0;
-constexpr double height_tolerance_m = 0.05;  // A bend may leave the polygon's heights by this.
+constexpr double bend_tolerance_m = 0.05;  // A bend may leave bounds and polygon's heights by this.
 constexpr int samples_per_piece = 64;
 constexpr double sampling_reserve = 1.002;  // Peaks between samples.
 
@@ -54,15 +54,21 @@ bool is_sound(const SmoothRequest& request) {
 class Smoothing {
  public:
   Smoothing(const SmoothRequest& request, const OccupancyView& map, int derivative)
-      : map_{map}, body_{request.body}, derivative_{derivative} {
+      : map_{map},
+        body_{request.body},
+        bend_bounds_W_{request.bounds_W},
+        max_rise_{std::tan(request.max_slope_rad)},
+        derivative_{derivative} {
     polygon_.points_W = without_repeats(request.waypoints_W);
     polygon_.start_velocity_W = request.start_velocity_W;
     polygon_.limits = {request.max_speed_m_s, request.max_acceleration_m_s2};
-    lowest_m_ = highest_m_ = polygon_.points_W.front().z();
-    for (const Vec3& p : polygon_.points_W) {
-      lowest_m_ = std::min(lowest_m_, p.z());
-      highest_m_ = std::max(highest_m_, p.z());
-    }
+    const auto [lowest, highest] =
+        std::minmax_element(polygon_.points_W.begin(), polygon_.points_W.end(),
+                            [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    bend_bounds_W_.min.z() = std::max(bend_bounds_W_.min.z(), lowest->z());
+    bend_bounds_W_.max.z() = std::min(bend_bounds_W_.max.z(), highest->z());
+    bend_bounds_W_.min.array() -= bend_tolerance_m;
+    bend_bounds_W_.max.array() += bend_tolerance_m;
   }
 
   Result<SmoothPath> run() {
@@ -93,7 +99,8 @@ class Smoothing {
     const RoundedPolygon planned = polygon_;
     const std::vector<Vec3> places_W = lead_ins_W(planned);
     const auto place = std::find_if(places_W.begin(), places_W.end(), [&](const Vec3& p_W) {
-      return !hits(planned.points_W[0], p_W, body_) && !hits(p_W, planned.points_W[1], body_);
+      return bend_bounds_W_.contains(p_W) && is_flat_enough(planned.points_W[1] - p_W) &&
+             !hits(planned.points_W[0], p_W, body_) && !hits(p_W, planned.points_W[1], body_);
     });
     if (place == places_W.end()) {
       return false;
@@ -105,6 +112,10 @@ class Smoothing {
       polygon_ = planned;
     }
     return is_wider;
+  }
+
+  [[nodiscard]] bool is_flat_enough(const Vec3& edge_W) const {
+    return std::abs(edge_W.z()) <= max_rise_ * edge_W.head<2>().norm();
   }
 
   void round_corners() {
@@ -193,8 +204,7 @@ class Smoothing {
     const Vec3 from = piece.derivative(0, from_s);
     const Vec3 middle = piece.derivative(0, middle_s);
     const Vec3 to = piece.derivative(0, to_s);
-    if (middle.z() < lowest_m_ - height_tolerance_m ||
-        middle.z() > highest_m_ + height_tolerance_m) {
+    if (!bend_bounds_W_.contains(middle)) {
       return false;
     }
     const Vec3 chord = to - from;
@@ -236,12 +246,12 @@ class Smoothing {
 
   const OccupancyView& map_;
   Cylinder body_;
+  Aabb bend_bounds_W_;  ///< A bend stays in them, and between the polygon's heights.
+  double max_rise_;     ///< For each metre to the side.
   int derivative_;
   RoundedPolygon polygon_;
   SnapKnots curve_;
   std::vector<PolynomialPiece> pieces_;
-  double lowest_m_{};
-  double highest_m_{};
   int solves_{};
   int queries_{};
 };

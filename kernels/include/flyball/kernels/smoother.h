@@ -10,6 +10,7 @@
 #include "flyball/runtime/trajectory.h"
 #include "flyball/runtime/work.h"
 
+#include <limits>
 #include <vector>
 
 namespace flyball {
@@ -21,6 +22,12 @@ struct SmoothRequest {
   double max_speed_m_s{};
   double max_acceleration_m_s2{};
   Cylinder body{};
+  /// The body's centre stays inside, as in the plan.
+  Aabb bounds_W{Vec3::Constant(-std::numeric_limits<double>::infinity()),
+                Vec3::Constant(std::numeric_limits<double>::infinity())};
+  /// Of straight pieces that are not the plan's; about 20 degrees, as of the plan's. A bend into a
+  /// climb is steeper than the climb, whose line it has to reach.
+  double max_slope_rad{0.35};
 };
 
 struct SmoothPath {
