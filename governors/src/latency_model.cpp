@@ -26,24 +26,14 @@ constexpr double clock_share = 0.0045;
 
 LatencyModel::LatencyModel(const LatencyPrior& prior)
     : clock_{prior.clock},
-      solver_{(Solver::Vector() << std::log(prior.seconds),
-               prior.slope_resolution,
-               0.0,
-               prior.slope_points,
-               1.0)
-                  .finished(),
-              prior.sigma / noise *
-                  (Solver::Vector() << 1.0, slope_share, slope_share, slope_share, clock_share)
-                      .finished(),
+      solver_{{std::log(prior.seconds), prior.slope, 1.0},
+              prior.sigma / noise * Solver::Vector{1.0, slope_share, clock_share},
               latency_forgetting} {}
 
 LatencyModel::Solver::Vector LatencyModel::row(const LatencyFeatures& features) const {
-  FLYBALL_ASSERT(features.resolution_m > 0.0 && features.points > 0.0 && features.clock.value() > 0,
-                 "resolution_m=%g, points=%g, clock=%g Hz", features.resolution_m, features.points,
-                 features.clock.value());
-  const double log_r = std::log(features.resolution_m);
-  return {1.0, log_r, log_r * log_r, std::log(features.points),
-          std::log(clock_.factor(features.clock))};
+  FLYBALL_ASSERT(features.size > 0.0 && features.clock.value() > 0, "size=%g, clock=%g Hz",
+                 features.size, features.clock.value());
+  return {1.0, std::log(features.size), std::log(clock_.factor(features.clock))};
 }
 
 double LatencyModel::predict_log_s(const LatencyFeatures& features) const {

@@ -42,8 +42,7 @@ LearnedLatency::LearnedLatency(const LearnedLatencySettings& settings,
   for (const LatencyLevel& level : levels) {
     LatencyPrior prior;
     prior.clock = settings.clock;
-    prior.slope_resolution = 0.0;
-    prior.slope_points = level.range_slope;  // "points" are metres of range here
+    prior.slope = level.range_slope;
     prior.seconds = level.latency_s / std::pow(level.range_m, level.range_slope) /
                     settings.clock.factor(top_clock);
     prior.sigma = 0.5;  // Chosen: the given latency may be wrong by a factor of 1.6.
@@ -64,8 +63,7 @@ std::size_t LearnedLatency::level(double resolution_m) const {
 }
 
 double LearnedLatency::predicted_s(const MapSetting& setting) const {
-  return models_.predict_s(level(setting.resolution_m),
-                           {1.0, setting.range_m, Hertz{setting.clock_hz}});
+  return models_.predict_s(level(setting.resolution_m), {setting.range_m, Hertz{setting.clock_hz}});
 }
 
 double LearnedLatency::bounded_s(const MapSetting& setting) const {
@@ -119,7 +117,7 @@ void LearnedLatency::learn_from(const Observation& seen, Hertz clock) {
       settings_.learn_s == 0.0 || to_seconds(seen.now - *first_look_) < settings_.learn_s;
   if (learns && (tells_range || is_of_this_setting)) {
     const double range_m = tells_range ? seen.map_range_m : in_force_.range_m;
-    models_.learn(level(in_force_.resolution_m), {1.0, range_m, clock}, seen.latency);
+    models_.learn(level(in_force_.resolution_m), {range_m, clock}, seen.latency);
   }
   if (is_of_this_setting) {
     issued_ = seen.now;

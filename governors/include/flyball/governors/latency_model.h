@@ -24,28 +24,25 @@ struct ClockScaling {
 
 /// What a job's duration depends on.
 struct LatencyFeatures {
-  double resolution_m{1.0};  ///< Of the map; 1 for a kernel without one.
-  double points{1.0};        ///< Size of the input: points, or a volume in its own unit.
+  double size{1.0};  ///< Of the input, in any unit: metres of range, points.
   Hertz clock{1e9};
 };
 
-/// What is known before the first sample: t = seconds * r^slope_r * points^slope_points
-/// * (a / f + b). Wrong by `sigma` (in log) in each of them.
+/// What is known before the first sample: t = seconds * size^slope * (a / f + b). Wrong by `sigma`
+/// (in log).
 struct LatencyPrior {
-  double seconds{0.1};  ///< At r = 1 m, one point and a factor of the clock of 1.
-  double slope_resolution{-2.0};
-  double slope_points{1.0};
+  double seconds{0.1};  ///< At size 1 and a factor of the clock of 1.
+  double slope{1.0};
   ClockScaling clock{};
   double sigma{1.0};
 };
 
-/// One kernel: recursive least squares on the logarithm,
+/// One kernel at one size of cells: recursive least squares on the logarithm,
 ///
-///     log t = w0 + w1 log r + w2 (log r)^2 + w3 log points + w4 log(a / f_GHz + b) + g
+///     log t = w0 + w1 log size + w2 log(a / f_GHz + b) + g
 ///
-/// The square is there because a ray walk costs r^-1, an update r^-3 and a frame r^0: in log-log
-/// that is a curve, not a line. g is the slowdown that all kernels share (see `LatencyModels`).
-/// Nothing allocates after construction.
+/// g is the slowdown that all kernels share (see `LatencyModels`). Nothing allocates after
+/// construction.
 class LatencyModel {
  public:
   explicit LatencyModel(const LatencyPrior& prior);
@@ -57,7 +54,7 @@ class LatencyModel {
   void learn_log_s(const LatencyFeatures& features, double log_s);
 
  private:
-  using Solver = RecursiveLeastSquares<5>;
+  using Solver = RecursiveLeastSquares<3>;
   [[nodiscard]] Solver::Vector row(const LatencyFeatures& features) const;
 
   ClockScaling clock_;
