@@ -110,8 +110,10 @@ void PolicyRemarks::add(const Scenario& scenario, const std::vector<Override>& g
     return;
   }
   for (const std::string& policy : asked_policies(scenario.governor.policy)) {
-    const auto choice = choose_policy(policy, scenario.plugins, scenario.seed);
-    tell(choice ? choice->caution : "");
+    if (asked_.insert(policy).second) {  // To look at a library takes a process of its own.
+      const auto choice = choose_policy(policy, scenario.plugins, scenario.seed);
+      tell(choice ? choice->caution : "");
+    }
   }
   for (const std::string& sentence : overruled_settings(scenario, given)) {
     tell(sentence);

@@ -43,13 +43,14 @@ void add_new(const std::vector<Error>& errors, std::vector<Error>& all);
 /// policy overrules, and that the kernel cannot confine a library.
 class PolicyRemarks {
  public:
-  /// Looks once at a policy with the same settings, whatever the seed, and says no sentence twice.
+  /// Looks once at a policy, and once at its settings whatever the seed; says no sentence twice.
   void add(const Scenario& scenario, const std::vector<Override>& given);
 
  private:
   void tell(const std::string& sentence);
 
   std::set<std::string> seen_{};
+  std::set<std::string> asked_{};
   std::set<std::string> told_{};
 };
 

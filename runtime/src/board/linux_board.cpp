@@ -282,10 +282,10 @@ Result<std::unique_ptr<LinuxBoard>> LinuxBoard::open(LinuxSystem& system,
     undo_adopted(policy, (*keeper)->kept());
     const bool is_locked = policy.min == policy.max && policy.lowest < policy.highest;
     if (is_locked && !options.keeper.adopt && no_journal.empty()) {
-      return Error{ErrorCode::unavailable,
-                   "the clock of " + policy.folder + " is locked at " + mhz_of(policy.max) +
-                       " already, which jetson_clocks does; release it (jetson_clocks --restore), "
-                       "or adopt it as the state to come back to"};
+      return Error{ErrorCode::unavailable, "the clock of " + policy.folder + " is locked at " +
+                                               mhz_of(policy.max) +
+                                               " already, which jetson_clocks does; release it "
+                                               "(jetson_clocks --restore)"};
     }
   }
   auto state = std::make_unique<State>(system, options, std::move(found), std::move(*keeper));

@@ -191,7 +191,7 @@ Result<std::unique_ptr<SettingsKeeper>> SettingsKeeper::open(LinuxSystem& system
     return Error{ErrorCode::unavailable,
                  "a session that ended has left " + std::to_string(left.size()) +
                      " settings unrestored (" + journal->path() + "), the first of them " +
-                     left.front().path + "; try: flyball board restore, or adopt them"};
+                     left.front().path + "; try: flyball board restore"};
   }
   if (left.empty()) {
     journal->clear();  // Of a record that was cut off.

@@ -147,10 +147,9 @@ TEST_F(SettingsKeeperTest, refuses_what_an_earlier_session_left_unless_it_adopts
   EXPECT_EQ(tree_.get(policy0 + "scaling_governor"), "userspace\n");
   const auto refused = SettingsKeeper::open(kernel_, options());
   ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().message,
-            "a session that ended has left 1 settings unrestored (" + tree_.root() +
-                "/run/board.journal), the first of them " + policy0 +
-                "scaling_governor; try: flyball board restore, or adopt them");
+  EXPECT_EQ(refused.error().message, "a session that ended has left 1 settings unrestored (" +
+                                         tree_.root() + "/run/board.journal), the first of them " +
+                                         policy0 + "scaling_governor; try: flyball board restore");
   auto adopted = SettingsKeeper::open(kernel_, options(true));
   ASSERT_TRUE(adopted.ok());
   EXPECT_TRUE((*adopted)->write(policy0 + "scaling_governor", "performance").ok());
