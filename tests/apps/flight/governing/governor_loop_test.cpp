@@ -4,7 +4,9 @@
 
 #include "scratch_folder.h"
 #include "short_delivery.h"
+#include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -90,6 +92,31 @@ TEST(GovernorLoop, sees_the_missions_progress_and_what_its_stages_take) {
   EXPECT_EQ(last["detect_job_s"], 0.0);
   EXPECT_GT(last["headroom_m"], 0.0);
   EXPECT_EQ(last["map_range_m"], scenario.map.range_m) << "nobody turns it";
+}
+
+TEST(GovernorLoop, sees_meters_instead_of_the_truth) {
+  Scenario scenario = kit::short_delivery();
+  scenario.vehicle.battery_charge = 0.7;
+  const MissionRecord record = kit::flown(scenario);
+  std::set<double> rotors_w;
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& [name, value] : row.fields) {
+      const auto* number = std::get_if<double>(&value);
+      if (number == nullptr || row.channel != "observation") {
+        continue;
+      }
+      if (name == std::string{"battery_percent"}) {
+        EXPECT_EQ(*number, std::round(*number));
+        EXPECT_NEAR(*number, 70.0, 5.0);
+      } else if (name == std::string{"rotor_power_w"}) {
+        rotors_w.insert(*number);
+      }
+    }
+  }
+  // One message a second, and zero before the first; no two of them are equal for their noise.
+  EXPECT_NEAR(static_cast<double>(rotors_w.size()), 1.0 + record.summary.mission_time_s, 1.5);
+  EXPECT_LT(static_cast<double>(rotors_w.size()),
+            0.5 * static_cast<double>(record.summary.decisions));
 }
 
 TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_own_pace) {
