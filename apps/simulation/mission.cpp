@@ -74,6 +74,7 @@ void connect(SimulatedFlight& flight, const MissionHooks& hooks) {
   // A model's heat caps no clock of a computer that is not modeled, so none is modeled for it.
   flight.drift->start(hooks.executor ? std::nullopt : flight.computer.nominal().thermal);
   flight.soft_errors->start();
+  flight.board.measure(0.0);
   flight.loop->on_energy([&flight](double dt_s) { flight.board.measure(dt_s); });
 }
 

@@ -9,7 +9,6 @@ SimulatedBoard::SimulatedBoard(const OperatingPoint& start,
                                std::uint64_t seed)
     : power_module_{battery_percent, seed} {
   unconnected_.granted = start;
-  gauges_.battery_percent = power_module_.battery_percent();
 }
 
 void SimulatedBoard::connect(Executor& executor,

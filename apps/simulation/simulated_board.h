@@ -30,7 +30,8 @@ class SimulatedBoard final : public Board {
                const ClosedLoop& loop,
                const ComputerDrift* drift,
                RealtimeBoard* computer = nullptr);
-  /// The meters follow what the simulator says now, `dt_s` after the last call.
+  /// The meters follow what the simulator says now, `dt_s` after the last call; 0 at the start,
+  /// before the first decision.
   void measure(double dt_s);
 
   [[nodiscard]] BoardReading read() const override;

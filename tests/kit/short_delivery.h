@@ -8,8 +8,10 @@
 #include "flyball/simulation/mission.h"
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace flyball::kit {
 
@@ -40,6 +42,19 @@ inline bool says(const MissionRecord& record, const std::string& what) {
     }
   }
   return false;
+}
+
+/// A field of what the governor observed, for each look that recorded it.
+inline std::vector<double> observed(const MissionRecord& record, std::string_view name) {
+  std::vector<double> values;
+  for (const auto& row : record.trace->rows()) {
+    for (const auto& field : row.fields) {
+      if (row.channel == "observation" && field.name == name) {
+        values.push_back(std::get<double>(field.value));
+      }
+    }
+  }
+  return values;
 }
 
 }  // namespace flyball::kit

@@ -7,6 +7,7 @@
 #include "autopilot/udp_autopilot.h"
 #include "short_delivery.h"
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -185,15 +186,9 @@ TEST(OffboardPilot, rotor_power_is_what_the_autopilot_measures) {
               20.0);
   EXPECT_NEAR(summary.quality.at("rotor_power_measured_percent"), 100.0, 1e-6);
   EXPECT_EQ(summary.quality.at("autopilot_battery_percent"), 83.0);
-  double seen_percent = 0.0;
-  for (const auto& row : record->trace->rows()) {
-    for (const auto& [name, value] : row.fields) {
-      if (row.channel == "observation" && name == std::string{"battery_percent"}) {
-        seen_percent = std::get<double>(value);
-      }
-    }
-  }
-  EXPECT_EQ(seen_percent, 83.0) << "policies see it, too";
+  const std::vector<double> seen_percent = kit::observed(*record, "battery_percent");
+  ASSERT_FALSE(seen_percent.empty());
+  EXPECT_EQ(seen_percent.back(), 83.0) << "policies see it, too";
 }
 
 TEST(OffboardPilot, a_vehicle_whose_positions_stop_coming_brakes) {

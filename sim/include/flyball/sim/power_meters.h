@@ -22,7 +22,7 @@ class PowerMonitor {
   static constexpr double step_w = 0.076;
   static constexpr double reading_s = 0.1;
 
-  /// Drew this much for `dt_s`. @pre `dt_s > 0`.
+  /// Drew this much for `dt_s`. @pre `dt_s >= 0`.
   void add(Watts power, double dt_s);
   /// Mean of the newest ten readings, or of as many as there are; 0 before the first.
   [[nodiscard]] Watts power() const { return mean_; }
@@ -47,7 +47,7 @@ class PowerModule {
   /// once a flight.
   PowerModule(double battery_percent, std::uint64_t seed);
 
-  /// `dt_s` later the rotors draw this much and the battery has this charge. @pre `dt_s > 0`.
+  /// `dt_s` later the rotors draw this much and the battery has this charge. @pre `dt_s >= 0`.
   void add(Watts rotors, double battery_percent, double dt_s);
   /// As of the newest message.
   [[nodiscard]] Watts rotor_power() const { return rotors_; }

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -98,25 +99,26 @@ TEST(GovernorLoop, sees_meters_instead_of_the_truth) {
   Scenario scenario = kit::short_delivery();
   scenario.vehicle.battery_charge = 0.7;
   const MissionRecord record = kit::flown(scenario);
-  std::set<double> rotors_w;
-  for (const auto& row : record.trace->rows()) {
-    for (const auto& [name, value] : row.fields) {
-      const auto* number = std::get_if<double>(&value);
-      if (number == nullptr || row.channel != "observation") {
-        continue;
-      }
-      if (name == std::string{"battery_percent"}) {
-        EXPECT_EQ(*number, std::round(*number));
-        EXPECT_NEAR(*number, 70.0, 5.0);
-      } else if (name == std::string{"rotor_power_w"}) {
-        rotors_w.insert(*number);
-      }
-    }
+  for (const double percent : kit::observed(record, "battery_percent")) {
+    EXPECT_EQ(percent, std::round(percent));
+    EXPECT_NEAR(percent, 70.0, 5.0);
   }
+  const std::vector<double> shown_w = kit::observed(record, "rotor_power_w");
+  const std::set<double> rotors_w{shown_w.begin(), shown_w.end()};
   // One message a second, and zero before the first; no two of them are equal for their noise.
   EXPECT_NEAR(static_cast<double>(rotors_w.size()), 1.0 + record.summary.mission_time_s, 1.5);
   EXPECT_LT(static_cast<double>(rotors_w.size()),
             0.5 * static_cast<double>(record.summary.decisions));
+}
+
+TEST(GovernorLoop, knows_at_its_first_look_how_hot_the_computer_is) {
+  Scenario scenario = kit::short_delivery();
+  scenario.platform.name = "jetson_tx2_passive";
+  scenario.mission.time_limit_s = 0.5 * scenario.governor.period_s;
+  const std::vector<double> temperature_c = kit::observed(kit::flown(scenario), "temperature_c");
+  ASSERT_EQ(temperature_c.size(), 1U);
+  EXPECT_GT(temperature_c.front(), 20.0);
+  EXPECT_EQ(2.0 * temperature_c.front(), std::round(2.0 * temperature_c.front()));
 }
 
 TEST(GovernorLoop, asks_a_policy_as_often_as_it_wants_and_looks_around_at_its_own_pace) {
