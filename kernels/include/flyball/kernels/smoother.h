@@ -4,6 +4,7 @@
 /// @file
 /// Smoothing: a polygon of way-points in, a polynomial trajectory out.
 
+#include "flyball/kernels/path_planner.h"
 #include "flyball/runtime/kernel.h"
 #include "flyball/runtime/occupancy.h"
 #include "flyball/runtime/result.h"
@@ -25,9 +26,9 @@ struct SmoothRequest {
   /// The body's centre stays inside, as in the plan.
   Aabb bounds_W{Vec3::Constant(-std::numeric_limits<double>::infinity()),
                 Vec3::Constant(std::numeric_limits<double>::infinity())};
-  /// Of straight pieces that are not the plan's; about 20 degrees, as of the plan's. A bend into a
-  /// climb is steeper than the climb, whose line it has to reach.
-  double max_slope_rad{0.35};
+  /// Of straight pieces that are not the plan's. A bend into a climb is steeper than the climb,
+  /// whose line it has to reach.
+  double max_slope_rad{PlanRequest{}.max_slope_rad};
 };
 
 struct SmoothPath {
