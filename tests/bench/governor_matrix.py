@@ -16,7 +16,8 @@ has no floor where fixed_best is the best.
 
 Each cell is a `flyball tournament` in a folder of its own, so the same command goes on where it was
 stopped, and a subset first makes the whole go faster later. Seeds from 9000 on are not for development.
-The table is written to OUT/matrix.md, too. policies/MATRIX.md is one.
+The table is written to OUT/matrix.md, too. policies/MATRIX.md is one, whose cells were flown on many days:
+--update puts what was flown now into such a page, in place of the same cells, and judges the whole again.
 
 Exits with 1 where a cell misses a bar, with 2 where one could not be flown.
 """
@@ -62,6 +63,7 @@ MAPS = {
     "own": ["kernels.mapper=flyball", "kernels.mapper_parameters.cost_of=flyball"],
 }
 NOISE = {"clean": ["camera.rgbd_noise=false"], "noisy": ["camera.rgbd_noise=true"]}
+CELLS = [f"{world} {mapper} {noise}" for world in WORLDS for mapper in MAPS for noise in NOISE]
 STEP = "vehicle.physics_step_s=0.004"
 # What a mission makes progress in, where flights that succeed do not all make as much of it.
 PROGRESS = {"photography": "tracked_s"}
@@ -203,38 +205,55 @@ def judged(cell, table, options):
     return told
 
 
-HEADS = ["cell", "n", "over the best", "95 %", "floor", "best opponent", "success", "its",
-         "collisions", "misses"]
+HEADS = ["cell", "pairs", "over the best", "95 %", "floor", "best opponent", "success", "its",
+         "collisions", "misses", "flown with"]
 
 
-def row(told):
+def row(told, version):
     has = told["ratio"] is not None
     best = told["best"]
     if best == "fixed_best":
         best += f" ({told['fixed_best']['setting']})"
-    return [told["cell"], str(told["n"]), f"{told['ratio']:.3f}" if has else "-",
+    return [told["cell"], str(told["pairs"]), f"{told['ratio']:.3f}" if has else "-",
             "[{:.3f}, {:.3f}]".format(*told["interval"]) if has else "-",
             f"{told['floor']:.3f}" if told.get("floor") else "-", best,
             f"{told['successes']}/{told['n']}", f"{told['best_successes']}/{told['n']}",
-            str(told["collisions"]), ", ".join(told["missed"]) or "-"]
+            str(told["collisions"]), ", ".join(told["missed"]) or "-", version]
 
 
-def report(cells):
+def report(rows):
+    """The table, and what is said of all of it."""
     lines = ["| " + " | ".join(HEADS) + " |", "|" + "---|" * len(HEADS)]
-    lines += ["| " + " | ".join(row(told)) + " |" for told in cells]
+    lines += ["| " + " | ".join(cells) + " |" for cells in rows]
+    told = [dict(zip(HEADS, cells)) for cells in rows]
     # Fewer pairs say little, and one of them alone may be five times as much.
-    known = [told["ratio"] for told in cells if told["ratio"] and 2 * told["pairs"] >= told["n"]]
+    known = [float(cell["over the best"]) for cell in told if cell["over the best"] != "-"
+             and 2 * int(cell["pairs"]) >= int(cell["success"].partition("/")[2])]
     if known:
         mean = math.exp(sum(map(math.log, known)) / len(known))
-        missed = [told["cell"] for told in cells if told["missed"]]
+        missed = [cell["cell"] for cell in told if cell["misses"] != "-"]
         lines += ["", f"geometric mean over the {len(known)} cells where both succeed with half of the "
                   f"seeds: {mean:.3f} (bar {BAR_OF_ALL})",
                   f"cells that miss a bar (energy over {BAR_OF_A_CELL}, success, collision): "
-                  f"{len(missed)} of {len(cells)}" + (": " + "; ".join(missed) if missed else "")]
+                  f"{len(missed)} of {len(told)}" + (": " + "; ".join(missed) if missed else "")]
     return "\n".join(lines) + "\n"
 
 
-def document(cells, options):
+def updated(page, rows):
+    """A page with these rows in its first table, in place of those of the same cells."""
+    head = "| " + " | ".join(HEADS) + " |\n"
+    before, found, rest = page.partition(head)
+    if not found:
+        sys.exit(f"--update: the page has no table that begins with {head.strip()}; name one that this "
+                 "command wrote")
+    table, found, after = rest.partition("\n## ")
+    by_cell = {line.split("|")[1].strip(): [cell.strip() for cell in line.split("|")[1:-1]]
+               for line in table.splitlines()[1:] if line.startswith("| ")}
+    by_cell.update((cells[0], cells) for cells in rows)
+    return before + report(sorted(by_cell.values(), key=lambda cells: CELLS.index(cells[0]))) + found + after
+
+
+def document(rows, options):
     """The table as a page of its own, with how it was made."""
     asked = ["governor_matrix.py", "--seeds", options.seeds, "--worlds", ",".join(options.worlds)]
     asked += ["--maps", ",".join(options.maps)] if options.maps != list(MAPS) else []
@@ -248,7 +267,7 @@ def document(cells, options):
             "OctoMap; a lattice at stock's price; our own map's) and a camera with or without RGB-D noise. The ratio "
             f"is the median of {GOVERNOR}'s energy over the best opponent's, with its 95 % interval, over the seeds "
             "where both succeed; below 1 it takes less. The best opponent is the one with the most successes, and "
-            f"among those the one that {GOVERNOR} comes off worst against.\n\n" + report(cells))
+            f"among those the one that {GOVERNOR} comes off worst against.\n\n" + report(rows))
 
 
 def names(known):
@@ -259,6 +278,13 @@ def names(known):
                 raise argparse.ArgumentTypeError(f"{name} is none of {', '.join(known)}")
         return chosen
     return read
+
+
+def commit():
+    """Of the sources beside this file."""
+    asked = ["git", "-C", pathlib.Path(__file__).parent, "rev-parse", "--short=8", "HEAD"]
+    said = subprocess.run(asked, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
+    return said.stdout.strip() or "unknown"
 
 
 def parsed():
@@ -280,6 +306,10 @@ def parsed():
                         help="as flyball's, in every cell (vehicle.airframe=spark, vehicle.payload_kg=0)")
     parser.add_argument("--jobs", type=int, default=1, help="flights at a time")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("flights/matrix"))
+    parser.add_argument("--update", type=pathlib.Path, metavar="FILE",
+                        help="puts the cells into this page (policies/MATRIX.md), too")
+    parser.add_argument("--flown-with", metavar="COMMIT",
+                        help="what each row says of its program (default: the sources' commit)")
     parser.add_argument("--list", action="store_true", help="prints the cells' commands and ends")
     return parser.parse_args()
 
@@ -293,7 +323,8 @@ def time_left(took_s, cells_left):
 
 
 def fly_all(options, cells):
-    done, took_s = [], []
+    """By cell what is told of it, and its row."""
+    done, rows, took_s = [], [], []
     for number, cell in enumerate(cells, 1):
         print(f"cell {number} of {len(cells)}: {cell.name}"
               + time_left(took_s, len(cells) - number + 1), file=sys.stderr, flush=True)
@@ -301,9 +332,12 @@ def fly_all(options, cells):
         table = cell.fly(options)
         if table is not None:
             done.append(judged(cell, table, options))
-            print(" | ".join(row(done[-1])), file=sys.stderr, flush=True)
+            rows.append(row(done[-1], options.flown_with or commit()))
+            print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
+            if options.update:
+                options.update.write_text(updated(options.update.read_text(), rows[-1:]))
         took_s.append(time.monotonic() - begin)
-    return done
+    return done, rows
 
 
 def main():
@@ -316,6 +350,8 @@ def main():
                  "leave one of them out")
     cells = [Cell(options, world, mapper, noise) for world in options.worlds
              for mapper in options.maps for noise in options.noise]
+    if options.update:
+        updated(options.update.read_text(), [])  # So that a page of another kind is refused now.
     if options.list:
         for cell in cells:
             print(" ".join(map(str, cell.command(options))))
@@ -325,13 +361,13 @@ def main():
     if options.floor:
         write_free_platform(options)
     try:
-        done = fly_all(options, cells)
+        done, rows = fly_all(options, cells)
     except KeyboardInterrupt:
         print("interrupted; the same command goes on from here", file=sys.stderr)
         return 130
     (options.out / "matrix.json").write_text(json.dumps(done, indent=2) + "\n")
-    (options.out / "matrix.md").write_text(document(done, options))
-    print(report(done), end="")
+    (options.out / "matrix.md").write_text(document(rows, options))
+    print(report(rows), end="")
     if len(done) < len(cells):
         return 2
     return 1 if any(told["missed"] for told in done) else 0
