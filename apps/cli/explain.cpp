@@ -3,13 +3,13 @@
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/studies/replay.h"
 
 #include "commands.h"
 #include "console.h"
 #include "flight_options.h"
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <memory>
 
@@ -55,9 +55,7 @@ std::string readable(const std::string& choice) {
     double value = 0.0;
     const auto read = std::from_chars(begin, end, value);
     if (read.ec == std::errc{}) {
-      std::array<char, 32> digits{};
-      const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-      text.append(digits.data(), written.ptr);
+      text.append(number_text(value));
     }
     at = read.ptr;
   }

@@ -6,6 +6,7 @@
 #include "flyball/kernels/path_planner.h"
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/knobs.h"
@@ -28,13 +29,6 @@ namespace flyball {
 namespace {
 
 using Lines = std::vector<std::vector<std::string>>;
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
-}
 
 /// A data file's first comment that is not its licence.
 std::string first_comment(const std::string& path) {
@@ -92,7 +86,7 @@ Result<Lines> list_kernels(const Plugins& plugins) {
 
 std::string legal_values(const ParameterSpec& spec) {
   if (std::holds_alternative<double>(spec.fallback)) {
-    return number(spec.min) + " .. " + number(spec.max);
+    return short_number_text(spec.min) + " .. " + short_number_text(spec.max);
   }
   std::string choices;
   for (const std::string& choice : spec.choices) {
@@ -104,9 +98,10 @@ std::string legal_values(const ParameterSpec& spec) {
 void add_parameters(const std::vector<ParameterSpec>& specs, Lines& lines) {
   for (const ParameterSpec& spec : specs) {
     const double* fallback = std::get_if<double>(&spec.fallback);
-    lines.push_back({"  " + spec.name,
-                     fallback != nullptr ? number(*fallback) : std::get<std::string>(spec.fallback),
-                     legal_values(spec), spec.description});
+    lines.push_back(
+        {"  " + spec.name,
+         fallback != nullptr ? short_number_text(*fallback) : std::get<std::string>(spec.fallback),
+         legal_values(spec), spec.description});
   }
 }
 
@@ -140,11 +135,11 @@ Result<Lines> list_policies(const Plugins& plugins) {
 
 std::string legal_values(const KnobSpec& knob) {
   if (knob.legal.empty()) {
-    return number(knob.min) + " .. " + number(knob.max);
+    return short_number_text(knob.min) + " .. " + short_number_text(knob.max);
   }
   std::string values;
   for (std::size_t i = 0; i < knob.legal.size(); ++i) {
-    values += (values.empty() ? "" : " ") + number(knob.legal[i]);
+    values += (values.empty() ? "" : " ") + short_number_text(knob.legal[i]);
     values += i < knob.labels.size() ? "=" + knob.labels[i] : "";
   }
   return values;
@@ -177,8 +172,8 @@ Result<Lines> list_knobs(const Plugins& plugins) {
     return knobs.error();
   }
   for (const KnobSpec& knob : *knobs) {
-    lines.push_back({knob.name, knob.unit, knob.owner, number(knob.fallback), knob.description,
-                     legal_values(knob)});
+    lines.push_back({knob.name, knob.unit, knob.owner, short_number_text(knob.fallback),
+                     knob.description, legal_values(knob)});
   }
   return lines;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenario/computer_strain.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include "scenario/scenario_fields.h"
 #include <algorithm>
 #include <set>
@@ -112,7 +114,7 @@ std::vector<Error> impossible_events(const std::vector<ComputerEvent>& events,
   const double left = platform.max_cores - most_taken(events);
   if (left < 1.0) {
     errors.push_back({ErrorCode::invalid_input,
-                      "events: co-runners take " + toml_number(most_taken(events)) + " of the " +
+                      "events: co-runners take " + number_text(most_taken(events)) + " of the " +
                           std::to_string(platform.max_cores) + " cores of " + platform.name +
                           " at one time; leave one to the mission"});
   }
@@ -124,15 +126,15 @@ std::string describe(const ComputerEvent& event, bool begins) {
     return event.kind + " ends";
   }
   if (event.kind == "slowdown") {
-    return "slowdown: " + toml_number(event.factor) + " times the costs of " +
+    return "slowdown: " + number_text(event.factor) + " times the costs of " +
            (kernels_of(event).empty() ? "all kernels" : event.kernels);
   }
   if (event.kind == "co_runner") {
-    return "co_runner: takes " + toml_number(event.cores) + " cores and a share of " +
-           toml_number(event.memory_share) + " of the memory's bandwidth";
+    return "co_runner: takes " + number_text(event.cores) + " cores and a share of " +
+           number_text(event.memory_share) + " of the memory's bandwidth";
   }
-  return "cooling: " + toml_number(event.resistance_k_w) + " K/W to air of " +
-         toml_number(event.ambient_c) + " degrees Celsius";
+  return "cooling: " + number_text(event.resistance_k_w) + " K/W to air of " +
+         number_text(event.ambient_c) + " degrees Celsius";
 }
 
 }  // namespace flyball

@@ -2,6 +2,7 @@
 
 #include "flyball/scenario/scenario.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/files.h"
 
 #include "scenario/scenario_check.h"
@@ -73,7 +74,7 @@ void report_unknown_keys(const Fields& fields, const Groups& groups, ScenarioTex
 
 std::string toml_value(const ParameterValue& value) {
   const double* number = std::get_if<double>(&value);
-  return number != nullptr ? toml_number(*number) : toml_text(std::get<std::string>(value));
+  return number != nullptr ? number_text(*number) : toml_text(std::get<std::string>(value));
 }
 
 std::string toml_line(const std::string& name, const std::string& value) {

@@ -5,6 +5,7 @@
 
 #include "flyball/kernels/mapper.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/catalogue.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/shipped_platform.h"
@@ -84,7 +85,7 @@ std::optional<Error> missing_file(const NamedThing& wanted, const GivenValues& g
 }
 
 std::string clocks_of(const PlatformModel& platform) {
-  return listed(platform.frequencies, [](Hertz clock) { return toml_number(clock.value()); });
+  return listed(platform.frequencies, [](Hertz clock) { return number_text(clock.value()); });
 }
 
 std::vector<Error> check_operating_point(const Scenario& scenario, const GivenValues& given) {
@@ -99,7 +100,7 @@ std::vector<Error> check_operating_point(const Scenario& scenario, const GivenVa
   const auto& [name, cores, clock_hz, start_c] = scenario.platform;
   if (start_c != 0.0 && !platform->thermal) {
     errors.push_back({ErrorCode::invalid_input,
-                      "platform.start_temperature_c = " + toml_number(start_c) +
+                      "platform.start_temperature_c = " + number_text(start_c) +
                           place_of("platform.start_temperature_c", given) + " needs a platform " +
                           "with a [thermal] table, and " + name +
                           " has none; try: --set platform.name=jetson_tx2_passive"});
@@ -114,7 +115,7 @@ std::vector<Error> check_operating_point(const Scenario& scenario, const GivenVa
     return std::abs(clock.value() - wanted) < 0.5;
   };
   if (std::none_of(platform->frequencies.begin(), platform->frequencies.end(), is_clock)) {
-    errors.push_back({ErrorCode::invalid_input, "platform.frequency_hz = " + toml_number(clock_hz) +
+    errors.push_back({ErrorCode::invalid_input, "platform.frequency_hz = " + number_text(clock_hz) +
                                                     place_of("platform.frequency_hz", given) +
                                                     " is no clock of " + name +
                                                     "; it has: " + clocks_of(*platform)});
@@ -167,8 +168,8 @@ std::vector<Error> check_map(const Scenario& scenario,
   const double wanted_m = scenario.map.resolution_m;
   if (!cells_m.empty() && std::find(cells_m.begin(), cells_m.end(), wanted_m) == cells_m.end()) {
     return {{ErrorCode::invalid_input,
-             "map.resolution_m = " + toml_number(wanted_m) + place_of("map.resolution_m", given) +
-                 " must be one of " + listed(cells_m, toml_number) + ", the cells of mapper \"" +
+             "map.resolution_m = " + number_text(wanted_m) + place_of("map.resolution_m", given) +
+                 " must be one of " + listed(cells_m, number_text) + ", the cells of mapper \"" +
                  scenario.kernels.mapper + "\""}};
   }
   if (const Status tried = try_map(**mapper, scenario, Vec3::Zero()); !tried) {
@@ -178,7 +179,7 @@ std::vector<Error> check_map(const Scenario& scenario,
     if (const Status tried = try_map(**mapper, scenario, corner_W); !tried) {
       return {{ErrorCode::invalid_input,
                "world \"" + scenario.world.generator + "\" reaches to (" +
-                   toml_number(corner_W.x()) + ", " + toml_number(corner_W.y()) + ") m, and " +
+                   number_text(corner_W.x()) + ", " + number_text(corner_W.y()) + ") m, and " +
                    tried.error().message + "; fly a shorter way, or with larger cells"}};
     }
   }

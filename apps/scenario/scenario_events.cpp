@@ -3,6 +3,7 @@
 #include "scenario/scenario_events.h"
 
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/shipped_platform.h"
 
 #include "scenario/computer_strain.h"
@@ -118,7 +119,7 @@ void set(ComputerEvent& event,
     refuse("a number" + (unit.empty() ? "" : " in " + unit));
   } else if (*number < field.min || *number > field.max) {
     const std::string tail = unit.empty() ? "" : " " + unit;
-    refuse("at least " + toml_number(field.min) + tail + " and at most " + toml_number(field.max) +
+    refuse("at least " + number_text(field.min) + tail + " and at most " + number_text(field.max) +
            tail);
   } else {
     event.*std::get<double ComputerEvent::*>(field.place) = *number;
@@ -176,9 +177,9 @@ ComputerEvent read_event(std::size_t index, const GivenValues& given, std::vecto
   }
   if (event.until_s != 0.0 && event.until_s <= event.at_s) {
     errors.push_back({ErrorCode::invalid_input,
-                      key_of(index, "until_s") + " = " + toml_number(event.until_s) +
+                      key_of(index, "until_s") + " = " + number_text(event.until_s) +
                           place_of(key_of(index, "until_s"), given) +
-                          " must be after its at_s = " + toml_number(event.at_s) + ", or 0"});
+                          " must be after its at_s = " + number_text(event.at_s) + ", or 0"});
   }
   refuse_strangers(index, named, given, errors);
   return event;
@@ -209,7 +210,7 @@ std::vector<ConfigEntry> event_entries(const Scenario& scenario) {
   const auto text_of = [](const ComputerEvent& event, const EventField& field) {
     const auto* text = std::get_if<std::string ComputerEvent::*>(&field.place);
     return text != nullptr ? toml_text(event.**text)
-                           : toml_number(event.*std::get<double ComputerEvent::*>(field.place));
+                           : number_text(event.*std::get<double ComputerEvent::*>(field.place));
   };
   std::vector<ConfigEntry> entries;
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {

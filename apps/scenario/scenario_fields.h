@@ -60,8 +60,6 @@ struct GivenValue {
 [[nodiscard]] std::optional<double> number_at(const Scenario& scenario, const std::string& key);
 /// The field's value as TOML writes it.
 [[nodiscard]] std::string toml_value(const Scenario& scenario, const ScenarioField& field);
-/// Shortest text that reads back to the same number.
-[[nodiscard]] std::string toml_number(double value);
 [[nodiscard]] std::string toml_text(const std::string& text);
 
 }  // namespace flyball

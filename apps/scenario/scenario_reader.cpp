@@ -3,6 +3,7 @@
 
 #include "scenario/scenario_reader.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/runtime/text/toml_text.h"
 
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace {
 std::string as_written(const toml::node& node) {
   std::ostringstream text;
   if (const auto* number = node.as_floating_point()) {
-    return toml_number(number->get());
+    return number_text(number->get());
   }
   if (const auto* words = node.as_string()) {
     return toml_text(words->get());

@@ -2,12 +2,11 @@
 // tested-in: scenario
 
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "scenario/scenario_fields.h"
 #include "scenario/scenario_keys.h"
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -23,7 +22,7 @@ template <class... F>
 Cases(F...) -> Cases<F...>;
 
 std::string with_unit(double value, const std::string& unit) {
-  return toml_number(value) + (unit.empty() ? "" : " " + unit);
+  return number_text(value) + (unit.empty() ? "" : " " + unit);
 }
 
 Error wrong(const ScenarioField& field, const GivenValue& given, const std::string& rule) {
@@ -163,18 +162,12 @@ std::string toml_value(const Scenario& scenario, const ScenarioField& field) {
   Scenario copy =
       scenario;  // The places are for writing; a copy spares a second table for reading.
   return std::visit(
-      Cases{[&](double* (*at)(Scenario&)) { return toml_number(*at(copy)); },
+      Cases{[&](double* (*at)(Scenario&)) { return number_text(*at(copy)); },
             [&](int* (*at)(Scenario&)) { return std::to_string(*at(copy)); },
             [&](std::uint64_t* (*at)(Scenario&)) { return std::to_string(*at(copy)); },
             [&](bool* (*at)(Scenario&)) { return std::string{*at(copy) ? "true" : "false"}; },
             [&](std::string* (*at)(Scenario&)) { return toml_text(*at(copy)); }},
       field.place);
-}
-
-std::string toml_number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
-  return {text.begin(), end};
 }
 
 std::string toml_text(const std::string& text) {

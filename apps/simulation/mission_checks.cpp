@@ -4,8 +4,8 @@
 #include "flyball/records/report.h"
 #include "flyball/records/text_table.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
-#include "scenario/scenario_fields.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -37,12 +37,12 @@ Status check_start_map(const std::string& path, const MissionEquipment& equipmen
   const std::vector<double> wanted_m =
       knob->legal.empty() ? std::vector<double>{knob->fallback} : knob->legal;
   return Error{ErrorCode::invalid_input,
-               "start map \"" + path + "\" has cells of " + listed(cells_m, toml_number) +
-                   " m, and the mission maps at " + listed(wanted_m, toml_number) +
-                   " m; set kernels.mapper_parameters.finest_m to " + toml_number(cells_m.front()) +
+               "start map \"" + path + "\" has cells of " + listed(cells_m, number_text) +
+                   " m, and the mission maps at " + listed(wanted_m, number_text) +
+                   " m; set kernels.mapper_parameters.finest_m to " + number_text(cells_m.front()) +
                    " and map.resolution_m to one of the map's cells, or make the map with cells "
                    "of " +
-                   toml_number(wanted_m.front()) + " m"};
+                   number_text(wanted_m.front()) + " m"};
 }
 
 Status check_executor(const Scenario& scenario, const MissionHooks& hooks) {
@@ -135,7 +135,7 @@ Status check_start(const Brief& brief) {
                "the vehicle cannot leave its start, which is declared clear to " +
                    rounded(site.start_clear_m, 2) + " m around it and to " +
                    rounded(site.clear_height_m, 2) + " m above the ground: with " +
-                   "vehicle.tracking_error_m = " + toml_number(brief.tube.at_rest_m) +
+                   "vehicle.tracking_error_m = " + number_text(brief.tube.at_rest_m) +
                    " and its camera's field it needs " + rounded(radius_m, 2) + " m and " +
                    rounded(top_m, 2) + " m; choose a smaller error, a larger field, or a world " +
                    "that declares more"};

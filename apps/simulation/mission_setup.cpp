@@ -2,6 +2,7 @@
 #include "simulation/mission_setup.h"
 
 #include "flyball/flight/workload.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/files.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/scenario/shipped_platform.h"
@@ -11,7 +12,6 @@
 #include "scenario/kernel_choice.h"
 #include "scenario/scenario_check.h"
 #include "scenario/scenario_edge.h"
-#include "scenario/scenario_fields.h"
 #include "scenario/scenario_parameters.h"
 #include "simulation/kernel_price.h"
 #include "simulation/seeing_setup.h"
@@ -33,14 +33,14 @@ Status check_lift(const Scenario& scenario, const Airframe& airframe) {
   if (scenario.vehicle.payload_kg + gimbal <= most_kg) {
     return Done{};
   }
-  const std::string with_gimbal = gimbal > 0.0 ? " with the gimbal of " + toml_number(gimbal) +
+  const std::string with_gimbal = gimbal > 0.0 ? " with the gimbal of " + number_text(gimbal) +
                                                      " kg that workload \"" +
                                                      scenario.mission.workload + "\" needs"
                                                : "";
   return Error{ErrorCode::invalid_input,
-               "vehicle.payload_kg = " + toml_number(scenario.vehicle.payload_kg) + with_gimbal +
+               "vehicle.payload_kg = " + number_text(scenario.vehicle.payload_kg) + with_gimbal +
                    " is too heavy for airframe \"" + scenario.vehicle.airframe +
-                   "\", which lifts " + toml_number(std::floor(1e3 * most_kg) / 1e3) +
+                   "\", which lifts " + number_text(std::floor(1e3 * most_kg) / 1e3) +
                    " with a fifth of its thrust to spare; " +
                    (gimbal < most_kg ? "carry less" : "choose a larger vehicle.airframe")};
 }

@@ -2,6 +2,7 @@
 #include "flyball/studies/calibration.h"
 
 #include "flyball/records/report.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/scenario.h"
 #include "flyball/scenario/shipped_platform.h"
 #include "flyball/simulation/mission.h"
@@ -122,11 +123,11 @@ class Calibrator {
 
   [[nodiscard]] std::vector<std::string> with_common(std::vector<std::string> settings,
                                                      const Round& round) const {
-    const auto number = [](double value) { return std::to_string(value); };
     for (const std::string& one :
          {"platform.name=" + round.platform, std::string{"platform.cores=1"},
-          "platform.frequency_hz=" + number(clock_.value()), "seed=" + std::to_string(round.seed),
-          "mission.time_limit_s=" + number(round.flight_s),
+          "platform.frequency_hz=" + number_text(clock_.value()),
+          "seed=" + std::to_string(round.seed),
+          "mission.time_limit_s=" + number_text(round.flight_s),
           std::string{"kernels.slam_load=false"}}) {
       settings.push_back(one);
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/studies/drift.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/shipped_platform.h"
 
 #include "records/json_counts.h"
-#include "scenario/scenario_fields.h"
 #include <fstream>
 #include <utility>
 
@@ -18,7 +18,7 @@ std::vector<std::string> event(std::size_t number,
                                const std::string& kind,
                                const std::vector<std::string>& rest) {
   const std::string key = "events." + std::to_string(number) + ".";
-  std::vector<std::string> settings{key + "kind=" + kind, key + "at_s=" + toml_number(at_s)};
+  std::vector<std::string> settings{key + "kind=" + kind, key + "at_s=" + number_text(at_s)};
   for (const std::string& setting : rest) {
     settings.push_back(key + setting);
   }

@@ -5,6 +5,7 @@
 #include "flyball/runtime/guard.h"
 #include "flyball/runtime/observation_fields.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/policy_choice.h"
 #include "flyball/simulation/mission.h"
 
@@ -104,19 +105,13 @@ void put_in_force(const std::string& choice, InForce& in_force) {
   }
 }
 
-std::string short_number(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
-}
-
 /// The knobs that stand otherwise, each with its value in `of`.
 std::string where_they_differ(const InForce& of, const InForce& other) {
   return listed(of, [&other](const auto& setting) {
     const auto& [knob, value] = setting;
     const auto found = other.find(knob);
     const bool differs = found != other.end() && !have_same_bits(found->second, value);
-    return differs ? knob + " " + short_number(value) : "";
+    return differs ? knob + " " + short_number_text(value) : "";
   });
 }
 
@@ -183,9 +178,9 @@ Result<Explanation> explain(const RecordedFlight& flight, MissionTime at) {
   const std::optional<MissionTime> first = decisions.coming();
   if (!first || at < *first || at > flight.end) {
     return Error{ErrorCode::invalid_input, "there is no decision at " +
-                                               std::to_string(to_seconds(at)) +
+                                               short_number_text(to_seconds(at)) +
                                                " s; the flight lasts from 0 to " +
-                                               std::to_string(to_seconds(flight.end)) + " s"};
+                                               short_number_text(to_seconds(flight.end)) + " s"};
   }
   const auto governor = recorded_governor(flight);
   if (!governor) {

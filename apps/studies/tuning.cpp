@@ -3,6 +3,7 @@
 #include "flyball/studies/tuning.h"
 
 #include "flyball/records/text_table.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/studies/policy_trouble.h"
 #include "flyball/studies/statistics.h"
 
@@ -16,14 +17,6 @@
 
 namespace flyball {
 namespace {
-
-/// The shortest text that reads back as this number.
-std::string number_text(double value) {
-  std::string text(32, '\0');
-  const auto [end, failed] = std::to_chars(text.data(), text.data() + text.size(), value);
-  text.resize(failed == std::errc{} ? static_cast<std::size_t>(end - text.data()) : 0);
-  return text;
-}
 
 Error wrong(const std::string& text, const std::string& why) {
   return {ErrorCode::invalid_input,

@@ -16,9 +16,9 @@
 #include "flyball/flight/perception/camera_rate.h"
 #include "flyball/flight/workload.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -28,9 +28,7 @@ using namespace flyball;
 using namespace std::chrono_literals;
 
 std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g m", value);
-  return text;
+  return short_number_text(value) + " m";
 }
 
 Error refused(const std::string& sentence) {

@@ -6,6 +6,7 @@
 
 #include "flyball/kernels/coverage_planner.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <cmath>
 #include <limits>
@@ -59,8 +60,8 @@ class Lawnmower final : public flyball::CoveragePlanner {
   flyball::Result<CoveragePath> cover(const CoverageRequest& request) override {
     if (!is_sound(request)) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
-                            "coverage of " + std::to_string(request.length_m) + " m x " +
-                                std::to_string(request.width_m) + " m in " +
+                            "coverage of " + flyball::short_number_text(request.length_m) +
+                                " m x " + flyball::short_number_text(request.width_m) + " m in " +
                                 std::to_string(request.lanes) +
                                 " lanes needs an area, a lane and finite places"};
     }

@@ -2,10 +2,10 @@
 
 #include "flyball/studies/sweep.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/scenario/override.h"
 #include "flyball/studies/policy_trouble.h"
 
-#include "scenario/scenario_fields.h"
 #include "studies/sweep/flight_figures.h"
 #include <algorithm>
 #include <charconv>
@@ -62,7 +62,7 @@ std::string spelled_alike(const std::string& value) {
   double number = 0.0;
   const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), number);
   const bool is_number = failed == std::errc{} && end == value.data() + value.size();
-  return is_number ? toml_number(number) : value;
+  return is_number ? number_text(number) : value;
 }
 
 /// Each point once with each of the axis's values.

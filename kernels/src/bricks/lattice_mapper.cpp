@@ -2,6 +2,8 @@
 // tested-in: flyball
 #include "lattice_mapper.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include "brick_contents.h"
 #include "brick_view.h"
 #include "chunk_log.h"
@@ -226,8 +228,8 @@ class LatticeMapper final : public Mapper {
     if (const auto level = level_with(resolution_m)) {
       return *level;
     }
-    return invalid("map.resolution_m " + std::to_string(resolution_m) +
-                   " must be 1, 2, 4 or 8 times " + std::to_string(map_.lattice().cell_m(0)));
+    return invalid("map.resolution_m " + short_number_text(resolution_m) +
+                   " must be 1, 2, 4 or 8 times " + short_number_text(map_.lattice().cell_m(0)));
   }
 
   [[nodiscard]] Status check(const PointCloud& cloud_C,

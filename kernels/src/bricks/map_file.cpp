@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_file.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include "maps/octree_file.h"
 #include "octree_copy.h"
 #include <cmath>
@@ -24,8 +26,8 @@ Status write_map_file(const BrickMap& map,
   }
   if (level > coarsest_written) {
     return Error{ErrorCode::invalid_input, "a map file's cells must be 1, 2, 4 or 8 times " +
-                                               std::to_string(finest_m) + " m, and not " +
-                                               std::to_string(*resolution_m) + " m"};
+                                               short_number_text(finest_m) + " m, and not " +
+                                               short_number_text(*resolution_m) + " m"};
   }
   try {
     const bool is_bt = path.size() > 3 && path.compare(path.size() - 3, 3, ".bt") == 0;

@@ -18,6 +18,7 @@
 ///   write_file(path), read_file(path)  as Mapper's; the latter is static and gives a store
 
 #include "flyball/kernels/mapper.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "bricks/bits.h"
 #include "maps/kept_walls.h"
@@ -132,7 +133,7 @@ class LayeredMapper final : public Mapper {
       return Error{
           ErrorCode::invalid_input,
           "map file \"" + path + "\": nothing has been mapped" +
-              (resolution_m ? " at " + std::to_string(*resolution_m) + " m" : std::string{})};
+              (resolution_m ? " at " + short_number_text(*resolution_m) + " m" : std::string{})};
     } catch (const std::exception& e) {
       return failure(e);
     }

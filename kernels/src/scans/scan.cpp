@@ -2,6 +2,8 @@
 // tested-in: octomap
 #include "scan.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include "ray_scan.h"
 #include <algorithm>
 #include <cmath>
@@ -64,18 +66,18 @@ float greatest_square(double length) {
 Status check_view(const Pose& X_WC, const MapperSettings& settings, double cell_m, double edge_m) {
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(settings.resolution_m) || !is_positive(settings.range_m)) {
-    return invalid("map.resolution_m " + std::to_string(settings.resolution_m) +
-                   " and map.range_m " + std::to_string(settings.range_m) + " must be positive");
+    return invalid("map.resolution_m " + short_number_text(settings.resolution_m) +
+                   " and map.range_m " + short_number_text(settings.range_m) + " must be positive");
   }
   if (settings.range_m > RayScan::most_cells_per_ray * cell_m) {
-    return invalid("map.range_m " + std::to_string(settings.range_m) + " is over 250 cells of " +
-                   std::to_string(cell_m) + " m; shorten it or coarsen the map");
+    return invalid("map.range_m " + short_number_text(settings.range_m) + " is over 250 cells of " +
+                   short_number_text(cell_m) + " m; shorten it or coarsen the map");
   }
   if (!X_WC.matrix().allFinite()) {
     return invalid("the camera's pose is not finite");
   }
   if (X_WC.translation().cwiseAbs().maxCoeff() >= edge_m) {
-    return invalid("camera is over " + std::to_string(edge_m) + " m from the map's centre");
+    return invalid("camera is over " + short_number_text(edge_m) + " m from the map's centre");
   }
   return Done{};
 }

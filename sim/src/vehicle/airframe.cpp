@@ -2,6 +2,7 @@
 
 #include "flyball/sim/airframe.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/runtime/text/toml_text.h"
 
 #include <algorithm>
@@ -18,12 +19,6 @@ namespace flyball {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
 
 /// Takes values out of a table, and notes wrong values and unknown keys.
 class Reader {
@@ -234,20 +229,23 @@ std::vector<Error> Airframe::validate() const {
   };
   for (const Limit& limit : limits_of(*this)) {
     require(limit.value > 0.0 && limit.value <= limit.most,  // False for NaN.
-            std::string{limit.key} + " = " + text(limit.value) + " must be > 0 and at most " +
-                text(limit.most));
+            std::string{limit.key} + " = " + short_number_text(limit.value) +
+                " must be > 0 and at most " + short_number_text(limit.most));
   }
   require(drag_area_m2 >= 0.0 && drag_area_m2 <= most_m2,
-          "drag_area_m2 = " + text(drag_area_m2) + " must be >= 0 and at most " + text(most_m2));
+          "drag_area_m2 = " + short_number_text(drag_area_m2) + " must be >= 0 and at most " +
+              short_number_text(most_m2));
   require(std::all_of(power_b.begin(), power_b.end(),
                       [](double b) { return std::abs(b) <= most_power_b; }),
-          "power_b must hold numbers from " + text(-most_power_b) + " to " + text(most_power_b));
+          "power_b must hold numbers from " + short_number_text(-most_power_b) + " to " +
+              short_number_text(most_power_b));
   require(rotor_mass_kg >= 0.0 && 4.0 * rotor_mass_kg < mass_kg,
-          "four rotors of " + text(rotor_mass_kg) +
-              " kg must weigh >= 0 and less than mass_kg = " + text(mass_kg));
+          "four rotors of " + short_number_text(rotor_mass_kg) +
+              " kg must weigh >= 0 and less than mass_kg = " + short_number_text(mass_kg));
   const double needed_n = spare * mass_kg * gravity_m_s2;
-  require(most_payload_kg() > 0.0, "the rotors' " + text(lift_n(*this)) + " N must exceed " +
-                                       text(spare) + " times the weight, " + text(needed_n) + " N");
+  require(most_payload_kg() > 0.0, "the rotors' " + short_number_text(lift_n(*this)) +
+                                       " N must exceed " + short_number_text(spare) +
+                                       " times the weight, " + short_number_text(needed_n) + " N");
   return errors;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/sim/place_plan.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include "sensors/scan_grid.h"
 #include "world/scan_file.h"
 #include "world/solid_surface.h"
@@ -54,8 +56,8 @@ Result<PlacePlan> plan_of_place(const std::string& file, const PlaceView& view) 
   const Aabb extent_W = grid->extent_W();
   if (extent_W.min.z() >= middle_m + above_m || extent_W.max.z() <= middle_m - below_m) {
     return Error{ErrorCode::invalid_input,
-                 "\"" + file + "\" reaches from z = " + std::to_string(extent_W.min.z()) + " to " +
-                     std::to_string(extent_W.max.z()) +
+                 "\"" + file + "\" reaches from z = " + short_number_text(extent_W.min.z()) +
+                     " to " + short_number_text(extent_W.max.z()) +
                      " m and has nothing at the height of the plan; set --ground and --height"};
   }
   low.z() = std::max(low.z(), static_cast<int>(std::floor((middle_m - below_m) / cell_m + 1e-6)));

@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/sim/world.h"
 
 #include "world/building.h"
@@ -89,8 +90,9 @@ class CollapsedBuilding final : public flyball::WorldGenerator {
       return flyball::Error{flyball::ErrorCode::invalid_input,
                             "world \"collapsed_building\": walls = " + std::to_string(cross_walls) +
                                 " leaves no room for start and person in a length_m of " +
-                                std::to_string(ruin.length_m) + "; lengthen it, or have at most " +
-                                std::to_string(most) + " walls"};
+                                flyball::short_number_text(ruin.length_m) +
+                                "; lengthen it, or have at most " + std::to_string(most) +
+                                " walls"};
     }
     ruin.half_width_m = flyball::on_wall_grid(0.5 * given.number("width_m"));
     ruin.world.start_W = ruin.world.goal_W = {start_m, 0.0, 0.0};

@@ -6,6 +6,7 @@
 
 #include "flyball/runtime/random.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/sim/world.h"
 
 #include "world/building.h"
@@ -66,8 +67,9 @@ class Mixed final : public flyball::WorldGenerator {
     }
     if (spare_m < 0.0) {
       return flyball::Error{flyball::ErrorCode::invalid_input,
-                            "world \"mixed\": length_m = " + std::to_string(length_m) +
-                                " must be at least " + std::to_string(length_m - spare_m) +
+                            "world \"mixed\": length_m = " + flyball::short_number_text(length_m) +
+                                " must be at least " +
+                                flyball::short_number_text(length_m - spare_m) +
                                 " for what stands on it; lengthen it, or lower buildings, crowds "
                                 "or slits"};
     }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Numbers as text, with a point in every locale. `std::to_string` writes `260.000000`, and
+/// `printf` and it write a comma where the program around Flyball has chosen such a locale.
+
+#include <string>
+
+namespace flyball {
+
+/// The shortest text that reads back as the same number: `0.1`, `1e-04`, `nan`.
+[[nodiscard]] std::string number_text(double value);
+
+/// The number with at most six significant digits, as people read it in messages and tables.
+[[nodiscard]] std::string short_number_text(double value);
+
+}  // namespace flyball
