@@ -113,7 +113,9 @@ void add_detect(CLI::App& program, int& exit_code) {
   command->add_option("--scale", run.scale, "size of the analysed picture over that of the file")
       ->check(CLI::Range(0.05, 8.0));
   refuse_empty(*command->add_option("--set", options->settings, "parameter of the detector")
-                    ->type_name("NAME=VALUE"));
+                    ->type_name("NAME=VALUE")
+                    ->expected(1)
+                    ->take_all());
   refuse_empty(
       *command
            ->add_option("--models", run.models_folder, "folder that is searched first for weights")

@@ -62,7 +62,9 @@ CLI::Option& add_names(CLI::App& command,
                        const std::string& option,
                        std::vector<std::string>& names,
                        const std::string& description) {
-  CLI::Option& added = *command.add_option(option, names, description)->delimiter(',');
+  // One argument each time: what follows it may be the command's own, as SCENARIO.
+  CLI::Option& added =
+      *command.add_option(option, names, description)->delimiter(',')->expected(1)->take_all();
   added.type_name("A,B,C");
   refuse_empty(added);
   return *added.transform(CLI::Validator{[](std::string& value) {  // Comes before the other check.

@@ -153,9 +153,11 @@ Result<std::unique_ptr<OnboardRecord>> open_record(const RunOptions& options,
 /// a pipe where it is.
 class RecordPlace {
  public:
-  explicit RecordPlace(std::string path) : path_{std::move(path)}, before_{path_ + ".before"} {
+  explicit RecordPlace(const std::string& path) {
     std::error_code failed;
+    path_ = fs::weakly_canonical(fs::absolute(path, failed), failed);  // What a link names.
     if (fs::is_regular_file(path_, failed)) {
+      before_ = unused_beside(path_);
       fs::rename(path_, before_, failed);
       has_before_ = !failed;
     }
@@ -176,8 +178,17 @@ class RecordPlace {
   void keep() { has_flown_ = true; }
 
  private:
-  std::string path_;
-  std::string before_;
+  /// FILE.before, unless that is somebody's own, or what was there before a flight that was killed.
+  static fs::path unused_beside(const fs::path& file) {
+    fs::path before{file.string() + ".before"};
+    for (int i = 2; fs::exists(before); ++i) {
+      before = file.string() + ".before" + std::to_string(i);
+    }
+    return before;
+  }
+
+  fs::path path_;
+  fs::path before_;
   bool has_before_{};
   bool has_flown_{};
 };
@@ -185,17 +196,18 @@ class RecordPlace {
 /// One thing that is written may not be another one.
 Status keep_outputs_apart(const RunOptions& options, const std::string& folder) {
   std::error_code ignored;
+  const fs::path record =
+      fs::weakly_canonical(fs::absolute(fs::path{folder} / "mission.toml"), ignored);
   std::vector<fs::path> written;
-  for (const char* of_record : {"mission.toml", "summary.json", "trace.jsonl", "report.html"}) {
-    written.push_back(fs::weakly_canonical(fs::absolute(fs::path{folder} / of_record), ignored));
-  }
   for (const std::string& output : {options.mcap, options.timeline, options.final_map}) {
     const bool is_device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
     if (output.empty() || is_device) {
       continue;
     }
     const fs::path place = fs::weakly_canonical(fs::absolute(output), ignored);
-    if (std::find(written.begin(), written.end(), place) != written.end()) {
+    const bool is_in_record =
+        place.parent_path() == record.parent_path() && is_of_record(place.filename().string());
+    if (is_in_record || std::find(written.begin(), written.end(), place) != written.end()) {
       return Error{ErrorCode::invalid_input,
                    "\"" + output + "\" would be written twice; choose another place for it"};
     }

@@ -195,24 +195,32 @@ Status check_place(const std::string& path) {
 }
 
 Status write_file(const std::string& path, const std::string& content) {
-  // Of this process: two that write one file must not take each other's half.
-  const std::string temporary = path + "." + std::to_string(getpid()) + ".part";
   std::error_code failed;
+  // A link stays, and so does a device or a pipe, which a file with its name would replace.
+  const fs::path followed = fs::canonical(path, failed);
+  const std::string place = failed ? path : followed.string();
+  const bool is_stream = fs::is_other(fs::status(place, failed));
+  // Of this process: two that write one file must not take each other's half.
+  const std::string temporary =
+      is_stream ? place : place + "." + std::to_string(getpid()) + ".part";
+  failed.clear();
   errno = 0;
   std::ofstream file{temporary, std::ios::binary | std::ios::trunc};
   file << content;
   file.close();
   const int reason = errno;  // Of the system's call that failed, if one did.
-  if (file) {
-    fs::rename(temporary, path, failed);
+  if (file && !is_stream) {
+    fs::rename(temporary, place, failed);
   }
   if (!file || failed) {
     const std::string why = failed        ? failed.message()
                             : reason != 0 ? std::generic_category().message(reason)
                                           : "the folder or disk refuses it";
-    const Error error = cannot_write(path, why);
-    fs::remove(temporary, failed);
-    return error;
+    if (!is_stream) {
+      std::error_code ignored;
+      fs::remove(temporary, ignored);
+    }
+    return cannot_write(path, why);
   }
   return Done{};
 }
@@ -225,6 +233,12 @@ std::string mission_file(const Scenario& scenario) {
 std::string scenario_html(const Scenario& scenario) {
   return "<details><summary>The scenario, every setting</summary><pre>" +
          html_text(mission_file(scenario)) + "</pre></details>\n";
+}
+
+bool is_of_record(const std::string& file) {
+  constexpr std::array names{"mission.toml", "summary.json", "trace.jsonl", "picture.json",
+                             "report.html"};
+  return std::find(names.begin(), names.end(), file) != names.end() || file.rfind("frame_", 0) == 0;
 }
 
 Status write_run(const std::string& folder, const Scenario& scenario, const MissionRecord& record) {

@@ -209,7 +209,9 @@ void ClosedLoop::energy_step() {
   battery_.draw(log_.rotor_w + log_.computer_w, dt_s);
   const double speed = state.v_WB.norm();
   log_.distance_m += speed * dt_s;
-  log_.max_speed_m_s = std::max(log_.max_speed_m_s, speed);
+  if (link_.phase() != MissionPhase::take_off && link_.phase() != MissionPhase::land) {
+    log_.max_speed_m_s = std::max(log_.max_speed_m_s, speed);
+  }
   if (is_airborne()) {
     log_.airborne_s += dt_s;
     log_.hover_time_s += speed < hover_below_m_s ? dt_s : 0.0;

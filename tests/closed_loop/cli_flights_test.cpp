@@ -208,7 +208,7 @@ TEST(CliFlights, a_tournament_goes_on_where_it_was_stopped) {
   EXPECT_EQ(table[1]["differences"][0]["pairs"], 2);
   EXPECT_TRUE(fs::exists(flyball.place.path("t/tournament.html")));
   EXPECT_TRUE(fs::exists(flyball.place.path("t/tournament.db")));
-  EXPECT_FALSE(fs::exists(flyball.place.path("t/near"))) << "records go when they are counted";
+  EXPECT_FALSE(fs::exists(flyball.place.path("t/flights"))) << "records go when they are counted";
 }
 
 TEST(CliFlights, a_tournament_finds_the_best_single_setting_in_hindsight) {

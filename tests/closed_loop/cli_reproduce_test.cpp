@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -68,6 +69,21 @@ TEST(CliReproduce, ends_with_the_same_tables_after_a_kill_and_on_slurm) {
   EXPECT_EQ(flown.output, expected.output);
   EXPECT_EQ(cluster.place.content("slurm_programs/arrays"), "array\n") << flown.errors;
   expect_equal_tables(cluster, whole);
+}
+
+TEST(CliReproduce, finds_no_flight_that_is_faster_than_eq_2_allows) {
+  const FlyballProgram flyball;
+  ASSERT_EQ(flyball.run(line).exit_code, 0);
+  std::istringstream claims{flyball.place.content("r/claims.csv")};
+  int rows = 0;
+  for (std::string row; std::getline(claims, row);) {
+    const std::string what = "highest speed over eq. 2\",,,,";
+    if (const auto at = row.find(what); at != std::string::npos) {
+      EXPECT_LT(std::stod(row.substr(at + what.size())), 1.0) << row;
+      ++rows;
+    }
+  }
+  EXPECT_EQ(rows, 5);
 }
 
 TEST(CliReproduce, refuses_what_it_does_not_know_before_anything_flies) {

@@ -67,7 +67,7 @@ TEST(CliSignals, no_mission_outlives_a_tournament) {
   for (const int signal : {SIGTERM, SIGHUP, SIGKILL}) {
     const FlyballProgram flyball;
     FlyballProcess process{flyball, long_tournament()};
-    process.wait_for_file("out/delivery_outdoor_to_indoor/runs/fixed_fine/seed_2");
+    process.wait_for_file("out/flights/delivery_outdoor_to_indoor/runs/fixed_fine/seed_2");
     const std::vector<pid_t> missions = process.children();
     EXPECT_EQ(missions.size(), 2U);
     process.send(signal);

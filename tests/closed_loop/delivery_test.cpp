@@ -25,6 +25,14 @@ TEST(Delivery, flies_there_and_back_and_leaves_the_payload) {
   EXPECT_TRUE(says(record, "delivered"));
 }
 
+TEST(Delivery, counts_no_climb_as_its_highest_speed) {
+  Scenario scenario = kit::short_delivery(5.0);
+  scenario.mission.max_speed_m_s = 0.5;
+  const Summary summary = kit::flown(scenario).summary;
+  EXPECT_GT(summary.max_speed_m_s, 0.4);
+  EXPECT_LT(summary.max_speed_m_s, 0.8) << "it climbs at 1.5 m/s";
+}
+
 /// The empty world, with the goal where the vehicle starts.
 class OnePlace final : public WorldGenerator {
  public:

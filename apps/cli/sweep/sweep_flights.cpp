@@ -156,8 +156,9 @@ std::vector<std::string> point_commands(const SweepRequest& request) {
 }
 
 std::vector<std::string> sweep_words(const SweepRequest& request) {
+  const bool is_sweep = !request.plan.axes.empty();  // The command wants a setting to vary.
   std::vector<std::string> words{"flyball",
-                                 "sweep",
+                                 is_sweep ? "sweep" : "compare",
                                  request.flight.scenario,
                                  "--policies",
                                  joined(request.plan.policies),
@@ -167,7 +168,7 @@ std::vector<std::string> sweep_words(const SweepRequest& request) {
     words.insert(words.end(), {"--over", axis.key + "=" + joined(axis.values)});
   }
   add_common(request, words);
-  if (request.batch.keeps_records) {
+  if (is_sweep && request.batch.keeps_records) {
     words.emplace_back("--keep-records");
   }
   return words;

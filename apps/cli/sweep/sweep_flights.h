@@ -36,7 +36,8 @@ struct SweepRequest {
 /// `flyball compare ...` for each point: the same flights side by side.
 [[nodiscard]] std::vector<std::string> point_commands(const SweepRequest& request);
 
-/// `flyball sweep ...` that flies all of them, without where to.
+/// `flyball sweep ...` that flies all of them, without where to; `flyball compare ...` where no
+/// setting varies.
 [[nodiscard]] std::vector<std::string> sweep_words(const SweepRequest& request);
 
 /// The words as a shell reads them back: in quotes where needed.

@@ -2,6 +2,7 @@
 
 #include "cli/tournament/tournament_flights.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -19,8 +20,16 @@ FlightOptions flight_in(const TournamentOptions& options, const std::string& wor
 }
 
 std::string folder_of(const TournamentOptions& options, const std::string& world) {
-  return (std::filesystem::path{out_folder(options)} / std::filesystem::path{world}.stem())
-      .string();
+  const auto stem_of = [](const std::string& file) { return std::filesystem::path{file}.stem(); };
+  std::filesystem::path folder = stem_of(world);
+  const auto here = std::find(options.worlds.begin(), options.worlds.end(), world);
+  const auto same = std::count_if(options.worlds.begin(), here, [&](const std::string& other) {
+    return stem_of(other) == folder;
+  });
+  if (same > 0) {
+    folder += "_" + std::to_string(same + 1);
+  }
+  return (std::filesystem::path{out_folder(options)} / "flights" / folder).string();
 }
 
 std::variant<TournamentFlights, std::vector<Error>> plan_flights(

@@ -50,6 +50,8 @@ TEST_F(LogCommand, refuses_a_place_where_no_record_can_be_made_before_it_flies) 
 
 TEST_F(LogCommand, refuses_to_write_two_things_into_one_file) {
   expect_refused(short_flight + "--timeline run/../run/summary.json", "would be written twice");
+  expect_refused(short_flight + "--mcap run/picture.json", "would be written twice");
+  expect_refused(short_flight + "--timeline run/frame_1.png", "would be written twice");
   expect_refused(short_flight + "--timeline a --mcap ./a", "would be written twice");
   EXPECT_TRUE(flyball.place.is_empty());
 }
@@ -61,6 +63,17 @@ TEST_F(LogCommand, keeps_the_record_before_when_a_flight_is_refused) {
   EXPECT_EQ(flyball.run(short_flight + "--mcap a.mcap").exit_code, 1);
   EXPECT_TRUE(McapReader{flyball.place.path("a.mcap")}.faults.empty());
   EXPECT_FALSE(std::filesystem::exists(flyball.place.path("a.mcap.before")));
+}
+
+TEST_F(LogCommand, leaves_a_file_alone_that_has_the_name_of_a_kept_record) {
+  (void)flyball.place.file("a.mcap", "of another flight");
+  (void)flyball.place.file("a.mcap.before", "mine");
+  std::filesystem::create_symlink("a.mcap", flyball.place.path("link.mcap"));
+  EXPECT_EQ(flyball.run(short_flight + "--mcap link.mcap").exit_code, 1);
+  EXPECT_EQ(flyball.place.content("a.mcap.before"), "mine");
+  EXPECT_TRUE(std::filesystem::is_symlink(flyball.place.path("link.mcap")));
+  EXPECT_TRUE(McapReader{flyball.place.path("a.mcap")}.faults.empty());
+  EXPECT_FALSE(std::filesystem::exists(flyball.place.path("a.mcap.before2")));
 }
 
 TEST_F(LogCommand, keeps_a_flight_whose_map_cannot_be_written) {

@@ -3,6 +3,7 @@
 
 #include "flyball_program.h"
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -215,6 +216,43 @@ TEST(ManyFlights, are_tuned_for_a_policy_that_flew_them_itself) {
   EXPECT_TRUE(has(tuned.output, "0/1      -          n=2")) << tuned.output;
   EXPECT_TRUE(has(tuned.output, "policy ./some.lua was replaced by safe settings in "));
   EXPECT_TRUE(has(flyball.place.content("o/tuned.toml"), "n = 1")) << "which is not the first";
+}
+
+TEST(ManyFlights, of_a_tournament_leave_other_records_and_worlds_alone) {
+  const FlyballProgram flyball;
+  const std::string settings =
+      " --set world.generator=empty --set world.goal_distance_m=5 --set camera.width_px=32 --set "
+      "camera.height_px=18 --out o";
+  const auto flown = flyball.run("run delivery_forest --policy fixed --seed 1" + settings +
+                                 "/delivery_forest/runs/fixed/seed_1");
+  ASSERT_EQ(flown.exit_code, 0) << flown.errors;
+  const std::string record = "o/delivery_forest/runs/fixed/seed_1/mission.toml";
+  ASSERT_TRUE(std::filesystem::exists(flyball.place.path(record)));
+  const auto first =
+      flyball.run("tournament --policies fixed --seeds 1 --worlds delivery_forest" + settings);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  EXPECT_TRUE(std::filesystem::exists(flyball.place.path(record)));
+  for (const char* world : {"a", "b"}) {
+    std::filesystem::create_directory(flyball.place.path(world));
+    (void)flyball.place.file(std::string{world} + "/w.toml",
+                             "name = \"" + std::string{world} + "\"\n");
+  }
+  const auto held = flyball.run(
+      "tournament --keep-records --policies fixed --seeds 1 --worlds "
+      "delivery_forest,a/w.toml,b/w.toml" +
+      settings);
+  ASSERT_EQ(held.exit_code, 0) << held.errors;
+  for (const char* name : {"w", "w_2"}) {
+    EXPECT_TRUE(std::filesystem::exists(
+        flyball.place.path(std::string{"o/flights/"} + name + "/runs/fixed/seed_1/mission.toml")))
+        << name;
+  }
+}
+
+TEST(ManyFlights, take_one_list_after_an_option_and_their_scenario_after_that) {
+  const auto refused =
+      FlyballProgram{}.run("compare --policies fixed_fine,nosuch --seeds 1 delivery_forst");
+  EXPECT_TRUE(has(refused.errors, "did you mean delivery_forest?")) << refused.errors;
 }
 
 }  // namespace

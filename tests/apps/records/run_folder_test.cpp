@@ -4,15 +4,19 @@
 
 #include "made_flights.h"
 #include "scratch_folder.h"
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstring>
 #include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace flyball {
 namespace {
@@ -42,6 +46,39 @@ TEST(RunFolder, the_page_has_units_as_its_other_columns_have_them) {
   EXPECT_NE(
       scratch.content("report.html").find("<th>known %</th><th>localization error max m</th></tr>"),
       std::string::npos);
+}
+
+TEST(RunFolder, a_file_behind_a_link_is_written_and_the_link_stays) {
+  const ScratchFolder scratch;
+  (void)scratch.file("target", "before");
+  std::filesystem::create_symlink("target", scratch.path("link"));
+  ASSERT_TRUE(write_file(scratch.path("link"), "after").ok());
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch.path("link")));
+  EXPECT_EQ(scratch.content("target"), "after");
+}
+
+TEST(RunFolder, a_pipe_is_written_to_and_stays_a_pipe) {
+  const ScratchFolder scratch;
+  const std::string pipe = scratch.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  EXPECT_TRUE(write_file(pipe, "content").ok());
+  std::array<char, 16> text{};
+  EXPECT_EQ(read(reader, text.data(), text.size()), 7);
+  EXPECT_STREQ(text.data(), "content");
+  close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(RunFolder, knows_the_names_of_all_that_it_writes) {
+  const ScratchFolder scratch;
+  ASSERT_TRUE(write_run(scratch.path("run"), Scenario{}, made_record("a", 5)).ok());
+  for (const auto& entry : std::filesystem::directory_iterator{scratch.path("run")}) {
+    EXPECT_TRUE(is_of_record(entry.path().filename().string())) << entry.path();
+  }
+  EXPECT_TRUE(is_of_record("frame_12.png"));
+  EXPECT_FALSE(is_of_record("flight.mcap"));
 }
 
 TEST(RunFolder, says_why_the_system_does_not_let_a_file_be_written) {

@@ -25,7 +25,8 @@ void remove_empty(const std::vector<std::string>& folders);
 /// @error `unavailable`.
 Status check_place(const std::string& path);
 
-/// Writes a file under a temporary name and renames it: it appears whole or not at all.
+/// Writes a file under a temporary name and renames it: it appears whole or not at all. What a link
+/// names is written and the link stays; a device or a pipe is written to directly.
 /// @error `unavailable`; an older file of this name is untouched.
 Status write_file(const std::string& path, const std::string& content);
 
@@ -34,6 +35,9 @@ Status write_file(const std::string& path, const std::string& content);
 [[nodiscard]] std::string mission_file(const Scenario& scenario);
 /// The same for a page, folded up.
 [[nodiscard]] std::string scenario_html(const Scenario& scenario);
+
+/// Whether `write_run` may write or remove a file of this name.
+[[nodiscard]] bool is_of_record(const std::string& file);
 
 /// Writes mission.toml, summary.json, trace.jsonl, picture.json and report.html into `folder` (made
 /// if missing). mission.toml comes last: where it stands, the record is complete. That of an
