@@ -65,18 +65,26 @@ class Localize {
       localizer_->set_true_pose(*truth);
     }
     const auto pose = localizer_->estimate(sample, work);
-    tell_of_first(job, pose.has_value());
-    if (!pose) {
+    const bool is_known = pose && !is_lost_on_ground(job);
+    tell_of_first(job, is_known);
+    if (!is_known) {
       return;  // Without a pose no mission takes off, and nothing is mapped.
     }
     if (!watch_.is_lost()) {
       watch_.passed(*pose);
     }
     if (fixes_) {
-      job.publish(topics_.status, watch_.status(job.now(), pose->X_WB.translation().z()));
+      job.publish(topics_.status, watch_.status(job.now(), pose->X_WB.translation().z(),
+                                                is_in(job, mission_, MissionPhase::cruise)));
     }
     job.publish(topics_.pose, *pose);
     job.publish(topics_.poses, *pose);
+  }
+
+  /// Before the first take-off. In flight the mission goes on by what dead reckoning says.
+  bool is_lost_on_ground(JobContext& job) {
+    has_flown_ = has_flown_ || (fixes_ && !is_in(job, mission_, MissionPhase::wait));
+    return watch_.is_lost() && !has_flown_;
   }
 
   /// Who waits for a vehicle that does not take off wants to know what it waits for.
@@ -97,7 +105,8 @@ class Localize {
   Fixes fixes_;
   std::shared_ptr<Localizer> localizer_;  ///< See MissionKernels.
   LocalizationWatch watch_{};
-  std::optional<bool> is_known_{};  ///< Whether the newest estimate was a pose.
+  bool has_flown_{};
+  std::optional<bool> is_known_{};  ///< Whether the newest estimate was a pose to take off with.
 };
 
 void add_localize(Graph& graph,
@@ -117,7 +126,7 @@ void add_localize(Graph& graph,
   if (!fixes) {
     spec.reads.push_back(parts.mission.knobs.index);
   } else {
-    spec.reads.push_back(fixes->index);
+    spec.reads.insert(spec.reads.end(), {fixes->index, parts.mission.state.index});
     spec.writes.insert(spec.writes.end(), {topics.status.index, parts.mission.end.index});
   }
   declare_log(spec, parts.mission);

@@ -47,12 +47,12 @@ void LocalizationWatch::fixed(MissionTime now, const VisualFix& fix) {
   } else if (fix.tracked && lost_since_) {
     lost_s_ += to_seconds(now - *lost_since_);
     lost_since_.reset();
-    search_height_W_m_.reset();
+    search_.reset();
   }
 }
 
 bool LocalizationWatch::has_given_up(MissionTime now) const {
-  return lost_since_ && to_seconds(now - *lost_since_) > patience_s;
+  return lost_since_ && to_seconds(now - (search_ ? search_->since : *lost_since_)) > patience_s;
 }
 
 void LocalizationWatch::passed(const PoseEstimate& estimate) {
@@ -77,21 +77,24 @@ std::optional<Setpoint> LocalizationWatch::search(MissionTime now, double height
   if (!lost_since_ || trail_.empty()) {
     return std::nullopt;
   }
-  const double since_s = to_seconds(now - *lost_since_);
+  search_ = search_.value_or(Search{now, height_W_m});
+  const double since_s = to_seconds(now - search_->since);
   const double back_since_s = since_s - stop_s - look_s;
   const PoseEstimate& at = passed_before(std::clamp(back_since_s * back_speed_m_s, 0.0, back_m));
   Setpoint setpoint;
   setpoint.stamp = now;
-  search_height_W_m_ = search_height_W_m_.value_or(height_W_m);
   setpoint.p_WB = at.X_WB.translation();
-  setpoint.p_WB.z() = *search_height_W_m_;
+  setpoint.p_WB.z() = search_->height_W_m;
   setpoint.yaw_rad = wrap_angle(yaw_of(at.X_WB.linear().col(0)) + look_aside(since_s - stop_s) +
                                 look_aside(back_since_s - back_s));
   return setpoint;
 }
 
-LocalizationStatus LocalizationWatch::status(MissionTime now, double height_W_m) {
-  return {is_lost(), search(now, height_W_m), times_lost_,
+LocalizationStatus LocalizationWatch::status(MissionTime now, double height_W_m, bool may_search) {
+  if (!may_search) {
+    search_.reset();
+  }
+  return {is_lost(), may_search ? search(now, height_W_m) : std::nullopt, times_lost_,
           lost_s_ + (lost_since_ ? to_seconds(now - *lost_since_) : 0.0)};
 }
 

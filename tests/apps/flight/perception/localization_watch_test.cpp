@@ -39,7 +39,7 @@ TEST(LocalizationWatch, is_lost_from_the_first_frame_without_a_pose_to_the_next_
   EXPECT_TRUE(watch.is_lost());
   watch.fixed(at(13.0), fix(true));
   EXPECT_FALSE(watch.is_lost());
-  const LocalizationStatus status = watch.status(at(20.0), 2.0);
+  const LocalizationStatus status = watch.status(at(20.0), 2.0, true);
   EXPECT_FALSE(status.is_lost || status.search);
   EXPECT_EQ(status.times_lost, 1);
   EXPECT_NEAR(status.lost_s, 3.0, 1e-9);
@@ -75,8 +75,23 @@ TEST(LocalizationWatch, searches_at_the_height_that_it_had_when_the_search_began
   EXPECT_EQ(watch.search(at(22.1), 1.5)->p_WB.z(), 1.5);
 }
 
+TEST(LocalizationWatch, begins_its_search_when_it_may_fly_one) {
+  LocalizationWatch watch = lost_after(6.0);
+  for (double t = 10.0; t < 20.0; t += 0.5) {
+    EXPECT_FALSE(watch.status(at(t), 0.1 * t, false).search) << "the vehicle climbs";
+  }
+  const auto first = watch.status(at(20.0), 15.0, true).search;
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->p_WB.z(), 15.0);
+  EXPECT_NEAR(first->p_WB.x(), 6.0, 0.2);
+  EXPECT_GT(watch.status(at(23.0), 14.0, true).search->yaw_rad, 0.5) << "it looks aside after that";
+  EXPECT_FALSE(watch.has_given_up(at(35.0)));
+  EXPECT_TRUE(watch.has_given_up(at(45.0)));
+}
+
 TEST(LocalizationWatch, flies_back_no_farther_than_it_came) {
   LocalizationWatch watch = lost_after(1.0);
+  (void)watch.search(at(10.0), 2.0);
   EXPECT_GE(watch.search(at(29.0), 2.0)->p_WB.x(), 0.0);
 }
 
@@ -89,7 +104,7 @@ TEST(LocalizationWatch, gives_up_when_all_was_in_vain) {
 
 TEST(LocalizationWatch, asks_to_search_while_it_is_lost) {
   LocalizationWatch watch = lost_after(6.0);
-  const LocalizationStatus status = watch.status(at(11.0), 2.0);
+  const LocalizationStatus status = watch.status(at(11.0), 2.0, true);
   EXPECT_TRUE(status.is_lost);
   ASSERT_TRUE(status.search);
   EXPECT_NEAR(status.search->p_WB.x(), 6.0, 0.2);
