@@ -259,7 +259,7 @@ void ExplorationFlight::watch_flight(JobContext& job) {
     }
     return;
   }
-  if (navigator->speed_m_s > moving_m_s) {
+  if (navigator->speed_m_s > moving_m_s || navigator->must_hover) {
     since_ = job.now();
   }
   const bool is_stuck =

@@ -125,6 +125,7 @@ void Navigator::resume_after_search(MissionTime now, const PoseEstimate& where) 
   // Where nothing is mapped, the path is as free as before, and a new one would begin again with
   // what has been scanned.
   if (!brief_->maps_obstacles && follower_.has_path()) {
+    follower_.pick_up_at(where.X_WB.translation());
     return;
   }
   hover_at(where.X_WB.translation(), yaw_of(where.X_WB.linear().col(0)));
@@ -167,6 +168,9 @@ void Navigator::note_rest(MissionTime now, double speed_m_s) {
   std::optional<double> to_goal_m;
   if (goal_W_ && !has_arrived()) {
     to_goal_m = (*goal_W_ - follower_.position_W()).norm();
+  }
+  if (knobs_->restraint.must_hover) {
+    patience_.resume(now);  // A vehicle that is told to stand may do so for as long as it is told.
   }
   news_.gives_up |= patience_.note(now, to_goal_m, rests);
   // What shuts the way may stand where each leg of it ends, and the vehicle would go there again
@@ -237,9 +241,12 @@ NavigatorState Navigator::state() const {
   state.s_m = follower_.s_m();
   state.position_W = follower_.position_W();
   state.yaw_rad = follower_.yaw_rad();
-  state.speed_m_s = follower_.speed_m_s();
-  state.target_speed_m_s = follower_.target_speed_m_s();
+  if (!search_) {  // What is flown during a search is none of the path's speeds.
+    state.speed_m_s = follower_.speed_m_s();
+    state.target_speed_m_s = follower_.target_speed_m_s();
+  }
   state.stands_still = follower_.stands_still();
+  state.must_hover = knobs_ && knobs_->restraint.must_hover;
   state.known_free_m = follower_.known_free_m();
   state.latency_bound = follower_.latency_bound();
   state.tracking_error = tracking_error_;

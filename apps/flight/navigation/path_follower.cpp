@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
@@ -80,6 +81,21 @@ void PathFollower::hover_at(const Vec3& p_W, double yaw_rad) {
   free_until_m_ = {};
   stall_.reset();
   looked_s_ = 0.0;
+}
+
+void PathFollower::pick_up_at(const Vec3& p_W) {
+  constexpr double step_m = 0.1;
+  constexpr double behind_m = 20.0;  // Chosen: a stop from 10 m/s, and what a search flies back.
+  speed_m_s_ = target_m_s_ = 0.0;
+  stall_.reset();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  const double last_m = s_m_;
+  for (double s_m = last_m; s_m >= std::max(0.0, last_m - behind_m); s_m -= step_m) {
+    if (const double m = (path_->at(s_m).p_W - p_W).norm(); m < nearest_m) {
+      nearest_m = m;
+      s_m_ = s_m;
+    }
+  }
 }
 
 SpeedProfile PathFollower::profile_of(const Path& path, double braking_m_s2) const {

@@ -77,6 +77,46 @@ TEST(Navigator, flies_its_path_on_after_a_search_for_its_place_where_nothing_is_
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
+// It stands there, and may have been led back along the path.
+TEST(Navigator, picks_up_its_path_from_rest_where_a_search_has_ended) {
+  Trip trip;
+  trip.rig.brief->maps_obstacles = false;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(150);
+  ASSERT_GT(trip.navigator.state().speed_m_s, 3.0);
+  Setpoint search;
+  search.p_WB = trip.where.X_WB.translation() - Vec3{3, 0, 0};
+  for (int i = 0; i < 500; ++i) {
+    trip.now += 20ms;
+    trip.where.X_WB.translation() = search.p_WB;
+    trip.where.stamp = trip.now;
+    (void)trip.navigator.tick(trip.now, 20ms, trip.where, search);
+    EXPECT_EQ(trip.navigator.state().speed_m_s, 0.0);
+  }
+  const Setpoint after = trip.navigator.tick(trip.now, 20ms, trip.where);
+  EXPECT_NEAR((after.p_WB - search.p_WB).norm(), 0.0, 0.1);
+  EXPECT_LT(after.v_WB.norm(), 0.1);
+}
+
+TEST(Navigator, that_was_told_to_hover_does_not_give_up) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  KnobsInForce hovers = *trip.rig.knobs;
+  hovers.restraint.must_hover = true;
+  const auto before = std::exchange(trip.rig.knobs, std::make_shared<const KnobsInForce>(hovers));
+  for (int i = 0; i < 200; ++i) {
+    trip.tick(50);
+    ASSERT_FALSE(trip.navigator.news().gives_up) << "after " << i << " s";
+    ASSERT_TRUE(trip.navigator.state().must_hover);
+  }
+  trip.rig.knobs = before;
+  trip.tick(2000);
+  EXPECT_TRUE(trip.navigator.has_arrived());
+}
+
 // A long search on a slow computer, or one on the way from an edge computer.
 TEST(Navigator, takes_a_path_that_it_has_nearly_given_up) {
   Trip trip;

@@ -48,6 +48,7 @@ struct NavigatorState {
   double speed_m_s{};
   double target_speed_m_s{};
   bool stands_still{true};
+  bool must_hover{};  ///< The governor's fallback asks for that: no reason to give up a goal.
   double known_free_m{};
   Duration latency_bound{};  ///< On the age of a map (`MapLatency::age_bound`), in force.
   TrackingError tracking_error{};

@@ -97,6 +97,9 @@ class PathFollower {
   /// Moves the reference by `dt`. @param error_W  From the reference to the vehicle.
   PathReference tick(MissionTime now, Duration dt, const Vec3& error_W);
 
+  /// The vehicle stands here, after something else than the path was flown: the reference goes on
+  /// from rest, at the nearest place of the last 20 m. @pre There is a path.
+  void pick_up_at(const Vec3& p_W);
   [[nodiscard]] bool has_path() const { return !path_->empty(); }
   [[nodiscard]] const Path& path() const { return *path_; }
   /// The same path, for readers that keep it; it never changes.
