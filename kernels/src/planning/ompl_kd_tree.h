@@ -29,9 +29,9 @@ class KdTree final : public ompl::NearestNeighbors<T> {
   }
   using ompl::NearestNeighbors<T>::add;
   void add(const T& motion) override {
-    const Node node{motion, position(motion), {none, none}, false};
+    const Node node{motion, position(motion), {none, none}, none, nodes_.size(), false};
     if (!nodes_.empty()) {
-      leaf_for(node.p) = nodes_.size();
+      link_to(node.p) = nodes_.size();
     }
     nodes_.push_back(node);
   }
@@ -72,6 +72,8 @@ class KdTree final : public ompl::NearestNeighbors<T> {
     T motion;
     Eigen::Vector3d p;
     std::size_t child[2]{none, none};
+    std::size_t next_here{none};  ///< The next younger one at the same place.
+    std::size_t last_here{none};  ///< The youngest, where this is the oldest.
     bool removed{};
   };
   /// Candidates as a heap of (squared distance, age): the worst one on top.
@@ -100,10 +102,15 @@ class KdTree final : public ompl::NearestNeighbors<T> {
     return p[depth % 3] < node.p[depth % 3] ? 0 : 1;
   }
 
-  /// The empty place where a point belongs. @pre There is a root.
-  std::size_t& leaf_for(const Eigen::Vector3d& p) {
+  /// Where the tree has to name the next node, which lies at this point. Samplers draw a few places
+  /// again and again, and as children of each other those would be a list that each query walks.
+  /// @pre There is a root.
+  std::size_t& link_to(const Eigen::Vector3d& p) {
     std::size_t at = 0;
     for (int depth = 0;; ++depth) {
+      if (nodes_[at].p == p) {
+        return nodes_[std::exchange(nodes_[at].last_here, nodes_.size())].next_here;
+      }
       std::size_t& next = nodes_[at].child[side(nodes_[at], p, depth)];
       if (next == none) {
         return next;
@@ -114,30 +121,53 @@ class KdTree final : public ompl::NearestNeighbors<T> {
   void collect(Query query, std::vector<T>& found) const {
     found.clear();
     if (query.k > 0 && !nodes_.empty()) {
-      visit(0, 0, query);
+      visit(query);
     }
     std::sort_heap(query.best.begin(), query.best.end());
     for (const auto& candidate : query.best) {
       found.push_back(nodes_[candidate.second].motion);
     }
   }
-  void visit(std::size_t index, int depth, Query& query) const {
-    const Node& node = nodes_[index];
-    if (!node.removed) {
-      offer({(node.p - query.p).squaredNorm(), index}, query);
-    }
-    const int near = side(node, query.p, depth);
-    if (node.child[near] != none) {
-      visit(node.child[near], depth + 1, query);
-    }
-    const double apart = query.p[depth % 3] - node.p[depth % 3];
-    if (node.child[1 - near] != none && apart * apart <= query.limit) {
-      visit(node.child[1 - near], depth + 1, query);
+  /// Part of the tree that is still to be looked at.
+  struct Branch {
+    std::size_t root;
+    int depth;
+    double distance2;  ///< At least, of what is in it.
+  };
+  void visit(Query& query) const {
+    std::vector<Branch> open{{0, 0, 0.0}};
+    while (!open.empty()) {
+      const auto [index, depth, distance2] = open.back();
+      open.pop_back();
+      if (distance2 > query.limit) {
+        continue;
+      }
+      offer_all_at(index, query);
+      const Node& node = nodes_[index];
+      const int near = side(node, query.p, depth);
+      const double apart = query.p[depth % 3] - node.p[depth % 3];
+      if (node.child[1 - near] != none) {
+        open.push_back({node.child[1 - near], depth + 1, apart * apart});
+      }
+      if (node.child[near] != none) {
+        open.push_back({node.child[near], depth + 1, 0.0});
+      }
     }
   }
-  static void offer(const std::pair<double, std::size_t>& candidate, Query& query) {
-    if (candidate.first > query.limit) {
-      return;
+  /// The oldest first, up to the one that is no better than what was found: nor is any younger one.
+  void offer_all_at(std::size_t index, Query& query) const {
+    const double distance2 = (nodes_[index].p - query.p).squaredNorm();
+    for (; index != none; index = nodes_[index].next_here) {
+      if (!nodes_[index].removed && !offer({distance2, index}, query)) {
+        return;
+      }
+    }
+  }
+  /// @return  Whether it is among the best.
+  static bool offer(const std::pair<double, std::size_t>& candidate, Query& query) {
+    const bool is_full = query.best.size() == query.k;
+    if (candidate.first > query.limit || (is_full && candidate > query.best.front())) {
+      return false;
     }
     query.best.push_back(candidate);
     std::push_heap(query.best.begin(), query.best.end());
@@ -148,6 +178,7 @@ class KdTree final : public ompl::NearestNeighbors<T> {
     if (query.best.size() == query.k) {
       query.limit = std::min(query.limit, query.best.front().first);
     }
+    return true;
   }
 
   std::vector<Node> nodes_;
