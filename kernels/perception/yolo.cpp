@@ -102,8 +102,8 @@ class Yolo final : public flyball::Detector {
 
   void add(const float* row, cv::Size image, std::vector<Detection>& found) const {
     const double score = static_cast<double>(row[person_column]);
-    if (score < threshold_) {
-      return;
+    if (!(score >= threshold_)) {
+      return;  // NaN, too.
     }
     const double width = static_cast<double>(row[2]) * image.width;
     const double height = static_cast<double>(row[3]) * image.height;

@@ -2,6 +2,7 @@
 #include "visual/detection_boxes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 
@@ -24,6 +25,12 @@ Status check_detector_input(const ColourImage& image, double scale) {
 }
 
 std::vector<Detection> keep_best(std::vector<Detection> found, double most_overlap) {
+  // What a network with damaged weights says is no number, and has no place in an order.
+  const auto is_no_number = [](const Detection& one) {
+    return !std::isfinite(one.score + one.box.x_px + one.box.y_px + one.box.width_px +
+                          one.box.height_px);
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), is_no_number), found.end());
   std::sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
     return std::tuple{-a.score, a.box.y_px, a.box.x_px, a.box.width_px} <
            std::tuple{-b.score, b.box.y_px, b.box.x_px, b.box.width_px};

@@ -123,6 +123,9 @@ Matrix6 covariance_of(const std::vector<LandmarkSighting>& sightings,
 /// RANSACUpdateNumIters): it does not report the number itself.
 double samples_drawn(std::size_t points, std::size_t inliers) {
   const double share = static_cast<double>(inliers) / static_cast<double>(points);
+  if (inliers == 0) {
+    return static_cast<double>(max_samples);  // All of them, and none was a pose.
+  }
   const double all_good = std::pow(share, 4.0);
   if (all_good >= 1.0 - 1e-12) {
     return 1.0;

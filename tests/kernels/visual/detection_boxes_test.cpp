@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visual/detection_boxes.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,17 @@ TEST(DetectionBoxes, keep_the_surest_of_those_that_overlap_and_all_that_stand_ap
   ASSERT_EQ(kept.size(), 2U);
   EXPECT_EQ(kept[0].score, 0.9);
   EXPECT_EQ(kept[1].box.x_px, 50.0);
+}
+
+TEST(DetectionBoxes, leave_out_what_is_no_number) {
+  const double nan = std::nan("");
+  const auto kept = keep_best({{{0, 0, 10, 20}, nan},
+                               {{1, 0, 10, 20}, 0.9},
+                               {{1, nan, 10, 20}, 0.95},
+                               {{0, 0, 10, HUGE_VAL}, 1.0}},
+                              0.4);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].score, 0.9);
 }
 
 TEST(DetectionBoxes, of_the_same_score_come_from_the_upper_left) {

@@ -62,6 +62,20 @@ TEST(PoseSolver, leaves_out_what_was_taken_for_something_else) {
   EXPECT_GT(work.count("ransac_iterations"), 10.0);
 }
 
+// OpenCV then draws all the samples that it may.
+TEST(PoseSolver, that_found_no_pose_counts_all_samples) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    auto seen = sightings(15, 0.0, 3);
+    RandomStream random{seed, "pixels"};
+    for (LandmarkSighting& one : seen) {
+      one.pixel = {random.uniform(0.0, 320.0), random.uniform(0.0, 240.0)};
+    }
+    Work work;
+    EXPECT_FALSE(solve_pose(seen, camera, 15, work));
+    EXPECT_GE(work.count("ransac_iterations"), 100.0) << seed;
+  }
+}
+
 TEST(PoseSolver, gives_no_pose_when_nothing_agrees) {
   auto seen = sightings(60, 0.0, 3);
   RandomStream random{9, "pixels"};
