@@ -228,6 +228,23 @@ TEST(PlatformFile, may_be_like_one_that_is_shipped) {
   EXPECT_EQ(files_of_platform(path, shipped.path()), (std::vector<std::string>{path, base}));
 }
 
+TEST(PlatformFile, may_have_the_name_of_the_shipped_one_that_it_is_like) {
+  const ScratchFolder shipped;
+  const ScratchFolder own;
+  (void)shipped.file("board.toml", whole);
+  const std::string path = own.file("board.toml", "like = \"board\"\nmax_cores = 1\n");
+  const auto loaded = load_platform(path, shipped.path());
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded->max_cores, 1);
+}
+
+TEST(PlatformFile, names_another_one_in_quotes) {
+  EXPECT_NE(failure_of("like = 5\n").find("like must be the name of another one"),
+            std::string::npos);
+  EXPECT_NE(failure_of("like = [\"board\"]\n").find("like must be the name of another one"),
+            std::string::npos);
+}
+
 TEST(PlatformFile, cannot_be_like_one_that_is_like_another) {
   const ScratchFolder scratch;
   (void)scratch.file("board.toml", whole);

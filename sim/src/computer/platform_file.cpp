@@ -207,7 +207,7 @@ struct Place {
   std::string shipped;
 };
 
-/// The file that this one is like; empty when it stands alone.
+/// The file that this one is like; empty when it stands alone, or `like` is no text.
 std::string base_path(const toml::table& file, const Place& place) {
   const auto base = file["like"].value<std::string>();
   if (!base) {
@@ -216,9 +216,11 @@ std::string base_path(const toml::table& file, const Place& place) {
   const auto beside = std::filesystem::path{place.path}.parent_path() / (*base + ".toml");
   const auto shipped = std::filesystem::path{place.shipped} / (*base + ".toml");
   std::error_code failed;
-  const bool is_shipped = !place.shipped.empty() &&
-                          !std::filesystem::is_regular_file(beside, failed) &&
-                          std::filesystem::is_regular_file(shipped, failed);
+  // A file of one's own may have the name of the shipped one that it is like.
+  const bool is_beside = std::filesystem::is_regular_file(beside, failed) &&
+                         !std::filesystem::equivalent(beside, place.path, failed);
+  const bool is_shipped =
+      !place.shipped.empty() && !is_beside && std::filesystem::is_regular_file(shipped, failed);
   return (is_shipped ? shipped : beside).string();
 }
 
@@ -273,6 +275,11 @@ Result<PlatformModel> load_platform(const std::string& path, const std::string& 
   }
   try {
     toml::table own = parsed(path);
+    if (own.contains("like") && !own["like"].is_string()) {
+      return Error{
+          ErrorCode::invalid_input,
+          "platform file \"" + path + "\": like must be the name of another one, in quotes"};
+    }
     const std::string base = base_path(own, {path, shipped});
     if (const std::string fault = fault_of_base(base); !fault.empty()) {
       return Error{ErrorCode::invalid_input,
