@@ -111,7 +111,7 @@ ObservationField phase_field() {
   return {"phase",
           [](const Observation& seen) { return static_cast<double>(seen.phase); },
           [](Observation& seen, double value) {
-            seen.phase = static_cast<MissionPhase>(std::min(whole<int>(value), 3));
+            seen.phase = static_cast<MissionPhase>(std::clamp(whole<int>(value), 0, 3));
           },
           false,
           "1",

@@ -156,8 +156,8 @@ END
 udevadm control --reload
 udevadm trigger --action=change --subsystem-match=cpu --subsystem-match=powercap
 
-# Lock and journal of the board's settings.
-echo 'd /run/flyball 2775 root flyball -' > /etc/tmpfiles.d/flyball.conf
+# Lock and journal of the board's settings, also those that root has made before.
+printf 'd /run/flyball 2775 root flyball -\nz /run/flyball/board.* 0660 - flyball -\n' > /etc/tmpfiles.d/flyball.conf
 systemd-tmpfiles --create /etc/tmpfiles.d/flyball.conf
 
 # Real-time priorities and locked memory for the group; for everybody, cycles of their own programs.

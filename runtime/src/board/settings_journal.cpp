@@ -5,6 +5,7 @@
 #include "flyball/runtime/file_handle.h"
 
 #include "board/sysfs_text.h"
+#include "board/watchdog.h"
 #include <array>
 #include <cerrno>
 #include <utility>
@@ -70,6 +71,35 @@ void note_owner(int lock) {
   }
 }
 
+/// The settings in whole records.
+/// @param end  Where the last whole record ends.
+std::vector<KeptSetting> settings_of(const std::string& text, std::size_t& end) {
+  std::vector<KeptSetting> kept;
+  end = 0;
+  for (std::size_t at = 0; at < text.size(); end = at) {
+    const auto path = next_part(text, at);
+    const auto content = path ? next_part(text, at) : std::nullopt;
+    if (!content) {
+      break;
+    }
+    if (is_board_setting(*path)) {
+      kept.push_back({*path, *content});
+    }
+  }
+  return kept;
+}
+
+/// What is written behind a part of a record could not be read. That record's setting was not
+/// written yet.
+void remove_cut_record(int journal) {
+  const std::string text = content_of(journal);
+  std::size_t end = 0;
+  (void)settings_of(text, end);
+  if (end < text.size()) {
+    [[maybe_unused]] const int result = ftruncate(journal, static_cast<off_t>(end));
+  }
+}
+
 }  // namespace
 
 bool is_board_setting(const std::string& path) {
@@ -81,9 +111,9 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
     return no_folder("the folder " + folder + " for the board's lock and journal cannot be made",
                      errno);
   }
-  constexpr int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
   const std::string lock_path = folder + "/board.lock";
-  const int lock = ::open(lock_path.c_str(), flags, 0660);
+  constexpr int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
+  const int lock = above_standard(::open(lock_path.c_str(), flags, 0660));
   if (lock < 0) {
     return no_folder("the lock " + lock_path + " cannot be opened", errno);
   }
@@ -96,7 +126,7 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
                                              "first"};
   }
   const std::string path = folder + "/board.journal";
-  const int journal = ::open(path.c_str(), flags | O_APPEND, 0660);
+  const int journal = above_standard(::open(path.c_str(), flags | O_APPEND, 0660));
   if (journal < 0) {
     const Error error = no_folder("the journal " + path + " cannot be opened", errno);
     close(lock);
@@ -105,6 +135,7 @@ Result<SettingsJournal> SettingsJournal::lock(const std::string& folder) {
   share_with_group(lock);
   share_with_group(journal);
   note_owner(lock);
+  remove_cut_record(journal);
   return SettingsJournal{lock, journal, path};
 }
 
@@ -125,20 +156,8 @@ SettingsJournal::~SettingsJournal() {
 }
 
 std::vector<KeptSetting> SettingsJournal::read() const {
-  const std::string text = content_of(journal_);
-  std::vector<KeptSetting> kept;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const auto path = next_part(text, at);
-    const auto content = path ? next_part(text, at) : std::nullopt;
-    if (!content) {
-      break;
-    }
-    if (is_board_setting(*path)) {
-      kept.push_back({*path, *content});
-    }
-  }
-  return kept;
+  std::size_t end = 0;
+  return settings_of(content_of(journal_), end);
 }
 
 Status SettingsJournal::append(const KeptSetting& kept) {

@@ -98,10 +98,24 @@ void watch(int socket, pid_t watched, std::vector<int> kept) {
 
 }  // namespace
 
+int above_standard(int file) {
+  if (file < 0 || file > STDERR_FILENO) {
+    return file;
+  }
+  const int moved = fcntl(file, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int number = errno;
+  close(file);
+  errno = number;
+  return moved;
+}
+
 Result<Watchdog> Watchdog::start(std::vector<int> kept, const std::function<void()>& work) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return system_error("no socket for the process that restores a board's settings", errno);
+  }
+  for (int& end : ends) {
+    end = above_standard(end);
   }
   const pid_t self = getpid();
   const pid_t process = fork();

@@ -14,6 +14,11 @@
 
 namespace flyball {
 
+/// The same file with a number above those of the standard files, which the other process opens
+/// anew: a program that has closed its own gives their numbers to what it opens next.
+/// @param file  Closed where it is moved; -1 stays -1, with `errno`.
+[[nodiscard]] int above_standard(int file);
+
 /// The other process stands in a session of its own and ignores SIGINT, SIGTERM and SIGHUP, so that
 /// neither a terminal nor a service manager's first signal takes it along. It holds no files but
 /// those that it is told to keep.

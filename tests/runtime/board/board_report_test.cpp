@@ -76,8 +76,9 @@ TEST(BoardSetupScript, is_a_script_that_a_shell_can_read) {
   const std::string script = folder.file("setup.sh", board_setup_script());
   // NOLINTNEXTLINE(cert-env33-c): the test's own words
   EXPECT_EQ(std::system(("sh -n '" + script + "'").c_str()), 0);
-  for (const char* part : {"udev/rules.d/99-flyball.rules", "scaling_setspeed", "energy_uj",
-                           "/run/flyball", "rtprio", "perf_event_paranoid"}) {
+  for (const char* part :
+       {"udev/rules.d/99-flyball.rules", "scaling_setspeed", "energy_uj", "d /run/flyball",
+        "z /run/flyball/board.*", "rtprio", "perf_event_paranoid"}) {
     EXPECT_NE(board_setup_script().find(part), std::string::npos) << part;
   }
 }

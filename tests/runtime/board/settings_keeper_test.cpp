@@ -158,6 +158,31 @@ TEST_F(SettingsKeeperTest, refuses_what_an_earlier_session_left_unless_it_adopts
   EXPECT_TRUE(SettingsKeeper::open(kernel_, options()).ok());
 }
 
+TEST_F(SettingsKeeperTest, adopts_a_journal_that_ends_with_a_part_of_a_record) {
+  leave_unrestored(kernel_, options());
+  tree_.put("/run/board.journal", journal() + "52\n/sys/devices/system/cpu");
+  fake::run_apart(options().run_folder, [&] {
+    auto adopted = SettingsKeeper::open(kernel_, options(true));
+    (void)(*adopted)->write(policy0 + "scaling_max_freq", "1600000");
+    kill(getpid(), SIGKILL);
+  });
+  EXPECT_EQ(tree_.get(policy0 + "scaling_governor"), "ondemand\n");
+  EXPECT_EQ(tree_.get(policy0 + "scaling_max_freq"), "2400000\n");
+}
+
+TEST_F(SettingsKeeperTest, restores_after_a_program_that_has_closed_its_standard_files) {
+  const int status = fake::run_apart(options().run_folder, [&] {
+    close(STDIN_FILENO);
+    close(STDOUT_FILENO);
+    auto keeper = SettingsKeeper::open(kernel_, options());
+    (void)(*keeper)->write(policy0 + "scaling_max_freq", "1600000");
+    kill(getpid(), SIGKILL);
+  });
+  EXPECT_TRUE(fake::was_killed(status));
+  EXPECT_EQ(tree_.get(policy0 + "scaling_max_freq"), "2400000\n");
+  EXPECT_EQ(journal(), "");
+}
+
 TEST_F(SettingsKeeperTest, goes_on_after_a_file_that_refuses_and_names_it) {
   auto keeper = SettingsKeeper::open(kernel_, options());
   change_everything(**keeper);
