@@ -48,7 +48,8 @@ Result<std::unique_ptr<Localizer>> make_seeing_localizer(const std::string& name
     return localizer;
   }
   const auto seeing = [&plugins](const std::string& other) {
-    return plugins.make<Localizer>(other)->inputs().images ? other : "";
+    const auto made = plugins.make<Localizer>(other);
+    return made && made->inputs().images ? other : "";
   };
   return Error{localizer ? ErrorCode::invalid_input : ErrorCode::not_found,
                (localizer ? "localizer \"" + name + "\" looks at no images"

@@ -60,6 +60,11 @@ class GpsLocalizer final : public flyball::Localizer {
   }
   flyball::Status configure(const flyball::Parameters& chosen,
                             const flyball::FindModel& /*find_model*/) override {
+    if (convert_ == nullptr) {
+      return flyball::Error{flyball::ErrorCode::unavailable,
+                            "localizer \"gps\" needs \"" + flyball::module_path("geodesy") +
+                                "\", which cannot be loaded: is libmrpt-topography installed?"};
+    }
     position_gain_ = chosen.number("position_gain");
     return flyball::Done{};
   }
@@ -116,8 +121,6 @@ FLYBALL_PLUGIN(gps) {
   if (!std::filesystem::exists(flyball::module_path("geodesy"))) {
     return;  // Left out, as without MRPT.
   }
-  registry.add<flyball::Localizer>("gps", []() -> std::unique_ptr<flyball::Localizer> {
-    const GeodeticToEnu convert = load_conversion();
-    return convert == nullptr ? nullptr : std::make_unique<GpsLocalizer>(convert);
-  });
+  registry.add<flyball::Localizer>(
+      "gps", [] { return std::make_unique<GpsLocalizer>(load_conversion()); });
 }

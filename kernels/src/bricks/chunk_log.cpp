@@ -92,14 +92,22 @@ void ChunkLog::append(const Chunk& chunk) {
   ++chunks_;
 }
 
+void ChunkLog::forget_occupied(const Vec3& p_W, double radius_m) {
+  doubts_.push_back({p_W, radius_m, chunks_});
+}
+
 Status ChunkLog::add_to(BrickMap& map) {
   file_.flush();
   if (auto written = status(); !written) {
     return written;
   }
   std::ifstream file{path_, std::ios::binary};
-  for (std::size_t i = 0; i < chunks_; ++i) {
-    if (!add_entry(file, map)) {
+  auto doubt = doubts_.begin();
+  for (std::size_t i = 0; i <= chunks_; ++i) {
+    for (; doubt != doubts_.end() && doubt->after == i; ++doubt) {
+      map.forget_occupied(doubt->p_W, doubt->radius_m);
+    }
+    if (i < chunks_ && !add_entry(file, map)) {
       return Error{ErrorCode::failed, "what the map forgot cannot be read from \"" + path_ + "\""};
     }
   }

@@ -11,6 +11,7 @@
 #include "brick_map.h"
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace flyball {
 
@@ -25,9 +26,12 @@ class ChunkLog {
   /// @error `failed` when the file could not be made or written until now.
   [[nodiscard]] Status status() const;
   void append(const Chunk& chunk);
+  /// As BrickMap::forget_occupied, of what was written until now.
+  void forget_occupied(const Vec3& p_W, double radius_m);
   [[nodiscard]] bool is_empty() const { return chunks_ == 0; }
 
-  /// Adds all that was written. Where the map knows a cell already, evidence adds up.
+  /// Adds all that was written, to a map with log-odds. Where the map knows a cell already,
+  /// evidence adds up.
   ///
   /// @error `failed` when the file cannot be read to its end; the map then has a part of it.
   [[nodiscard]] Status add_to(BrickMap& map);
@@ -36,6 +40,12 @@ class ChunkLog {
   std::string path_;
   std::ofstream file_;
   std::size_t chunks_{};
+  struct Doubt {
+    Vec3 p_W;
+    double radius_m;
+    std::size_t after;  ///< So many chunks.
+  };
+  std::vector<Doubt> doubts_{};
 };
 
 /// Adds the known cells of a chunk to a map, as ChunkLog::add_to.

@@ -117,6 +117,9 @@ class LatticeMapper final : public Mapper {
 
   void doubt_obstacles(const Vec3& p_W, double radius_m) override {
     map_.forget_occupied(p_W, radius_m);
+    if (forgotten_) {
+      forgotten_->forget_occupied(p_W, radius_m);
+    }
   }
 
   [[nodiscard]] const OccupancyView& view() const override { return view_; }

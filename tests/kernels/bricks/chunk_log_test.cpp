@@ -74,6 +74,26 @@ TEST(ChunkLog, adds_up_what_was_seen_on_two_visits) {
               0.02 * static_cast<double>(expected.occupied_cells));  // clamps do not add up
 }
 
+TEST(ChunkLog, does_not_bring_back_what_was_doubted) {
+  const ScratchFolder scratch;
+  const auto near = make({{"keep_radius_m", 20.0}});
+  ASSERT_TRUE(near->keep_forgotten(scratch.path("log")).ok());
+  fly_on(*near, 0, 60);
+  fly_on(*near, 60,
+         0);  // All was forgotten and seen again; then the vehicle stands where it began.
+  near->doubt_obstacles({0.0, 0.0, 1.0}, 100.0);
+  ASSERT_TRUE(near->write(scratch.path("map.ot"), std::nullopt).ok());
+  const auto later = make();
+  ASSERT_TRUE(later->read(scratch.path("map.ot")).ok());
+  EXPECT_EQ(later->contents().levels[0].occupied_cells, 0U);
+  EXPECT_GT(later->contents().levels[0].known_cells, 1000U);
+  // What is seen after that counts.
+  fly_on(*near, 0, 60);
+  ASSERT_TRUE(near->write(scratch.path("map.ot"), std::nullopt).ok());
+  ASSERT_TRUE(later->read(scratch.path("map.ot")).ok());
+  EXPECT_GT(later->contents().levels[0].occupied_cells, 1000U);
+}
+
 TEST(ChunkLog, is_gone_with_its_mapper) {
   const ScratchFolder scratch;
   {
