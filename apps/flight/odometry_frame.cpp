@@ -32,6 +32,9 @@ Eigen::AngleAxisd about_vertical(double angle_rad) {
 }  // namespace
 
 void OdometryFrame::note(MissionTime now, const Pose& X_OB) {
+  if (!X_OB.matrix().allFinite()) {
+    return;
+  }
   noted_.push_back({now, X_OB});
   while (noted_.front().at + memory < now) {
     noted_.pop_front();

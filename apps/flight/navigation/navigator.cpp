@@ -59,6 +59,7 @@ void Navigator::hover_at(const Vec3& p_W, double yaw_rad) {
 
 void Navigator::leave_path_at(const Vec3& p_W, double yaw_rad) {
   follower_.hover_at(p_W, yaw_rad);
+  overdue_.reset();  // It belongs to the path that is left.
   blocked_at_m_.reset();
   ++path_number_;
 }

@@ -281,6 +281,7 @@ void Navigator::path_planned(MissionTime now, const PlannedPath& planned) {
     return;
   }
   failures_.path_joined();
+  overdue_.reset();  // A plan that was asked for before this one begins on the path before it.
   stops_for_plan_ = false;
   blocked_at_m_.reset();
   ++path_number_;

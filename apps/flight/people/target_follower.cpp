@@ -211,7 +211,8 @@ Vec3 TargetFollower::search(MissionTime now, double dt_s, Setpoint& setpoint) {
 
 Setpoint TargetFollower::tick(MissionTime now, Duration period, double limit_m_s) {
   const double dt_s = to_seconds(period);
-  const double age_s = seen_ ? to_seconds(now - *seen_) : settings_.coast_s;
+  // Not below 0, where a camera's clock is ahead: what decays with age would grow.
+  const double age_s = seen_ ? std::max(0.0, to_seconds(now - *seen_)) : settings_.coast_s;
   Setpoint setpoint;
   setpoint.stamp = now;
   Vec3 wish_W =

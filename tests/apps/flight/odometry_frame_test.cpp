@@ -93,6 +93,7 @@ TEST(OdometryFrame, leaves_out_what_is_too_old_or_no_number) {
   seen.frame.localized({MissionTime{1s}, pose_at({9.0, 0.0, 0.0})}, true);
   const double no_number = std::numeric_limits<double>::quiet_NaN();
   seen.frame.localized({seen.now, pose_at({no_number, 0.0, 0.0})}, true);
+  seen.watch(pose_at({no_number, 0.0, 0.0}), pose_at(Vec3::Zero()), 1s);
   EXPECT_EQ(seen.carried(Vec3::Zero()).p_WB, Vec3::Zero());
 }
 

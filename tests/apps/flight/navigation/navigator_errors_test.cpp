@@ -133,5 +133,25 @@ TEST(Navigator, takes_a_path_that_it_has_nearly_given_up) {
   EXPECT_TRUE(trip.navigator.has_arrived());
 }
 
+TEST(Navigator, takes_no_path_that_was_asked_for_before_the_one_it_flies) {
+  Trip trip;
+  trip.set_goal(Vec3{40, 0, 1.5});
+  trip.answer(*trip.navigator.next_query(trip.now));
+  trip.tick(100);
+  trip.block(20.0);
+  const auto slow = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(slow);
+  for (int i = 0; i < 1600; ++i) {  // 32 s.
+    trip.tick(1);
+  }
+  const auto again = trip.navigator.next_query(trip.now);
+  ASSERT_TRUE(again);
+  trip.answer(*again);
+  trip.tick(100);
+  const auto number = trip.navigator.state().path_number;
+  trip.answer(*slow);
+  EXPECT_EQ(trip.navigator.state().path_number, number);
+}
+
 }  // namespace
 }  // namespace flyball

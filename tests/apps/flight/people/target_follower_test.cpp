@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/flight/people/target_follower.h"
 
+#include "flyball/flight/people/tracked_time.h"
 #include "flyball/sim/colour_camera.h"
 #include "flyball/sim/person.h"
 
@@ -25,6 +26,16 @@ TEST(Pid, does_not_wind_up_at_its_limit) {
     EXPECT_DOUBLE_EQ(pid.update(10.0, 0.1), 2.0);
   }
   EXPECT_LT(pid.update(-1.0, 0.1), 0.0);
+}
+
+TEST(TrackedTime, takes_nothing_back_where_a_clock_begins_anew) {
+  TrackedTime tracked;
+  tracked.on_target(MissionTime{100s});
+  tracked.on_target(MissionTime{100500ms});
+  tracked.on_target(MissionTime{5s});
+  EXPECT_EQ(tracked.seconds(), 0.5);
+  tracked.on_target(MissionTime{5250ms});
+  EXPECT_EQ(tracked.seconds(), 0.75);
 }
 
 /// A person seen from a vehicle at 4.5 m that hovers at the origin, by the follower's own camera.

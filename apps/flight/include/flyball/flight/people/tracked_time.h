@@ -14,8 +14,10 @@ namespace flyball {
 class TrackedTime {
  public:
   void on_target(MissionTime captured) {
-    if (last_ && to_seconds(captured - *last_) <= longest_gap_s) {
-      seconds_ += to_seconds(captured - *last_);
+    // A camera whose clock begins anew takes no time back.
+    const double since_s = last_ ? to_seconds(captured - *last_) : 0.0;
+    if (since_s > 0.0 && since_s <= longest_gap_s) {
+      seconds_ += since_s;
     }
     last_ = captured;
   }
