@@ -14,6 +14,7 @@
 #include "flyball/runtime/registry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -52,7 +53,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
       std::copy_if(usual_m.begin(), usual_m.end(), std::back_inserter(cells_m),
                    [&](double one_m) { return cells.is_legal(one_m); });
     }
-    range_m_ = knobs.value("map.range_m");
+    map_ = {knobs.value(cells.name), knobs.value("map.range_m"), 0.0};
     flyball::ClockSearchSettings settings;
     settings.reaction_s = flyball::to_seconds(board.vehicle.reaction_time);
     settings.rest_s = given.number("rest_s");
@@ -84,16 +85,21 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
 
  private:
   [[nodiscard]] double clock_hz(const Observation& seen) noexcept {
-    const double range_m = flyball::is_a_range(seen.map_range_m) ? seen.map_range_m : range_m_;
-    const flyball::MapSetting map{search_->latency().nearest_cells_m(seen.map_resolution_m),
-                                  range_m, 0.0};
-    if (const auto within_s = search_->idle_map_s(seen)) {
-      return search_->rest(map, *within_s, seen.now).clock_hz;
+    // The application's own cells, which need not be those of a level: a map counts for the latency
+    // of the cells that are in force only.
+    if (std::isfinite(seen.map_resolution_m) && seen.map_resolution_m > 0.0) {
+      map_.resolution_m = seen.map_resolution_m;
     }
-    return search_->choose(map, seen, seen.planner_failures > 0).clock_hz;
+    if (flyball::is_a_range(seen.map_range_m)) {
+      map_.range_m = seen.map_range_m;
+    }
+    if (const auto within_s = search_->idle_map_s(seen)) {
+      return search_->rest(map_, *within_s, seen.now).clock_hz;
+    }
+    return search_->choose(map_, seen, seen.planner_failures > 0).clock_hz;
   }
 
-  double range_m_{};  ///< The scenario's, until a map tells its own.
+  flyball::MapSetting map_{};  ///< The scenario's, until a map tells its own.
   std::optional<flyball::ClockSearch> search_{};
 };
 

@@ -122,6 +122,30 @@ TEST(EnergyClock, without_a_map_it_is_the_lowest) {
   EXPECT_EQ(clock_hz(policy->decide(seen)), lowest_hz);
 }
 
+/// Knobs of a mapper that takes any cells, as stock OctoMap does.
+KnobSettings knobs_with_any_cells() {
+  std::vector<KnobSpec> specs = conformance_knobs().specs();
+  specs.front().legal.clear();
+  return KnobSettings{specs};
+}
+
+TEST(EnergyClock, learns_from_maps_of_cells_that_are_none_of_its_levels) {
+  for (const double cells_m : {0.25, 0.30, 0.40}) {
+    const StartedPolicy started = start_policy("energy_clock", {}, knobs_with_any_cells());
+    ASSERT_TRUE(started.status);
+    for (int map = 1; map <= 100; ++map) {
+      Observation seen = cruising(0.25 * map, cells_m, 350.0);
+      seen.map_revision = static_cast<std::uint64_t>(map);
+      seen.map_range_m = 7.0;
+      seen.latency = from_seconds(0.2);
+      static_cast<void>(started.policy->decide(seen));
+    }
+    const auto* bounds = dynamic_cast<const BoundsLatency*>(started.policy.get());
+    ASSERT_NE(bounds, nullptr);
+    EXPECT_GT(bounds->bounds().issued, 90U) << cells_m << " m";
+  }
+}
+
 TEST(EnergyClock, is_refused_without_a_map_to_reckon_with) {
   const StartedPolicy started = start_policy("energy_clock", {}, KnobSettings{});
   ASSERT_FALSE(started.status);

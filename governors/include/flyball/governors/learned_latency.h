@@ -61,8 +61,6 @@ class LearnedLatency {
   [[nodiscard]] double predicted_s(const MapSetting& setting) const;
   /// The bound of that.
   [[nodiscard]] double bounded_s(const MapSetting& setting) const;
-  /// The level nearest to these cells, which somebody else may have set.
-  [[nodiscard]] double nearest_cells_m(double any_m) const { return cells_m_[level(any_m)]; }
 
   [[nodiscard]] double top_clock_hz() const { return top_clock_.value(); }
   [[nodiscard]] const MapSetting& in_force() const { return in_force_; }
