@@ -162,7 +162,7 @@ void FlyballGovernor::observe_loop() {
     const flyball::StageTimes::Load load = stages_.take_load(*now_);
     signals_.derive("busy_cores", load.busy_cores);
     signals_.derive("busiest_core_load", load.busiest_core);
-    signals_.derive("deadline_misses", stages_.take_misses());
+    signals_.derive("deadline_misses", stages_.take_misses(*now_));
     observe_stages();
   }
 }
@@ -260,7 +260,9 @@ double FlyballGovernor::safe_speed_m_s(const Observation& seen) const {
   }
   flyball::GuardSettings settings = guard_;
   settings.max_deceleration_m_s2 = seen.max_deceleration_m_s2;
-  return flyball::Guard{settings}.cruise_speed(latency_bound(), seen.known_free_m);
+  // A frame under way that is older than the bound will come no earlier than now.
+  const Duration latency = std::max(latency_bound(), stages_.age_under_way(*now_));
+  return flyball::Guard{settings}.cruise_speed(latency, seen.known_free_m);
 }
 
 void FlyballGovernor::record(const Observation& seen) {

@@ -15,7 +15,11 @@ void StageTimes::add(StageSpec spec) {
 
 void StageTimes::begin(std::size_t stage, MissionTime now) {
   Stage& one = stages_[stage];
+  if (one.begun) {  // Given up, which takes back neither the time that it took nor its deadline.
+    stop(one, now);
+  }
   one.begun = now;
+  one.is_late = false;
   one.frame = is_first(stage) ? Frame{now, true} : one.input;
   one.input.is_new = false;
   if (!load_since_) {
@@ -23,17 +27,27 @@ void StageTimes::begin(std::size_t stage, MissionTime now) {
   }
 }
 
+void StageTimes::stop(Stage& one, MissionTime now) {
+  one.busy += now - std::max(*one.begun, *load_since_);
+  note_deadline(one, now);
+  one.begun.reset();
+}
+
+void StageTimes::note_deadline(Stage& one, MissionTime now) {
+  const Duration deadline = one.spec.deadline;
+  if (one.begun && !one.is_late && deadline > Duration::zero() && now - *one.begun > deadline) {
+    one.is_late = true;
+    ++misses_;
+  }
+}
+
 std::optional<Duration> StageTimes::end(std::size_t stage, MissionTime now, const double* counts) {
   Stage& one = stages_[stage];
   one.last = now - *one.begun;
-  one.busy += now - std::max(*one.begun, *load_since_);
   one.ended += *one.last;
-  one.begun.reset();
+  stop(one, now);
   if (counts != nullptr) {
     std::copy_n(counts, one.counts.size(), one.counts.begin());
-  }
-  if (one.spec.deadline > Duration::zero() && *one.last > one.spec.deadline) {
-    ++misses_;
   }
   if (one.spec.is_beside || !one.frame.is_new) {
     return std::nullopt;
@@ -54,7 +68,20 @@ double StageTimes::count(std::size_t stage, std::size_t work) const {
   return stages_[stage].counts[work];
 }
 
-std::uint32_t StageTimes::take_misses() {
+Duration StageTimes::age_under_way(MissionTime now) const {
+  Duration oldest{};
+  for (const Stage& one : stages_) {
+    if (one.begun && !one.spec.is_beside && one.frame.is_new) {
+      oldest = std::max(oldest, now - one.frame.captured);
+    }
+  }
+  return oldest;
+}
+
+std::uint32_t StageTimes::take_misses(MissionTime now) {
+  for (Stage& one : stages_) {
+    note_deadline(one, now);
+  }
   return std::exchange(misses_, 0);
 }
 

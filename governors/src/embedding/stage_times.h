@@ -41,7 +41,7 @@ class StageTimes {
   void add(StageSpec spec);
   [[nodiscard]] std::size_t size() const { return stages_.size(); }
   [[nodiscard]] const StageSpec& spec(std::size_t stage) const { return stages_[stage].spec; }
-  /// One that has begun and not ended is given up.
+  /// One that has begun and not ended is given up: its frame is lost, its time was spent.
   void begin(std::size_t stage, MissionTime now);
   [[nodiscard]] bool has_begun(std::size_t stage) const { return stages_[stage].begun.has_value(); }
   /// @return  Latency, where a frame leaves the last stage with this.
@@ -53,8 +53,12 @@ class StageTimes {
   /// Of the newest frame that has left; empty before the first one.
   [[nodiscard]] std::optional<MissionTime> captured() const { return captured_; }
 
-  /// Missed since the last call.
-  [[nodiscard]] std::uint32_t take_misses();
+  /// How long ago the oldest frame was captured that a stage works on now; zero: there is none.
+  [[nodiscard]] Duration age_under_way(MissionTime now) const;
+
+  /// Deadlines that passed since the last call: of jobs that have ended, were given up or go on,
+  /// each counted once.
+  [[nodiscard]] std::uint32_t take_misses(MissionTime now);
   /// Since the last call, or since the first stage began.
   [[nodiscard]] Load take_load(MissionTime now);
   /// Cores that the jobs kept busy which ended between the last two calls of `take_load`, each
@@ -69,6 +73,7 @@ class StageTimes {
   struct Stage {
     StageSpec spec;
     std::optional<MissionTime> begun{};
+    bool is_late{};  ///< The miss of its deadline is counted.
     std::optional<Duration> last{};
     Frame input{};     ///< What the stage before it finished last.
     Frame frame{};     ///< What it works on.
@@ -77,6 +82,8 @@ class StageTimes {
     double load{};
     std::vector<double> counts{};
   };
+  void stop(Stage& one, MissionTime now);
+  void note_deadline(Stage& one, MissionTime now);
   [[nodiscard]] bool is_first(std::size_t stage) const;
   [[nodiscard]] Stage* after(std::size_t stage);
 

@@ -209,6 +209,52 @@ TEST_F(GovernorStages, miss_their_deadlines) {
   EXPECT_STREQ("hover", loop_.decide(1.6).fallback);
 }
 
+TEST_F(GovernorStages, that_hang_miss_their_deadline_once_and_take_the_speed_away) {
+  FlyballGovernorStage acting = GovernedLoop::stage("acting");
+  acting.deadline_s = 0.2;
+  loop_.add(acting);
+  open();
+  loop_.observe("known_free_m", 20.0);
+  loop_.observe("max_deceleration_m_s2", 5.0);
+  run(mapping, 0.0, 0.1);
+  run(planning, 0.1, 0.2);
+  run(2, 0.2, 0.3);
+  const double usual_m_s = loop_.decide(0.3).safe_speed_m_s;
+  run(mapping, 1.0, 1.1);
+  run(planning, 1.1, 1.2);
+  flyball_governor_begin(loop_.governor, 2, 1.2);
+  EXPECT_EQ(usual_m_s, loop_.decide(1.3).safe_speed_m_s) << "no older than bounded";
+  double misses = 0.0;
+  double speed_m_s = usual_m_s;
+  for (int i = 1; i <= 60; ++i) {
+    const double slower_m_s = loop_.decide(1.3 + i).safe_speed_m_s;
+    EXPECT_LT(slower_m_s, speed_m_s) << i << " s";
+    speed_m_s = slower_m_s;
+    misses += loop_.lines.back().find(" deadline_misses=1 ") != std::string::npos ? 1.0 : 0.0;
+  }
+  const double age_s = 60.3 + 0.14;  // Captured at 1 s; the guard's own reaction.
+  EXPECT_NEAR(20.0, speed_m_s * age_s + speed_m_s * speed_m_s / (2.0 * 5.0), 1e-6);
+  EXPECT_EQ(1.0, misses);
+  flyball_governor_end(loop_.governor, 2, 62.0, nullptr, 0);
+  loop_.decide(62.0);
+  EXPECT_EQ(std::string::npos, loop_.lines.back().find("deadline_misses")) << "it was counted";
+}
+
+TEST_F(GovernorStages, that_are_given_up_have_kept_a_core_busy_and_missed_their_deadline) {
+  FlyballGovernorStage acting = GovernedLoop::stage("acting");
+  acting.deadline_s = 0.2;
+  loop_.add(acting);
+  open();
+  for (int i = 0; i < 4; ++i) {
+    flyball_governor_begin(loop_.governor, 2, 0.25 * i);
+  }
+  loop_.decide(0.75);
+  EXPECT_NEAR(1.0, loop_.signal("busiest_core_load"), 1e-9);
+  EXPECT_NEAR(1.0, loop_.signal("busy_cores"), 1e-9);
+  EXPECT_NE(std::string::npos, loop_.lines.back().find(" deadline_misses=3 "))
+      << loop_.lines.back();
+}
+
 TEST_F(GovernorStages, count_their_work) {
   FlyballGovernorStage one = GovernedLoop::stage("tracking");
   const char* const work[] = {"features", "matches"};

@@ -114,8 +114,8 @@ typedef struct FlyballGovernorStage {
   uint32_t work_count;
   const char* name;
   const char* const* work; /* What it counts: "cells", "rays". */
-  double deadline_s;       /* Longer than this is a missed deadline; 0: it has none. */
-  uint32_t thread;         /* Stages with the same number keep the same core busy. */
+  double deadline_s;  /* Longer than this is a missed deadline, ended or not; 0: it has none. */
+  uint32_t thread;    /* Stages with the same number keep the same core busy. */
   uint32_t is_beside; /* Not 0: frames do not pass it. It costs time and is not part of latency. */
 } FlyballGovernorStage;
 
@@ -176,8 +176,8 @@ typedef struct FlyballGovernorDecision {
    * the last 20 took longer than this bound was before them (the fallback wide_bound). */
   double latency_bound_s;
   /** From which the vehicle stops within the signal known_free_m, braking with
-   * max_deceleration_m_s2, if the next frame takes as long as bounded: the guard's rule. 0 while
-   * one of the three is not known. */
+   * max_deceleration_m_s2, if the next frame takes as long as bounded, or as long as the one that
+   * is under way has taken already: the guard's rule. 0 while one of the three is not known. */
   double safe_speed_m_s;
   double next_s; /* The policy wants to be asked again after so long; 0: it does not say. */
   double decided[flyball_governor_capacity];
@@ -216,7 +216,8 @@ int32_t flyball_governor_add_stage(FlyballGovernor* governor, const FlyballGover
 /** Starts the policy. May be called again after it has failed, not after it has succeeded. */
 int32_t flyball_governor_open(FlyballGovernor* governor, const FlyballGovernorSettings* settings);
 
-/** A stage begins. One that had begun and not ended is given up: its frame is lost. */
+/** A stage begins. One that had begun and not ended is given up: its frame is lost, and until now
+ * it kept its core busy. */
 int32_t flyball_governor_begin(FlyballGovernor* governor, uint32_t stage, double now_s);
 
 /** It ends, having counted so much of each of its `work`, in that order; or nothing: NULL, 0. */
