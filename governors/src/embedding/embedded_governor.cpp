@@ -147,8 +147,11 @@ std::int32_t FlyballGovernor::granted(const char* knob, double value) {
 }
 
 Duration FlyballGovernor::latency_bound() const {
-  const double bound_s = flyball::to_seconds(latencies_.bound()) * governor_->bound_factor();
-  return flyball::from_seconds(bound_s);
+  const Duration callers = signals_.seen(*now_).latency_bound;  // May be negative.
+  const Duration bound = signals_.is_callers("latency_bound_s")
+                             ? std::max(callers, Duration::zero())
+                             : latencies_.bound();
+  return flyball::from_seconds(flyball::to_seconds(bound) * governor_->bound_factor());
 }
 
 void FlyballGovernor::observe_loop() {

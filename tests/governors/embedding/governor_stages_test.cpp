@@ -101,6 +101,32 @@ TEST_F(GovernorStages, limit_speed_with_the_callers_own_reaction_time) {
   EXPECT_NEAR(8.0, speed_m_s * 0.8 + speed_m_s * speed_m_s / 10.0, 1e-6);
 }
 
+TEST_F(GovernorStages, limit_speed_by_the_callers_own_bound) {
+  open();
+  run(mapping, 0.0, 0.5);
+  run(planning, 0.5, 2.0);  // The window says 2.2 s.
+  loop_.observe("latency_bound_s", 10.0);
+  loop_.observe("known_free_m", 20.0);
+  loop_.observe("max_deceleration_m_s2", 5.0);
+  const FlyballGovernorDecision decision = loop_.decide(2.0);
+  EXPECT_EQ(10.0, decision.latency_bound_s);
+  const double speed_m_s = decision.safe_speed_m_s;
+  EXPECT_NEAR(20.0, speed_m_s * 10.14 + speed_m_s * speed_m_s / (2.0 * 5.0), 1e-6);
+}
+
+TEST_F(GovernorStages, widen_the_callers_own_bound_too) {
+  open();
+  loop_.observe("latency_bound_s", 0.1);
+  for (int i = 0; i < 2; ++i) {
+    loop_.decide(2.0 * i);
+    run(mapping, 2.0 * i, 2.0 * i + 0.5);
+    run(planning, 2.0 * i + 0.5, 2.0 * i + 1.0);
+  }
+  const FlyballGovernorDecision decision = loop_.decide(4.0);
+  EXPECT_STREQ("wide_bound", decision.fallback);
+  EXPECT_NEAR(0.15, decision.latency_bound_s, 2e-9);  // Nanoseconds, rounded up.
+}
+
 TEST_F(GovernorStages, widen_the_bound_when_frames_come_late_again_and_again) {
   open();
   const auto frame = [this](double begin_s, double latency_s) {

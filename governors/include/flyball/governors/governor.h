@@ -173,7 +173,8 @@ typedef struct FlyballGovernorDecision {
   const char* fallback; /* none, wide_bound, table, safe_static, hover: see governors/README.md */
   const char* why;      /* One sentence; empty for the fallback "none". */
   /** The largest latency of the last 20 frames, times 1.1, and wider while frames come late: two of
-   * the last 20 took longer than this bound was before them (the fallback wide_bound). */
+   * the last 20 took longer than this bound was before them (the fallback wide_bound). Where the
+   * caller observes the signal latency_bound_s himself, that is widened instead. */
   double latency_bound_s;
   /** From which the vehicle stops within the signal known_free_m, braking with
    * max_deceleration_m_s2, if the next frame takes as long as bounded, or as long as the one that
