@@ -109,7 +109,7 @@ Result<std::unique_ptr<Policy>> start_policy(const Scenario& scenario,
     return clock.error();
   }
   return std::unique_ptr<Policy>{std::make_unique<CombinedPolicy>(
-      std::move(*application), std::move(*clock), from_seconds(scenario.governor.period_s))};
+      std::move(*application), std::move(*clock), from_seconds(scenario.governor.period_s), knobs)};
 }
 
 }  // namespace flyball

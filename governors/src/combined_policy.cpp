@@ -17,9 +17,9 @@ std::optional<Duration> period_of(const Policy* policy) {
   return chooses != nullptr ? chooses->period() : std::nullopt;
 }
 
-bool is_sound(const Decision& wish) {
-  return !wish.overflowed() && std::all_of(wish.begin(), wish.end(), [](const auto& one) {
-    return std::isfinite(one.value);
+bool is_sound(const Decision& wish, const KnobSettings& knobs) {
+  return !wish.overflowed() && std::all_of(wish.begin(), wish.end(), [&knobs](const auto& one) {
+    return std::isfinite(one.value) && knobs.spec(one.knob) != nullptr;
   });
 }
 
@@ -27,9 +27,11 @@ bool is_sound(const Decision& wish) {
 
 CombinedPolicy::CombinedPolicy(std::unique_ptr<Policy> application,
                                std::unique_ptr<Policy> clock,
-                               Duration application_period)
+                               Duration application_period,
+                               const KnobSettings& knobs)
     : application_{std::move(application)},
       clock_{std::move(clock)},
+      knobs_{knobs},
       bounds_{dynamic_cast<const BoundsLatency*>(application_.get())},
       application_code_{dynamic_cast<const HostsCode*>(application_.get())},
       clock_code_{dynamic_cast<const HostsCode*>(clock_.get())},
@@ -72,7 +74,7 @@ Decision CombinedPolicy::decide(const Observation& seen) noexcept {
   if (!next_ || seen.now >= *next_) {
     wish_ = application_->decide(seen);
     listen(application_code_);
-    if (!trouble_.empty() || !is_sound(wish_)) {
+    if (!trouble_.empty() || !is_sound(wish_, knobs_)) {
       return wish_;  // The governor counts faults in a row, so it has to see each answer once.
     }
     next_ = seen.now + own_period_.value_or(application_period_);

@@ -70,7 +70,8 @@ std::string breaches_of(const flyball::Preset& both) {
       return nullptr;
     }
     return std::make_unique<flyball::CombinedPolicy>(std::move(application), std::move(clock),
-                                                     std::chrono::milliseconds{250});
+                                                     std::chrono::milliseconds{250},
+                                                     flyball::conformance_knobs());
   };
   return breaches_by(both.application + " with " + both.clock,
                      {make, {}, flyball::allocation_count});

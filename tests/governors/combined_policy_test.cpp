@@ -13,7 +13,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Wishes for a map, a range and a clock; counts how often it is asked.
+KnobSettings two_knobs() {
+  return KnobSettings{{{"map.resolution_m", "m", "map", {}, 0.1, 20.0, 0.15},
+                       {"cpu.frequency_hz", "Hz", "platform", {}, 1e8, 1e11, 1e9}}};
+}
+
+/// Wishes for a map and a clock; counts how often it is asked.
 class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   Wisher(double value, std::optional<Duration> period, int* asked)
@@ -32,7 +37,8 @@ class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
     trouble_ = seen.speed_m_s > value_ ? "too fast" : "";
     Decision wish;
     wish.reason = value_ > 5.0 ? Reason::load : Reason::energy;
-    wish.set("map.resolution_m", seen.battery_percent < 0.0 ? std::nan("") : value_);
+    wish.set(seen.battery_percent > 100.0 ? "map.unknown" : "map.resolution_m",
+             seen.battery_percent < 0.0 ? std::nan("") : value_);
     wish.set("cpu.frequency_hz", 1e9 * value_);
     return wish;
   }
@@ -47,7 +53,7 @@ class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
 struct Fixture {
   explicit Fixture(std::optional<Duration> clock_period)
       : policy{std::make_unique<Wisher>(1.0, std::nullopt, &application_asked),
-               std::make_unique<Wisher>(9.0, clock_period, &clock_asked), 250ms} {}
+               std::make_unique<Wisher>(9.0, clock_period, &clock_asked), 250ms, two_knobs()} {}
   Decision at(Duration t) {
     Observation seen;
     seen.now = MissionTime{t};
@@ -102,9 +108,9 @@ struct Governed {
       : governor{
             std::make_unique<CombinedPolicy>(std::make_unique<Wisher>(1.0, std::nullopt, &asked),
                                              std::make_unique<Wisher>(9.0, 10ms, &asked),
-                                             250ms),
-            KnobSettings{{{"map.resolution_m", "m", "map", {}, 0.1, 20.0, 0.15},
-                          {"cpu.frequency_hz", "Hz", "platform", {}, 1e8, 1e11, 1e9}}},
+                                             250ms,
+                                             two_knobs()),
+            two_knobs(),
             {},
             nullptr} {
     for (int i = 0; i < 100; ++i) {
@@ -127,10 +133,13 @@ TEST(CombinedPolicy, is_given_up_when_the_application_fails_at_each_answer) {
 }
 
 TEST(CombinedPolicy, has_one_fault_where_the_application_gave_one_bad_answer) {
-  const Governed once{
-      [](Observation& seen) { seen.battery_percent = seen.now == MissionTime{} ? -1.0 : 50.0; }};
-  EXPECT_EQ(once.faults, 1);
-  EXPECT_FALSE(once.governor.has_fallen_back());
+  for (const double percent : {-1.0, 101.0}) {  // Not a number; a knob that does not exist.
+    const Governed once{[percent](Observation& seen) {
+      seen.battery_percent = seen.now == MissionTime{} ? percent : 50.0;
+    }};
+    EXPECT_EQ(once.faults, 1) << percent;
+    EXPECT_FALSE(once.governor.has_fallen_back()) << percent;
+  }
 }
 
 TEST(CombinedPolicy, states_no_bounds_for_an_application_that_states_none) {

@@ -20,10 +20,12 @@ class CombinedPolicy final : public Policy,
                              public BoundsLatency,
                              public HostsCode {
  public:
+  /// @param knobs  As both were started with: a wish for any other one is a faulty answer.
   /// @pre Both have been started; neither is null.
   CombinedPolicy(std::unique_ptr<Policy> application,
                  std::unique_ptr<Policy> clock,
-                 Duration application_period);
+                 Duration application_period,
+                 const KnobSettings& knobs);
 
   [[nodiscard]] std::vector<ParameterSpec> parameters() const override { return {}; }
   Status start(const Parameters& given,
@@ -44,6 +46,7 @@ class CombinedPolicy final : public Policy,
 
   std::unique_ptr<Policy> application_;
   std::unique_ptr<Policy> clock_;
+  KnobSettings knobs_;
   const BoundsLatency* bounds_;        ///< The application's; null: it states none.
   const HostsCode* application_code_;  ///< Null: it hosts none.
   const HostsCode* clock_code_;
