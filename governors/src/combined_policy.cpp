@@ -33,6 +33,7 @@ CombinedPolicy::CombinedPolicy(std::unique_ptr<Policy> application,
       clock_{std::move(clock)},
       knobs_{knobs},
       bounds_{dynamic_cast<const BoundsLatency*>(application_.get())},
+      options_{dynamic_cast<const ComparesOptions*>(application_.get())},
       application_code_{dynamic_cast<const HostsCode*>(application_.get())},
       clock_code_{dynamic_cast<const HostsCode*>(clock_.get())},
       own_period_{period_of(application_.get())},
@@ -60,6 +61,10 @@ BoundCount CombinedPolicy::bounds() const noexcept {
 
 std::vector<LevelBounds> CombinedPolicy::bound_levels() const {
   return bounds_ != nullptr ? bounds_->bound_levels() : std::vector<LevelBounds>{};
+}
+
+std::vector<PolicyOption> CombinedPolicy::options() const {
+  return options_ != nullptr ? options_->options() : std::vector<PolicyOption>{};
 }
 
 void CombinedPolicy::listen(const HostsCode* host) noexcept {

@@ -19,7 +19,7 @@ KnobSettings two_knobs() {
 }
 
 /// Wishes for a map and a clock; counts how often it is asked.
-class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
+class Wisher : public Policy, public ChoosesPeriod, public HostsCode {
  public:
   Wisher(double value, std::optional<Duration> period, int* asked)
       : value_{value}, period_{period}, asked_{asked} {}
@@ -48,6 +48,15 @@ class Wisher final : public Policy, public ChoosesPeriod, public HostsCode {
   std::optional<Duration> period_;
   int* asked_;
   std::string_view trouble_{};
+};
+
+/// Weighs two settings, too.
+class Comparer final : public Wisher, public ComparesOptions {
+ public:
+  using Wisher::Wisher;
+  [[nodiscard]] std::vector<PolicyOption> options() const override {
+    return std::vector<PolicyOption>(2);
+  }
 };
 
 struct Fixture {
@@ -146,6 +155,15 @@ TEST(CombinedPolicy, states_no_bounds_for_an_application_that_states_none) {
   const Fixture both{10ms};
   EXPECT_EQ(both.policy.bounds().issued, 0U);
   EXPECT_TRUE(both.policy.bound_levels().empty());
+}
+
+TEST(CombinedPolicy, shows_what_the_application_weighed) {
+  int asked = 0;
+  const CombinedPolicy compares{std::make_unique<Comparer>(1.0, std::nullopt, &asked),
+                                std::make_unique<Comparer>(9.0, 10ms, &asked), 250ms, two_knobs()};
+  const ComparesOptions& shows = compares;
+  EXPECT_EQ(shows.options().size(), 2U);
+  EXPECT_TRUE(Fixture{10ms}.policy.options().empty()) << "this one compares none";
 }
 
 TEST(CombinedPolicy, has_the_applications_pace_beside_a_rule_that_looks_at_nothing) {

@@ -18,6 +18,7 @@ namespace flyball {
 class CombinedPolicy final : public Policy,
                              public ChoosesPeriod,
                              public BoundsLatency,
+                             public ComparesOptions,
                              public HostsCode {
  public:
   /// @param knobs  As both were started with: a wish for any other one is a faulty answer.
@@ -37,6 +38,8 @@ class CombinedPolicy final : public Policy,
   /// The application's; none where it states no bounds.
   [[nodiscard]] BoundCount bounds() const noexcept override;
   [[nodiscard]] std::vector<LevelBounds> bound_levels() const override;
+  /// The application's, when it was asked last; their clocks are those that it would have set.
+  [[nodiscard]] std::vector<PolicyOption> options() const override;
   /// Of whichever was asked; the application's first.
   [[nodiscard]] std::string_view trouble() const noexcept override { return trouble_; }
   [[nodiscard]] std::string_view remark() const noexcept override { return remark_; }
@@ -48,6 +51,7 @@ class CombinedPolicy final : public Policy,
   std::unique_ptr<Policy> clock_;
   KnobSettings knobs_;
   const BoundsLatency* bounds_;        ///< The application's; null: it states none.
+  const ComparesOptions* options_;     ///< Null: the application compares none.
   const HostsCode* application_code_;  ///< Null: it hosts none.
   const HostsCode* clock_code_;
   std::optional<Duration> own_period_{};  ///< The application's.
