@@ -117,15 +117,19 @@ bool FallbackLadder::has_coverage_alarm(const Observation& seen) {
 bool FallbackLadder::is_mismatched(const Observation& seen, const Request& request) {
   const Grant grant{seen.frequency.value(), static_cast<double>(seen.cores)};
   note_cap(grant, seen.now);
-  const bool is_short = falls_short(request.frequency_hz, grant.frequency_hz, cap_.frequency_hz) ||
-                        falls_short(request.cores, grant.cores, cap_.cores);
-  const bool is_new =
-      request.frequency_hz != last_request_.frequency_hz || request.cores != last_request_.cores;
+  const auto falls_short_of = [&](const Request& asked) {
+    return falls_short(asked.frequency_hz, grant.frequency_hz, cap_.frequency_hz) ||
+           falls_short(asked.cores, grant.cores, cap_.cores);
+  };
+  const bool is_short = falls_short_of(request);
+  // The patience begins anew where only the newest request is not met yet, and not where a policy
+  // goes to and fro between requests that are all not met.
+  const bool is_only_newest = !is_table_ && !falls_short_of(last_request_);
   last_request_ = request;
   if (!is_short) {
     mismatched_since_.reset();
-  } else if (is_new || !mismatched_since_) {
-    mismatched_since_ = mismatched_since_ && is_table_ ? mismatched_since_ : seen.now;
+  } else if (is_only_newest || !mismatched_since_) {
+    mismatched_since_ = seen.now;
   }
   is_table_ = is_short && seen.now - *mismatched_since_ >= settings_.mismatch_patience;
   return is_table_;

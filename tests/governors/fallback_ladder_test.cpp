@@ -158,6 +158,17 @@ TEST(FallbackLadder, a_policy_that_changes_its_mind_is_no_mismatch) {
   }
 }
 
+TEST(FallbackLadder, a_policy_that_goes_to_and_fro_hides_no_mismatch) {
+  Looking looking;
+  looking.seen.frequency = Hertz{1e9};
+  int looks = 0;
+  do {
+    looking.request.frequency_hz = looks / 3 % 2 == 0 ? 1.5e9 : 2e9;
+    ++looks;
+  } while (looking.next() == Fallback::none && looks < 100);
+  EXPECT_EQ(5, looks) << "a second after the first look";
+}
+
 TEST(FallbackLadder, does_not_compare_what_nobody_tells) {
   Looking looking;
   looking.seen.frequency = Hertz{0.0};
