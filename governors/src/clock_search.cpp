@@ -2,7 +2,6 @@
 #include "flyball/governors/clock_search.h"
 
 #include "flyball/governors/latency_worth.h"
-#include "flyball/runtime/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,18 +176,20 @@ MapSetting ClockSearch::choose(const MapSetting& map, const Observation& seen, b
   const auto cheapest = std::min_element(
       estimates_.begin(), estimates_.end(),
       [](const auto& a, const auto& b) { return a.joules_per_m < b.joules_per_m; });
-  FLYBALL_ASSERT(is_finite(*cheapest), "no clock of %zu is finite", estimates_.size());
   const auto is_at_most = [&](double share) {
     return [most_j = (1.0 + share) * cheapest->joules_per_m](const EnergyEstimate& one) {
       return one.joules_per_m <= most_j;
     };
   };
-  // The highest clock that is allowed, if no other saves enough, or else the highest of the equals.
-  const auto highest = std::find_if(estimates_.rbegin(), estimates_.rend(), is_finite);
-  const MapSetting best =
-      is_at_most(settings_.least_saving)(*highest)
-          ? highest->setting
-          : std::find_if(estimates_.rbegin(), estimates_.rend(), is_at_most(equal))->setting;
+  MapSetting best{map.resolution_m, map.range_m, most_clock_hz_};
+  if (is_finite(*cheapest)) {  // Clocks of a C caller may be beyond all numbers.
+    // The highest clock that is allowed, if no other saves enough, or else the highest of the
+    // equals.
+    const auto highest = std::find_if(estimates_.rbegin(), estimates_.rend(), is_finite);
+    best = is_at_most(settings_.least_saving)(*highest)
+               ? highest->setting
+               : std::find_if(estimates_.rbegin(), estimates_.rend(), is_at_most(equal))->setting;
+  }
   latency_.put_in_force(best, seen.now);
   return best;
 }

@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace flyball {
 namespace {
+
+// Megawatts. The cube of a clock times more could exceed what a number can be.
+constexpr double most = 1e6;
 
 bool is_possible(const PowerCost& power) {
   const std::array<double, 9> all{power.board_w,       power.converter,      power.soc_w,
                                   power.memory_w,      power.cpu_constant_w, power.cpu_linear_w,
                                   power.core_linear_w, power.core_cubic_w,   power.memory_linear_w};
   return std::all_of(all.begin(), all.end(),
-                     [](double one) { return std::isfinite(one) && one >= 0.0; });
+                     [](double one) { return one >= 0.0 && one <= most; });  // False for NaN.
 }
 
 }  // namespace
@@ -27,7 +29,7 @@ Result<PowerCost> required_power(const std::string& owner, const BoardModel& boa
   }
   if (!is_possible(*board.power)) {
     return Error{ErrorCode::invalid_input,
-                 owner + ": each number of the board's `power` must be finite and at least 0"};
+                 owner + ": each number of the board's `power` must be from 0 to 1e6"};
   }
   return *board.power;
 }

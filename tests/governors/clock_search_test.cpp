@@ -61,6 +61,14 @@ TEST(ClockSearch, keeps_the_top_where_something_beside_the_map_holds_the_vehicle
   EXPECT_EQ(chosen_hz(coarse, stands), top_hz);
 }
 
+TEST(ClockSearch, takes_the_top_where_no_energy_is_finite) {
+  PowerCost power = *conformance_board().power;
+  power.core_cubic_w = 1.7e308;
+  ClockSearch one = *ClockSearch::make({}, {{0.15, 0.4, 2.2}, {0.80, 0.1, 1.0}},
+                                       kit::search_knobs({0.5e9, 1e9, top_hz}), power);
+  EXPECT_EQ(one.choose(coarse, in_the_open(0.01), false).clock_hz, top_hz);
+}
+
 TEST(ClockSearch, takes_no_more_than_a_thousandth_above_the_least_energy_of_a_metre) {
   for (const double limit_m_s : {1.0, 3.0, 6.0, 12.0}) {
     ClockSearch one = search();

@@ -24,8 +24,8 @@ TEST(RequiredPower, that_nobody_tells_is_asked_for_with_what_to_pass) {
 }
 
 TEST(RequiredPower, that_no_computer_has_is_refused) {
-  for (const double one :
-       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double one : {-1.0, 1.7e308, std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
     BoardModel board;
     board.power.emplace().core_cubic_w = one;
     EXPECT_FALSE(required_power("policy \"mine\"", board).ok()) << one;
