@@ -4,7 +4,9 @@
 #include "flyball/governors/latency_worth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -23,12 +25,19 @@ bool is_positive(double x) {
   return std::isfinite(x) && x > 0.0;
 }
 
-/// A latency is predicted from the logarithms of these, so none of them may be 0. Empty: fine.
+/// A latency is predicted from the logarithms of these, so none of them may be 0, nor a clock no
+/// clock, whose time for a cycle may be beyond all numbers. Empty: fine.
 std::string not_positive(const std::vector<LatencyLevel>& levels,
                          const MapSetting& first,
                          const std::vector<double>& clocks_hz) {
-  if (!is_positive(clocks_hz.front())) {
-    return "knob cpu.frequency_hz may be 0 Hz; every clock must be above 0";
+  for (const double hz : {clocks_hz.front(), clocks_hz.back()}) {  // They ascend.
+    if (!is_a_clock(hz)) {
+      std::array<char, 128> text{};
+      std::snprintf(text.data(), text.size(),
+                    "knob cpu.frequency_hz may be %g Hz; every clock must be from 1e6 to 1e12 Hz",
+                    hz);
+      return text.data();
+    }
   }
   if (!is_positive(first.range_m)) {
     return "knob map.range_m begins at 0 m; give it a start value above 0";

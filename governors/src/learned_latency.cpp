@@ -11,6 +11,10 @@ bool is_a_range(double any_m) {
   return any_m > 0.01 && any_m < 1e4;
 }
 
+bool is_a_clock(double any_hz) {
+  return any_hz >= 1e6 && any_hz <= 1e12;
+}
+
 std::vector<LatencyLevel> levels_between(const std::vector<double>& resolutions_m,
                                          double fine_s,
                                          double coarse_s) {
@@ -73,8 +77,7 @@ double LearnedLatency::bounded_s(const MapSetting& setting) const {
 /// A board that is too hot grants a lower clock than was asked for, and a governor may change it
 /// later. So a map counts with the clocks that were observed, not with the one that was asked for.
 void LearnedLatency::note_clock(const Observation& seen) {
-  const double hz = seen.frequency.value();
-  const bool is_told = hz > 1e6 && hz < 1e12;  // Anything else is a fault of the observation.
+  const bool is_told = is_a_clock(seen.frequency.value());
   clock_factors_ += settings_.clock.factor(is_told ? seen.frequency : Hertz{in_force_.clock_hz});
   ++looks_;
 }

@@ -33,6 +33,8 @@ struct LatencyLevel {
 
 /// Of whatever sensor; anything else is a fault of the observation.
 [[nodiscard]] bool is_a_range(double any_m);
+/// The same of a computer, 1 MHz to 1 THz.
+[[nodiscard]] bool is_a_clock(double any_hz);
 
 struct LearnedLatencySettings {
   double frame_s{0.05};  ///< Between two frames of the camera.
