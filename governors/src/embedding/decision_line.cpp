@@ -16,8 +16,10 @@ class Line {
   explicit Line(std::array<char, 8192>& text) : text_{text} { text_[0] = '\0'; }
 
   void add(const char* name, const char* value) { grow("%s=%s ", name, value); }
-  void add(const char* name, double value) { grow("%s=%.17g ", name, value); }
-  void add_in_force(const char* name, double value) { grow("%s.in_force=%.17g ", name, value); }
+  void add(const char* name, double value) { grow("%s=%s ", name, number(value).data()); }
+  void add_in_force(const char* name, double value) {
+    grow("%s.in_force=%s ", name, number(value).data());
+  }
   void add_quoted(const char* name, const char* value) { grow("%s=\"%s\" ", name, value); }
   void end() {
     if (size_ > 0) {
@@ -26,6 +28,24 @@ class Line {
   }
 
  private:
+  /// The host's locale may have a comma, of several bytes even, where a record has a point.
+  /// (`std::to_chars` needs a newer compiler than boards may have.)
+  static std::array<char, 48> number(double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", value);
+    const auto is_of_number = [](char one) {
+      return (one >= '0' && one <= '9') || (one >= 'a' && one <= 'z') || one == '-' || one == '+';
+    };
+    const auto end = std::find(text.begin(), text.end(), '\0');
+    const auto mark = std::find_if_not(text.begin(), end, is_of_number);
+    if (mark != end) {
+      *mark = '.';
+      const auto digits = std::find_if(mark + 1, end, is_of_number);
+      std::fill(std::copy(digits, end, mark + 1), end, '\0');
+    }
+    return text;
+  }
+
   template <class... Values>
   void grow(const char* format, Values... values) {
     const std::size_t left = text_.size() - size_;

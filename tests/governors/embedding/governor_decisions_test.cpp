@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "governed_loop.h"
+#include <algorithm>
+#include <array>
+#include <clocale>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -85,6 +88,25 @@ TEST(EmbeddedGovernor, records_a_line_for_each_decision) {
   EXPECT_NE(std::string::npos, loop.lines[1].find("map.resolution_m=0.14999999999999999 "
                                                   "map.resolution_m.in_force=0.40000000000000002"))
       << loop.lines[1];
+}
+
+TEST(EmbeddedGovernor, records_numbers_with_a_point_whatever_the_locale_of_the_host) {
+  const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+  const std::array<const char*, 5> with_comma{"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE",
+                                              "nl_NL.UTF-8"};
+  if (std::none_of(with_comma.begin(), with_comma.end(),
+                   [](const char* name) { return std::setlocale(LC_NUMERIC, name) != nullptr; })) {
+    GTEST_SKIP() << "no locale with a decimal comma is installed";
+  }
+  GovernedLoop loop;
+  loop.open_density();
+  loop.observe("speed_m_s", 2.5);
+  loop.decide(0.25);
+  std::setlocale(LC_NUMERIC, before.c_str());
+  EXPECT_EQ(
+      "t_s=0.25 mode=governing reason=density fallback=none map.resolution_m=0.80000000000000004 "
+      "phase=1 speed_m_s=2.5 map_resolution_m=0.14999999999999999",
+      loop.lines.at(0));
 }
 
 TEST(EmbeddedGovernor, quotes_the_reason_of_a_fallback_in_the_record) {
