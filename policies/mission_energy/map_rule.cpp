@@ -105,16 +105,17 @@ Result<MapRule> MapRule::make(const std::string& owner,
     return refused("least_range_m = " + std::to_string(rule.least_range_m_) +
                    " must be below most_range_m = " + std::to_string(rule.most_range_m_));
   }
-  const KnobSpec& resolution = *knobs.spec("map.resolution_m");
-  if (const double door_m = given.number("door_m"); door_m > 0.0 && resolution.legal.empty()) {
-    const double nearest_m = resolution.nearest(door_m);
+  if (const double door_m = given.number("door_m"); door_m > 0.0 && !rule.keeps_hits_) {
+    const double nearest_m = rule.cells_knob_.nearest(door_m);
     rule.door_m_ = nearest_m < rule.levels_m_.front() ? nearest_m : 0.0;
   }
   return rule;
 }
 
 MapRule::MapRule(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle)
-    : keeps_hits_{!knobs.spec("map.resolution_m")->legal.empty()},
+    : cells_knob_{*knobs.spec("map.resolution_m")},
+      range_knob_{*knobs.spec("map.range_m")},
+      keeps_hits_{!cells_knob_.legal.empty()},
       range_m_{given.number("range_m")},
       least_range_m_{given.number("least_range_m")},
       most_range_m_{given.number("most_range_m")},
@@ -124,7 +125,7 @@ MapRule::MapRule(const Parameters& given, const KnobSettings& knobs, const Vehic
       large_m_{0.5 * body_m_},
       camera_{vehicle.depth_camera},
       home_{knobs.value("map.resolution_m"), knobs.value("map.range_m"), 0.0},
-      levels_m_{levels_of(given, *knobs.spec("map.resolution_m"), vehicle)},
+      levels_m_{levels_of(given, cells_knob_, vehicle)},
       passability_{passability(given)} {}
 
 Passability MapRule::passability(const Parameters& given) const {
@@ -233,7 +234,8 @@ double MapRule::quick_range_m(double cells_m, const LearnedLatency& latency) con
 MapSetting MapRule::setting(const MapNeeds& needs, const LearnedLatency& latency) const {
   const double most_m = std::max(most_range_m(needs.cells_m), needs.clear_range_m);
   const double range_m = std::max(usual_range_m(needs.cells_m, latency), needs.least_range_m);
-  return {needs.cells_m, std::min(range_m, most_m), 0.0};
+  // The values that the governor would make of them, because latency and energy are those of them.
+  return {cells_knob_.nearest(needs.cells_m), range_knob_.nearest(std::min(range_m, most_m)), 0.0};
 }
 
 MapNeeds MapRule::look(const Observation& seen, double cells_m) {

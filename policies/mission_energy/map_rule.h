@@ -63,13 +63,13 @@ class MapRule {
 
   /// @param cells_m  In force.
   [[nodiscard]] MapNeeds look(const Observation& seen, double cells_m);
-  /// What the rule takes, without a clock.
+  /// What the rule takes, without a clock: legal values of both knobs.
   [[nodiscard]] MapSetting setting(const MapNeeds& needs, const LearnedLatency& latency) const;
 
   [[nodiscard]] double body_m() const { return body_m_; }
   [[nodiscard]] double finest_m() const { return levels_m_.front(); }
-  /// Of cells of .15 m.
-  [[nodiscard]] double range_m() const { return range_m_; }
+  /// Of cells of .15 m, as far as the knob allows.
+  [[nodiscard]] double range_m() const { return range_knob_.nearest(range_m_); }
 
  private:
   MapRule(const Parameters& given, const KnobSettings& knobs, const VehicleModel& vehicle);
@@ -89,6 +89,8 @@ class MapRule {
   /// The range up to which noise leaves gaps open like those that were seen; 0: none was.
   [[nodiscard]] double clear_range_m(const Observation& seen, bool near);
 
+  KnobSpec cells_knob_;
+  KnobSpec range_knob_;
   bool keeps_hits_;  ///< The mapper does, at its finest level. Any other starts a new map.
   double range_m_;
   double least_range_m_;

@@ -217,7 +217,21 @@ TEST(MapRule, looks_as_far_with_smaller_cells_as_the_computer_has_time_for) {
   EXPECT_EQ(range_where_7_m_take(0.1), 10.0) << "no farther than with larger cells";
   EXPECT_NEAR(range_where_7_m_take(0.2), 8.0 * 0.8, 1e-9) << "8 m take .27 s, 6.4 m .16 s";
   EXPECT_NEAR(range_where_7_m_take(1.0), 10.0 * std::pow(0.8, 5), 1e-9) << "3.7 m take .25 s";
-  EXPECT_NEAR(range_where_7_m_take(50.0), 10.0 * std::pow(0.8, 8), 1e-9) << "the next door is seen";
+  EXPECT_EQ(range_where_7_m_take(50.0), 2.0) << "the knob's least: the next door is seen";
+}
+
+TEST(MapRule, takes_only_what_the_knobs_allow) {
+  std::vector<KnobSpec> specs = conformance_knobs().specs();
+  specs[1].max = specs[1].fallback = 6.0;
+  ASSERT_EQ(specs[1].name, "map.range_m");
+  const auto rule = made({}, KnobSettings{specs});
+  MapNeeds needs;
+  needs.cells_m = 0.355;
+  needs.least_range_m = 22.0;
+  const MapSetting setting = rule->setting(needs, expected_of(*rule));
+  EXPECT_EQ(setting.range_m, 6.0);
+  EXPECT_EQ(setting.resolution_m, 0.30) << "of the lattice";
+  EXPECT_EQ(rule->range_m(), 6.0);
 }
 
 TEST(MapRule, may_look_nearer_where_the_mission_is_slow) {
