@@ -57,6 +57,7 @@ class EnergyClock final : public flyball::Policy, public flyball::BoundsLatency 
     flyball::ClockSearchSettings settings;
     settings.reaction_s = flyball::to_seconds(board.vehicle.reaction_time);
     settings.rest_s = given.number("rest_s");
+    settings.latency.frame_s = flyball::frame_interval_s(board.vehicle.depth_camera, knobs);
     const auto levels = flyball::levels_between(cells_m, given.number("fine_latency_s"),
                                                 given.number("coarse_latency_s"));
     auto search = flyball::ClockSearch::make(settings, levels, knobs, *power);

@@ -35,6 +35,20 @@ std::vector<LatencyLevel> levels_between(const std::vector<double>& resolutions_
   return levels;
 }
 
+double frame_interval_s(const std::optional<DepthCameraSpec>& camera, const KnobSettings& knobs) {
+  std::optional<double> interval_s;
+  if (camera && camera->rate_hz > 0.0) {
+    interval_s = 1.0 / camera->rate_hz;
+  }
+  for (const char* limit : {"camera.rate_hz", "map.rate_hz"}) {
+    const double rate_hz = knobs.spec(limit) != nullptr ? knobs.value(limit) : 0.0;
+    if (rate_hz > 0.0) {
+      interval_s = interval_s ? passed_interval_s(*interval_s, rate_hz) : 1.0 / rate_hz;
+    }
+  }
+  return interval_s.value_or(LearnedLatencySettings{}.frame_s);
+}
+
 LearnedLatency::LearnedLatency(const LearnedLatencySettings& settings,
                                const std::vector<LatencyLevel>& levels,
                                const MapSetting& in_force,

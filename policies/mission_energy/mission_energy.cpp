@@ -71,10 +71,11 @@ class MissionEnergy final : public flyball::Policy,
     if (!map) {
       return map.error();
     }
-    const auto settings = clock_settings(given, board);
+    auto settings = clock_settings(given, board);
     if (!settings) {
       return settings.error();
     }
+    settings->latency.frame_s = flyball::frame_interval_s(board.vehicle.depth_camera, knobs);
     const auto levels =
         map->levels(given.number("fine_latency_s"), given.number("coarse_latency_s"));
     auto clock = flyball::ClockSearch::make(*settings, levels, knobs, *power);

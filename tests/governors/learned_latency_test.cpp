@@ -120,6 +120,45 @@ void see_maps(LearnedLatency& one, int n, double period_s, double latency_s, dou
   }
 }
 
+KnobSpec rate_knob(const char* name, double hz) {
+  return {name, "Hz", "mapper", {}, 0.1, 240.0, hz};
+}
+
+TEST(FrameInterval, is_the_cameras_behind_the_limits_of_its_rate) {
+  DepthCameraSpec camera;
+  camera.rate_hz = 20.0;
+  EXPECT_EQ(frame_interval_s({}, KnobSettings{}), 0.05) << "nothing is known";
+  EXPECT_EQ(frame_interval_s(camera, KnobSettings{}), 0.05);
+  EXPECT_EQ(frame_interval_s(camera, KnobSettings{{rate_knob("map.rate_hz", 20.0)}}), 0.05);
+  EXPECT_DOUBLE_EQ(frame_interval_s(camera, KnobSettings{{rate_knob("map.rate_hz", 15.0)}}), 0.1)
+      << "each other frame";
+  EXPECT_DOUBLE_EQ(frame_interval_s({}, KnobSettings{{rate_knob("map.rate_hz", 2.0)}}), 0.5);
+  EXPECT_DOUBLE_EQ(frame_interval_s(camera, KnobSettings{{rate_knob("camera.rate_hz", 4.0),
+                                                          rate_knob("map.rate_hz", 2.0)}}),
+                   0.5);
+  camera.rate_hz = 0.5;
+  EXPECT_DOUBLE_EQ(frame_interval_s(camera, KnobSettings{{rate_knob("map.rate_hz", 2.0)}}), 2.0);
+}
+
+/// The factor of the bound after five minutes of maps that take .1 s each, two seconds apart, of a
+/// policy that decides four times a second.
+double factor_of_rare_maps(double frame_s) {
+  LearnedLatencySettings settings;
+  settings.frame_s = frame_s;
+  LearnedLatency one = learner(settings);
+  one.put_in_force(coarse, at(0.0));
+  for (int look = 1; look <= 1200; ++look) {
+    const int map = (look + 7) / 8;
+    one.learn(seen_map(0.25 * look, static_cast<std::uint64_t>(map), 0.80, 0.1));
+  }
+  return one.bounds().factor;
+}
+
+TEST(LearnedLatency, bounds_the_latency_and_not_the_wait_for_a_frame) {
+  EXPECT_LT(factor_of_rare_maps(2.0), 1.5);
+  EXPECT_GT(factor_of_rare_maps(0.05), 3.0) << "what an interval that is not so comes to";
+}
+
 TEST(LearnedLatency, learns_that_the_computer_is_slower_than_was_said) {
   LearnedLatency one = learner();
   see_maps(one, 60, 1.0, 0.6);

@@ -146,6 +146,21 @@ TEST(EnergyClock, learns_from_maps_of_cells_that_are_none_of_its_levels) {
   }
 }
 
+TEST(EnergyClock, takes_the_wait_for_a_rare_frame_for_no_latency) {
+  BoardModel board = conformance_board();
+  board.vehicle.depth_camera.emplace().rate_hz = 0.5;
+  const StartedPolicy started = start_policy("energy_clock", {}, conformance_knobs(), board);
+  ASSERT_TRUE(started.status);
+  for (int look = 1; look <= 1200; ++look) {
+    Observation seen = cruising(0.25 * look, 0.80, 350.0);
+    seen.map_revision = static_cast<std::uint64_t>((look + 7) / 8);  // One in two seconds.
+    seen.map_range_m = 7.0;
+    seen.latency = from_seconds(0.1);
+    static_cast<void>(started.policy->decide(seen));
+  }
+  EXPECT_LT(dynamic_cast<const BoundsLatency&>(*started.policy).bounds().factor, 1.5);
+}
+
 TEST(EnergyClock, is_refused_without_a_map_to_reckon_with) {
   const StartedPolicy started = start_policy("energy_clock", {}, KnobSettings{});
   ASSERT_FALSE(started.status);

@@ -81,7 +81,9 @@ enum {
 /** What a governor may turn. These names policies of Flyball know: map.resolution_m, map.range_m
  * and cpu.frequency_hz, which most of them set; explore.iterations, which mission_energy sets too;
  * and map.rate_hz, planner.budget, cpu.cores and mission.max_speed_m_s, which the policy fixed
- * sets, as it sets all others. `flyball list knobs` prints more, and says what each one means. */
+ * sets, as it sets all others. `flyball list knobs` prints more, and says what each one means.
+ * mission_energy and energy_clock take the start value of map.rate_hz for the rate at which frames
+ * come, and 20 Hz where there is no such knob. */
 typedef struct FlyballGovernorKnob {
   uint32_t struct_size;
   uint32_t legal_count;

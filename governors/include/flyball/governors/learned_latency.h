@@ -8,6 +8,8 @@
 #include "flyball/governors/latency_model.h"
 #include "flyball/governors/map_setting.h"
 #include "flyball/governors/policy_abilities.h"
+#include "flyball/runtime/camera_spec.h"
+#include "flyball/runtime/knob.h"
 #include "flyball/runtime/observation.h"
 
 #include <cstdint>
@@ -36,8 +38,15 @@ struct LatencyLevel {
 /// The same of a computer, 1 MHz to 1 THz.
 [[nodiscard]] bool is_a_clock(double any_hz);
 
+/// The time from one frame that a map may be made of to the next one [s]: of the camera where it is
+/// known, behind the knobs camera.rate_hz and map.rate_hz where they exist, at the values that they
+/// start with. A 20 Hz camera's where nothing is known.
+[[nodiscard]] double frame_interval_s(const std::optional<DepthCameraSpec>& camera,
+                                      const KnobSettings& knobs);
+
 struct LearnedLatencySettings {
-  double frame_s{0.05};  ///< Between two frames of the camera.
+  /// `frame_interval_s`. A bound is about latency alone, so the wait for a frame must not count.
+  double frame_s{0.05};
   /// The first margin is about what the errors of a flight come to, and each late map widens it by
   /// 15 %: with .05 and .1, a level of some 50 maps spent most of its misses on the way to there.
   QuantileTracker::Settings bound{0.05, 0.15, 0.4};

@@ -7,6 +7,7 @@
 #include "flyball/runtime/messages.h"
 
 #include <array>
+#include <cmath>
 
 namespace flyball {
 
@@ -40,5 +41,17 @@ struct DepthCameraSpec {
   /// with the depth.
   [[nodiscard]] double noise_m(double depth_m) const;
 };
+
+/// A frame passes this share of the wanted interval after the last one, so that a 20 Hz camera
+/// satisfies a 20 Hz knob although its stamps are rounded.
+inline constexpr double least_share_of_interval = 0.9;
+
+/// The interval between frames behind a limit [s], of frames that arrive at an even interval before
+/// it. @pre Both are positive.
+[[nodiscard]] inline double passed_interval_s(double interval_s, double rate_hz) {
+  constexpr double rounding = 1e-9;  // 4 x .05 s are a little more than .2 s.
+  const double frames = least_share_of_interval / (rate_hz * interval_s);
+  return std::fmax(1.0, std::ceil(frames - rounding)) * interval_s;
+}
 
 }  // namespace flyball

@@ -4,16 +4,12 @@
 /// @file
 /// Frames at a lower rate than they arrive at.
 
+#include "flyball/runtime/camera_spec.h"
 #include "flyball/runtime/time.h"
 
-#include <cmath>
 #include <optional>
 
 namespace flyball {
-
-/// A frame passes this share of the wanted interval after the last one, so that a 20 Hz camera
-/// satisfies a 20 Hz knob although its stamps are rounded.
-inline constexpr double least_share_of_interval = 0.9;
 
 /// Lets frames pass at a rate that may change between any two of them.
 class RateLimit {
@@ -33,13 +29,5 @@ class RateLimit {
  private:
   std::optional<MissionTime> last_{};
 };
-
-/// The interval between frames behind a limit, of frames that arrive at an even interval before it.
-/// @pre Both are positive.
-[[nodiscard]] inline double passed_interval_s(double interval_s, double rate_hz) {
-  constexpr double rounding = 1e-9;  // 4 x .05 s are a little more than .2 s.
-  const double frames = least_share_of_interval / (rate_hz * interval_s);
-  return std::fmax(1.0, std::ceil(frames - rounding)) * interval_s;
-}
 
 }  // namespace flyball
