@@ -87,6 +87,10 @@ Status CallersKnobs::add(const FlyballGovernorKnob& given) {
   if (given.follows != nullptr && !index(given.follows)) {
     return wrong(knob + "follows \"" + given.follows + "\", which was not added before it");
   }
+  if (given.follows != nullptr && !knobs_[*index(given.follows)].spec.follows.empty()) {
+    return wrong(knob + "follows \"" + given.follows + "\", which follows \"" +
+                 knobs_[*index(given.follows)].spec.follows + "\" itself; follow that one");
+  }
   if (knobs_.size() == flyball_governor_capacity) {
     return wrong(knob + "is one too many: a governor has at most " +
                  std::to_string(flyball_governor_capacity));

@@ -41,6 +41,11 @@ std::int32_t FlyballGovernor::advance(double now_s) {
       now <= -flyball::longest_duration) {
     return error_.set(flyball_governor_invalid_input, "the time cannot be %g s", now_s);
   }
+  if (now < Duration::zero()) {  // To policies 0 is long ago.
+    return error_.set(flyball_governor_invalid_input,
+                      "the time cannot be %g s; count it from a moment before the first call",
+                      now_s);
+  }
   if (now_ && MissionTime{now} < *now_) {
     return error_.set(flyball_governor_invalid_input,
                       "the time went back from %.9f s to %.9f s; a governor needs one clock",
@@ -58,10 +63,11 @@ std::int32_t FlyballGovernor::check_stage(std::uint32_t stage) {
 }
 
 std::int32_t FlyballGovernor::begin(std::uint32_t stage, double now_s) {
-  for (const auto code : {check_open("flyball_governor_begin"), check_stage(stage)}) {
-    if (code != flyball_governor_ok) {
-      return code;
-    }
+  if (const auto code = check_open("flyball_governor_begin")) {
+    return code;
+  }
+  if (const auto code = check_stage(stage)) {
+    return code;
   }
   if (const auto code = advance(now_s)) {
     return code;
@@ -74,10 +80,11 @@ std::int32_t FlyballGovernor::end(std::uint32_t stage,
                                   double now_s,
                                   const double* counts,
                                   std::uint32_t count) {
-  for (const auto code : {check_open("flyball_governor_end"), check_stage(stage)}) {
-    if (code != flyball_governor_ok) {
-      return code;
-    }
+  if (const auto code = check_open("flyball_governor_end")) {
+    return code;
+  }
+  if (const auto code = check_stage(stage)) {
+    return code;
   }
   const flyball::StageSpec& spec = stages_.spec(stage);
   if (!stages_.has_begun(stage)) {
@@ -222,11 +229,11 @@ std::int32_t FlyballGovernor::decide(double now_s) {
   is_calling_back_ = true;
   const flyball::CallersKnobs::Knob* failed = knobs_.put_in_force(decision);
   answer(decision, seen);
-  record(seen);
+  const std::int32_t recorded = record(seen);
   is_calling_back_ = false;
   signals_.begin_counts_anew();
   return failed == nullptr
-             ? std::int32_t{flyball_governor_ok}
+             ? recorded
              : error_.set(flyball_governor_failed,
                           "knob \"%s\" could not be set to %g %s; it is asked again at the next "
                           "decision",
@@ -268,16 +275,17 @@ double FlyballGovernor::safe_speed_m_s(const Observation& seen) const {
   return flyball::Guard{settings}.cruise_speed(latency, seen.known_free_m);
 }
 
-void FlyballGovernor::record(const Observation& seen) {
+std::int32_t FlyballGovernor::record(const Observation& seen) {
   if (settings_.record == nullptr) {
-    return;
+    return flyball_governor_ok;
   }
   flyball::write_decision_line(line_, answer_, knobs_, seen);
   try {
     settings_.record(settings_.context, line_.data());
   } catch (...) {  // As with the knobs' callbacks; the line is lost.
-    error_.set(flyball_governor_failed, "the record's callback threw an exception");
+    return error_.set(flyball_governor_failed, "the record's callback threw an exception");
   }
+  return flyball_governor_ok;
 }
 
 std::int32_t FlyballGovernor::list(std::uint32_t number, FlyballGovernorEntry& entry) {

@@ -52,7 +52,7 @@ struct FlyballGovernor final {
   void answer(const flyball::Decision& decision, const flyball::Observation& seen);
   [[nodiscard]] double safe_speed_m_s(const flyball::Observation& seen) const;
   [[nodiscard]] flyball::Duration latency_bound() const;
-  void record(const flyball::Observation& seen);
+  std::int32_t record(const flyball::Observation& seen);
   [[nodiscard]] FlyballGovernorEntry signal_entry(std::size_t signal) const;
   [[nodiscard]] FlyballGovernorEntry knob_entry(std::size_t knob) const;
   [[nodiscard]] std::optional<FlyballGovernorEntry> stage_entry(std::size_t number) const;

@@ -49,9 +49,10 @@ bool ObservedSignals::observe(std::size_t signal, double value) {
 void ObservedSignals::derive(std::string_view name, double value) {
   const auto signal = index(name);
   FLYBALL_ASSERT(signal.has_value(), "no signal %.*s", static_cast<int>(name.size()), name.data());
-  if (!states_[*signal].is_callers) {
+  if (State& state = states_[*signal]; !state.is_callers) {
     fields_[*signal].set(seen_, value);
-    states_[*signal].is_known = true;
+    state.is_known = true;
+    state.is_refused = false;
   }
 }
 

@@ -22,7 +22,8 @@ class ObservedSignals {
   /// @return  Whether the signal can have such a value. Until it gets one that can be, the
   /// observation as a whole is not believable.
   bool observe(std::size_t signal, double value);
-  /// Does nothing where the caller says it himself. @pre There is a signal of this name.
+  /// Does nothing where the caller says it himself; who was refused at once does not yet. @pre
+  /// There is a signal of this name.
   void derive(std::string_view name, double value);
   [[nodiscard]] bool is_callers(std::string_view name) const;
   [[nodiscard]] bool is_known(std::size_t signal) const { return states_[signal].is_known; }

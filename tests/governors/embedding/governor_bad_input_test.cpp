@@ -4,6 +4,7 @@
 #include "governed_loop.h"
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -120,6 +121,34 @@ TEST(BadInput, a_knob_twice_and_one_too_many) {
   EXPECT_EQ(flyball_governor_ok, loop.open(loop.settings("density"))) << loop.error();
 }
 
+TEST(BadInput, a_knob_that_follows_one_that_follows) {
+  GovernedLoop loop;
+  FlyballGovernorKnob knob = loop.cell_knob();
+  ASSERT_EQ(flyball_governor_ok, loop.add(knob));
+  knob.name = "map.range_m";
+  knob.follows = "map.resolution_m";
+  ASSERT_EQ(flyball_governor_ok, loop.add(knob)) << loop.error();
+  knob.name = "map.height_m";
+  knob.follows = "map.range_m";
+  EXPECT_EQ(flyball_governor_invalid_input, loop.add(knob));
+  EXPECT_EQ(
+      "knob \"map.height_m\" follows \"map.range_m\", which follows \"map.resolution_m\" itself; "
+      "follow that one",
+      loop.error());
+}
+
+TEST(BadInput, a_record_that_throws) {
+  GovernedLoop loop;
+  loop.add(loop.cell_knob());
+  FlyballGovernorSettings settings = loop.settings("density");
+  settings.record = [](void*, const char*) { throw std::runtime_error{"the disk is full"}; };
+  ASSERT_EQ(flyball_governor_ok, loop.open(settings));
+  loop.observe("phase", flyball_governor_cruise);
+  EXPECT_EQ(0.80, loop.decide(0.0).in_force[0]) << "all else is done";
+  EXPECT_EQ(flyball_governor_failed, loop.code);
+  EXPECT_EQ("the record's callback threw an exception", loop.error());
+}
+
 TEST(BadInput, stages_that_cannot_be) {
   GovernedLoop loop;
   EXPECT_EQ(flyball_governor_invalid_input, loop.add(GovernedLoop::stage(nullptr)));
@@ -149,8 +178,10 @@ TEST(BadInput, calls_before_it_is_open_and_additions_afterwards) {
   EXPECT_EQ(flyball_governor_invalid_input, loop.observe("phase", 1.0));
   EXPECT_EQ("flyball_governor_observe: call flyball_governor_open first", loop.error());
   EXPECT_EQ(flyball_governor_invalid_input, flyball_governor_begin(loop.governor, 0, 0.0));
+  EXPECT_EQ("flyball_governor_begin: call flyball_governor_open first", loop.error());
   EXPECT_EQ(flyball_governor_invalid_input,
             flyball_governor_end(loop.governor, 0, 0.0, nullptr, 0));
+  EXPECT_EQ("flyball_governor_end: call flyball_governor_open first", loop.error());
   EXPECT_EQ(flyball_governor_invalid_input, flyball_governor_granted(loop.governor, "a.b", 0.0));
   EXPECT_EQ(flyball_governor_invalid_input, flyball_governor_decide(loop.governor, 0.0, nullptr));
   ASSERT_EQ(flyball_governor_ok, loop.open_density());
@@ -188,7 +219,7 @@ TEST(BadInput, settings_that_cannot_be) {
 TEST(BadInput, times_that_cannot_be) {
   GovernedLoop loop;
   loop.open_density();
-  for (const double now_s : {nan, infinite, -infinite, 1e300}) {
+  for (const double now_s : {nan, infinite, -infinite, 1e300, -100.0}) {
     loop.decide(now_s);
     EXPECT_EQ(flyball_governor_invalid_input, loop.code) << now_s;
   }

@@ -297,6 +297,15 @@ TEST_F(GovernorStages, count_their_work) {
   EXPECT_EQ(80.0, loop_.signal("tracking.matches"));
 }
 
+TEST_F(GovernorStages, are_listened_to_where_the_callers_own_latency_was_never_one) {
+  open();
+  EXPECT_EQ(flyball_governor_invalid_input, loop_.observe("latency_s", std::nan("")));
+  EXPECT_STREQ("table", loop_.decide(0.0).fallback);
+  run(mapping, 0.0, 0.1);
+  run(planning, 0.1, 0.2);
+  EXPECT_STREQ("none", loop_.decide(1.0).fallback);
+}
+
 TEST_F(GovernorStages, are_not_listened_to_where_the_caller_observes_latency_himself) {
   open();
   loop_.observe("latency_s", 0.7);

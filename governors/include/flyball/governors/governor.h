@@ -20,12 +20,12 @@
  *     }
  *     flyball_governor_close(governor);
  *
- * Time is the caller's: every call that needs it takes it in seconds, from any beginning, and it
- * never goes back. The library reads no clock (so nothing watches how long a policy takes to
- * decide), starts no thread, prints nothing and, once `flyball_governor_open` has returned,
- * allocates nothing. (A policy that is a library of its own runs in a process of its own, which
- * `open` starts.) One governor may be used from one thread at a time, several governors side by
- * side.
+ * Time is the caller's: every call that needs it takes it in seconds, from any beginning that
+ * lies before the first call, and it never goes back. The library reads no clock (so nothing
+ * watches how long a policy takes to decide), starts no thread, prints nothing and, once
+ * `flyball_governor_open` has returned, allocates nothing. (A policy that is a library of its own
+ * runs in a process of its own, which `open` starts.) One governor may be used from one thread at a
+ * time, several governors side by side.
  *
  * Every function returns a code: 0, or why it did nothing; then `flyball_governor_last_error` has
  * the sentence. Nothing that a caller passes ends the program, save a pointer that points nowhere.
@@ -103,7 +103,8 @@ typedef struct FlyballGovernorKnob {
 
   double min_dwell_s; /* It keeps a value at least this long; 0: `min_dwell_s` of the settings. */
   /** A knob added before, with which this one makes one setting: where both are to change, they do
-   * so at once or wait together, as map.range_m with map.resolution_m. NULL: it stands alone. */
+   * so at once or wait together, as map.range_m with map.resolution_m. That one follows none
+   * itself. NULL: it stands alone. */
   const char* follows;
 } FlyballGovernorKnob;
 
@@ -234,12 +235,14 @@ int32_t flyball_governor_end(
  * observed; who does it anyway is believed from then on. Each `latency_s` is a frame.
  * deadline_misses and queue_drops go back to 0 with each decision.
  *
- * A value that cannot be is refused, and until another one comes the next decisions take every knob
- * to its start value, because the policy would decide on something that is not so. */
+ * A value that cannot be is refused, and until another one comes (of a stage or a knob, too, for
+ * who was never believed before) the next decisions take every knob to its start value, because the
+ * policy would decide on something that is not so. */
 int32_t flyball_governor_observe(FlyballGovernor* governor, const char* signal, double value);
 
 /** Decides, and puts in force what changed. @param decision  May be NULL.
- * @return  flyball_governor_failed when a knob could not be applied; all else is done then. */
+ * @return  flyball_governor_failed when a knob could not be applied, or `record` threw; all else is
+ * done then. */
 int32_t flyball_governor_decide(FlyballGovernor* governor,
                                 double now_s,
                                 FlyballGovernorDecision* decision);
