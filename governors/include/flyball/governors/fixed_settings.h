@@ -20,8 +20,8 @@ namespace flyball {
 
 /// The wish that pins them, those of these parameters that `given` has declared.
 /// @param owner  For messages: `policy "fixed"`.
-/// @error `invalid_input` for a value that the knob cannot take: a static setting is not moved
-/// silently to another value.
+/// @error `invalid_input` for a value outside of what the knob can take. Within that the governor
+/// takes the nearest legal value, as of any wish: the lattice of a mapper, the clocks of a board.
 [[nodiscard]] Result<Decision> fixed_settings(const std::string& owner,
                                               const Parameters& given,
                                               const KnobSettings& knobs);
