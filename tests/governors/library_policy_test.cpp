@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "libraries/library_policy.h"
 
+#include "flyball/governors/plugin_policy.h"
+
 #include "policy_start.h"
 #include "scratch_folder.h"
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -130,6 +133,30 @@ TEST(LibraryPolicy, an_exception_through_the_c_function_is_caught) {
             kit::trouble(*policy));
   static_cast<void>(policy->decide(at_speed(1.0)));
   EXPECT_EQ("", kit::trouble(*policy)) << "of the last decision only";
+}
+
+class ThrowsItsPeriod final : public PluginPolicy {
+ public:
+  static PluginDescription description() { return {"throws", "Throws when asked how often", {}}; }
+  ThrowsItsPeriod(const PluginHost& /*host*/, const PluginStart& /*start*/) {}
+  void decide(const FlyballObservation& /*seen*/, PluginWishes& /*wishes*/) override {}
+  [[nodiscard]] double period_s() const override { throw std::runtime_error{"who knows"}; }
+};
+
+TEST(PluginEntry, lets_no_exception_out_that_the_period_throws) {
+  std::string logged;
+  FlyballHost host{};
+  host.struct_size = sizeof host;
+  host.context = &logged;
+  host.log = [](void* to, const char* text) { *static_cast<std::string*>(to) = text; };
+  FlyballStart start{};
+  start.struct_size = sizeof start;
+  const FlyballPolicy& policy = *PluginEntry<ThrowsItsPeriod>::policy();
+  void* const made = policy.create(&host, &start);
+  ASSERT_NE(made, nullptr);
+  EXPECT_EQ(policy.period_s(made), 0.0);
+  EXPECT_EQ(logged, "period_s threw an exception; the scenario's period is taken");
+  policy.destroy(made);
 }
 
 TEST(LibraryPolicy, what_is_no_library_is_named) {

@@ -231,7 +231,15 @@ class PluginEntry {
     }
     return 1;
   }
-  static double period_s(void* made) { return static_cast<Made*>(made)->mine.period_s(); }
+  static double period_s(void* made) {
+    auto* const self = static_cast<Made*>(made);
+    try {
+      return self->mine.period_s();
+    } catch (...) {
+      self->host.log("period_s threw an exception; the scenario's period is taken");
+    }
+    return 0.0;
+  }
 
   const PluginDescription& described_{described()};
   std::vector<FlyballParameter> parameters_{};
