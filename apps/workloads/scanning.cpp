@@ -43,8 +43,9 @@ class Scanning final : public Workload {
       return refused("workload \"scanning\" flies without a map, above everything, and world \"" +
                      site.place + "\" names no such height; try: world farm");
     }
-    const double floor_m = *site.open_above_m + clear_margin_m;
-    const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m - clear_margin_m;
+    const double margin_m = std::max(least_margin_m, body_and_tube_m + widening_m(settings));
+    const double floor_m = *site.open_above_m + margin_m;
+    const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m - margin_m;
     if (scan.height_m < floor_m || scan.height_m > ceiling_m) {
       return refused("scan.height_m = " + metres(scan.height_m) + " must be at least " +
                      metres(floor_m) + ", above what stands in world \"" + site.place +
@@ -59,11 +60,9 @@ class Scanning final : public Workload {
     return Done{};
   }
 
-  /// No map corrects the error of a GPS fix, so the tube around the reference has room for three
-  /// standard deviations of it.
   void adapt(Brief& brief) const override {
     brief.maps_obstacles = false;
-    brief.tube.at_rest_m += 3.0 * brief.settings.fix_error_m;
+    brief.tube.at_rest_m += widening_m(brief.settings);
   }
 
   void build(Graph& graph, const FlightParts& parts) override {
@@ -90,7 +89,12 @@ class Scanning final : public Workload {
 
  private:
   enum class Stage : std::uint8_t { ready, climbing, flying, landing, done };
-  static constexpr double clear_margin_m = 1.5;  // Half a body, its tube, and the fix's error.
+  static constexpr double least_margin_m = 1.5;
+  static constexpr double body_and_tube_m = 1.0;  // Chosen: half a body, its tube, and a cell.
+
+  /// No map corrects the error of a GPS fix, so the tube around the reference has room for three
+  /// standard deviations of it.
+  static double widening_m(const FlightSettings& settings) { return 3.0 * settings.fix_error_m; }
 
   /// Where the lanes lie along the path.
   struct Lanes {

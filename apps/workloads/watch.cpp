@@ -35,7 +35,8 @@ class Watch final : public Workload {
       return Error{ErrorCode::invalid_input, text};
     }
     const double ceiling_m = site.bounds_W.max.z() - site.ground_z_m;
-    if (height_m == 0.0 || (height_m >= least_height_m && height_m <= ceiling_m)) {
+    constexpr double rounding_m = 1e-6;  // Of a bound, which is told with six digits.
+    if (height_m == 0.0 || (height_m >= least_height_m && height_m <= ceiling_m + rounding_m)) {
       return Done{};
     }
     char text[160];

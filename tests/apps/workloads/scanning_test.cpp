@@ -95,6 +95,10 @@ TEST(Scanning, is_refused_below_the_tree_tops_and_beyond_the_bounds) {
   low.scan.height_m = 6.0;
   EXPECT_NE(refusal(low).find("scan.height_m = 6 m must be at least 9.5 m"), std::string::npos)
       << refusal(low);
+  Scenario vague = small_farm();
+  vague.scan.height_m = 9.5;
+  vague.gps.wander_m = 0.5;  // Its tube of three standard deviations would reach the trees.
+  EXPECT_NE(refusal(vague).find("must be at least 10.5"), std::string::npos) << refusal(vague);
   Scenario wide = small_farm();
   wide.scan.width_m = 400.0;
   EXPECT_NE(refusal(wide).find("must fit into the world's 100 m x 100 m"), std::string::npos)
