@@ -5,6 +5,7 @@
 // it.
 
 #include "flyball/governors/clock_policy.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
 
@@ -26,8 +27,9 @@ class Conservative final : public flyball::ClockRule {
     if (down_threshold_ >= up_threshold_) {
       return flyball::Error{
           flyball::ErrorCode::invalid_input,
-          "policy \"conservative\": down_threshold = " + std::to_string(down_threshold_) +
-              " must be below up_threshold = " + std::to_string(up_threshold_)};
+          "policy \"conservative\": down_threshold = " +
+              flyball::short_number_text(down_threshold_) +
+              " must be below up_threshold = " + flyball::short_number_text(up_threshold_)};
     }
     return flyball::Done{};
   }

@@ -7,6 +7,7 @@
 #include "flyball/governors/policy.h"
 #include "flyball/governors/required_knobs.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <optional>
 #include <string>
@@ -50,12 +51,12 @@ class Density final : public flyball::Policy {
     fine_since_.reset();
     fine_until_ = flyball::MissionTime{};
     if (fine_m_ >= coarse_m_) {
-      return refused("fine_m = " + std::to_string(fine_m_) +
-                     " must be below coarse_m = " + std::to_string(coarse_m_));
+      return refused("fine_m = " + flyball::short_number_text(fine_m_) +
+                     " must be below coarse_m = " + flyball::short_number_text(coarse_m_));
     }
     if (leave_ > enter_) {
-      return refused("leave_density = " + std::to_string(leave_) +
-                     " must not be above enter_density = " + std::to_string(enter_));
+      return refused("leave_density = " + flyball::short_number_text(leave_) +
+                     " must not be above enter_density = " + flyball::short_number_text(enter_));
     }
     const bool sets_range = fine_range_m_ > 0.0 || coarse_range_m_ > 0.0;
     const auto needed =

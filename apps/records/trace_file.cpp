@@ -4,10 +4,9 @@
 #include "records/trace_file.h"
 
 #include "flyball/records/version.h"
+#include "flyball/runtime/text/number_text.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -23,10 +22,7 @@ std::string number(double value) {
   if (!std::isfinite(value)) {
     return "null";
   }
-  std::array<char, 32> text{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  std::snprintf(text.data(), text.size(), "%.17g", value);
-  return text.data();
+  return short_number_text(value, 17);
 }
 
 std::string value_text(const FieldValue& value) {

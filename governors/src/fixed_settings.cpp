@@ -2,6 +2,7 @@
 #include "flyball/governors/fixed_settings.h"
 
 #include "flyball/governors/required_knobs.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <array>
 
@@ -87,12 +88,12 @@ Result<Decision> fixed_settings(const std::string& owner,
     }
     const auto refused = [&](const std::string& why) {
       std::string text = owner;
-      text.append(": ").append(setting.parameter).append(" = ").append(std::to_string(value));
+      text.append(": ").append(setting.parameter).append(" = ").append(short_number_text(value));
       text.append(": ").append(why).append("; try: flyball list knobs");
       return Error{ErrorCode::invalid_input, text};
     };
     if (value < setting.least) {
-      return refused("must be at least " + std::to_string(setting.least));
+      return refused("must be at least " + short_number_text(setting.least));
     }
     if (!reaches(*knobs.spec(setting.knob), value)) {
       return refused(std::string{setting.knob} + " cannot take this value here");

@@ -4,6 +4,7 @@
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/surroundings.h"
 #include "flyball/governors/waiting_share.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,12 +99,12 @@ Result<MapRule> MapRule::make(const std::string& owner,
   }
   MapRule rule{given, knobs, vehicle};
   if (rule.levels_m_.front() >= rule.levels_m_.back()) {
-    return refused("fine_m = " + std::to_string(rule.levels_m_.front()) +
-                   " must be below coarse_m = " + std::to_string(rule.levels_m_.back()));
+    return refused("fine_m = " + short_number_text(rule.levels_m_.front()) +
+                   " must be below coarse_m = " + short_number_text(rule.levels_m_.back()));
   }
   if (rule.most_range_m_ > 0.0 && rule.least_range_m_ >= rule.most_range_m_) {
-    return refused("least_range_m = " + std::to_string(rule.least_range_m_) +
-                   " must be below most_range_m = " + std::to_string(rule.most_range_m_));
+    return refused("least_range_m = " + short_number_text(rule.least_range_m_) +
+                   " must be below most_range_m = " + short_number_text(rule.most_range_m_));
   }
   if (const double door_m = given.number("door_m"); door_m > 0.0 && !rule.keeps_hits_) {
     const double nearest_m = rule.cells_knob_.nearest(door_m);

@@ -12,6 +12,7 @@
 #include "flyball/governors/required_knobs.h"
 #include "flyball/governors/required_power.h"
 #include "flyball/runtime/registry.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "ablation.h"
 #include "map_rule.h"
@@ -129,8 +130,8 @@ class MissionEnergy final : public flyball::Policy,
     if (const double margin = given.number("margin"); margin != 0.0) {
       if (margin < 1.0) {
         return flyball::Error{flyball::ErrorCode::invalid_input,
-                              std::string{self} + ": margin = " + std::to_string(margin) +
-                                  " must be at least 1, or 0"};
+                              std::string{self} + ": margin = " +
+                                  flyball::short_number_text(margin) + " must be at least 1, or 0"};
       }
       settings.latency.bound.first = std::log(margin);
       settings.latency.bound.eta = 0.0;

@@ -2,6 +2,7 @@
 #include "flyball/runtime/graph.h"
 
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -13,9 +14,7 @@ namespace flyball {
 namespace {
 
 std::string milliseconds(Duration d) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g ms", 1e3 * to_seconds(d));
-  return text;
+  return short_number_text(1e3 * to_seconds(d)) + " ms";
 }
 
 std::string_view name_of(OnMiss on_miss) {

@@ -2,6 +2,7 @@
 #include "flyball/runtime/knob.h"
 
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,12 @@ namespace flyball {
 
 namespace {
 
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 std::string legal_values(const KnobSpec& spec) {
   if (spec.legal.empty()) {
-    return text_of(spec.min) + " to " + text_of(spec.max);
+    return short_number_text(spec.min) + " to " + short_number_text(spec.max);
   }
   return listed(spec.legal, [&spec, label = spec.labels.begin()](double value) mutable {
-    return text_of(value) + (label != spec.labels.end() ? " (" + *label++ + ")" : "");
+    return short_number_text(value) + (label != spec.labels.end() ? " (" + *label++ + ")" : "");
   });
 }
 
@@ -55,7 +50,7 @@ Status check_declaration(const KnobSpec& spec) {
     return wrong("needs finite limits, and legal values within them in ascending order");
   }
   if (!spec.is_legal(spec.fallback)) {
-    return wrong("cannot be " + text_of(spec.fallback) + " " + spec.unit +
+    return wrong("cannot be " + short_number_text(spec.fallback) + " " + spec.unit +
                  " at first; legal: " + legal_values(spec));
   }
   if (!spec.labels.empty() && spec.labels.size() != spec.legal.size()) {
@@ -119,8 +114,8 @@ Status KnobSettings::set(std::string_view name, double value) {
                  "no knob \"" + std::string{name} + "\"; try: flyball list knobs"};
   }
   if (!knob->is_legal(value)) {
-    return Error{ErrorCode::invalid_input, "knob " + knob->name + " cannot be " + text_of(value) +
-                                               " " + knob->unit +
+    return Error{ErrorCode::invalid_input, "knob " + knob->name + " cannot be " +
+                                               short_number_text(value) + " " + knob->unit +
                                                "; legal: " + legal_values(*knob)};
   }
   values_[static_cast<std::size_t>(knob - specs_.data())] = value;

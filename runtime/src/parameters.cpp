@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/assert.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,6 @@
 namespace flyball {
 
 namespace {
-
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::string names_of(const std::vector<ParameterSpec>& specs) {
   const std::string names = listed(specs, [](const ParameterSpec& spec) { return spec.name; });
@@ -32,9 +27,10 @@ std::optional<std::string> fault_of(const ParameterSpec& spec, const ParameterVa
   }
   if (const double* number = std::get_if<double>(&value)) {
     const bool inside = *number >= spec.min && *number <= spec.max;  // false for NaN
-    return inside ? std::nullopt
-                  : std::optional{text_of(*number) + " is not within " + text_of(spec.min) +
-                                  " to " + text_of(spec.max)};
+    return inside
+               ? std::nullopt
+               : std::optional{short_number_text(*number) + " is not within " +
+                               short_number_text(spec.min) + " to " + short_number_text(spec.max)};
   }
   const auto& text = std::get<std::string>(value);
   const auto& choices = spec.choices;
@@ -58,9 +54,10 @@ std::vector<Error> faults_of_declaration(const std::string& owner,
       continue;
     }
     if (!(spec.min <= spec.max)) {  // true for NaN
-      errors.push_back({ErrorCode::invalid_input,
-                        start + "from " + text_of(spec.min) + " to " + text_of(spec.max) +
-                            "; its minimum must not be above its maximum"});
+      errors.push_back(
+          {ErrorCode::invalid_input, start + "from " + short_number_text(spec.min) + " to " +
+                                         short_number_text(spec.max) +
+                                         "; its minimum must not be above its maximum"});
     } else if (std::isnan(std::get<double>(spec.fallback))) {
       errors.push_back({ErrorCode::invalid_input, start + "with a default that is no number"});
     }

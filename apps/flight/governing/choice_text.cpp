@@ -3,8 +3,9 @@
 
 #include "flyball/flight/governing/choice_text.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -17,11 +18,8 @@ namespace {
 
 constexpr std::string_view fallback_mark = "fallback ";
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg)
-  std::snprintf(text.data(), text.size(), "%.17g", value);
-  return text.data();
+std::string exact(double value) {
+  return short_number_text(value, 17);
 }
 
 /// The number that the rest of a word is, if it is one.
@@ -52,7 +50,7 @@ bool have_same_bits(double a, double b) {
 std::string settings_text(const Decision& decision) {
   std::string text;
   for (const auto& [knob, value] : decision) {
-    text += (text.empty() ? "" : " ") + std::string{knob} + "=" + number(value);
+    text += (text.empty() ? "" : " ") + std::string{knob} + "=" + exact(value);
   }
   return text.empty() ? "nothing" : text;
 }

@@ -5,6 +5,7 @@
 #include "flyball/runtime/observation_fields.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdio>
 
@@ -28,21 +29,10 @@ class Line {
   }
 
  private:
-  /// The host's locale may have a comma, of several bytes even, where a record has a point.
-  /// (`std::to_chars` needs a newer compiler than boards may have.)
-  static std::array<char, 48> number(double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", value);
-    const auto is_of_number = [](char one) {
-      return (one >= '0' && one <= '9') || (one >= 'a' && one <= 'z') || one == '-' || one == '+';
-    };
-    const auto end = std::find(text.begin(), text.end(), '\0');
-    const auto mark = std::find_if_not(text.begin(), end, is_of_number);
-    if (mark != end) {
-      *mark = '.';
-      const auto digits = std::find_if(mark + 1, end, is_of_number);
-      std::fill(std::copy(digits, end, mark + 1), end, '\0');
-    }
+  /// As `%.17g`, but with a point whatever the host's locale.
+  static std::array<char, 32> number(double value) {
+    std::array<char, 32> text{};
+    std::to_chars(text.begin(), text.end() - 1, value, std::chars_format::general, 17);
     return text;
   }
 

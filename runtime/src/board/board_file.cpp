@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flyball/runtime/board/board_file.h"
 
+#include "flyball/runtime/text/number_text.h"
 #include "flyball/runtime/text/toml_text.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -46,7 +46,8 @@ class BoardTable {
       if (given && *given >= min && *given <= max) {
         value = *given;
       } else {
-        complain(key, "must be a number from " + short_text(min) + " to " + short_text(max));
+        complain(key, "must be a number from " + short_number_text(min) + " to " +
+                          short_number_text(max));
       }
     }
   }
@@ -89,11 +90,6 @@ class BoardTable {
   }
 
  private:
-  static std::string short_text(double number) {
-    std::ostringstream text;
-    text << number;
-    return text.str();
-  }
   const toml::node* look_up(const char* key) {
     known_.insert(key);
     return table_.get(key);

@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/board/clock_meter.h"
 #include "flyball/runtime/text/listed.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "board/board_meters.h"
 #include "board/clock_control.h"
@@ -22,11 +23,7 @@ std::string line(const std::string& name, const std::string& text) {
   return padded + text + "\n";
 }
 
-std::string short_number(double value) {
-  char text[32];  // NOLINT(modernize-avoid-c-arrays): snprintf's
-  std::snprintf(static_cast<char*>(text), sizeof text, "%.4g", value);
-  return static_cast<const char*>(text);
-}
+constexpr int meter_digits = 4;
 
 /// "may be set", or which file stands in the way.
 std::string permission(const LinuxSystem& system, const std::vector<std::string>& files) {
@@ -82,8 +79,9 @@ std::string heat_line(const LinuxSystem& system,
   if (!heat) {
     return "no thermal zone can be read";
   }
-  return heat->zone + " " + short_number(heat->temperature_c) + " C" +
-         (heat->trip_c ? ", takes clocks away from " + short_number(*heat->trip_c) + " C on"
+  return heat->zone + " " + short_number_text(heat->temperature_c, meter_digits) + " C" +
+         (heat->trip_c ? ", takes clocks away from " +
+                             short_number_text(*heat->trip_c, meter_digits) + " C on"
                        : ", without a trip that takes clocks away");
 }
 
@@ -103,7 +101,8 @@ std::string power_line(const LinuxSystem& system,
 std::string rails_line(const LinuxSystem& system, const BoardInventory& found) {
   return listed(found.rails, [&system](const PowerRail& rail) {
     const auto power = rail_power(system, rail);
-    return rail.label + " " + (power ? short_number(power->value()) + " W" : "cannot be read");
+    return rail.label + " " +
+           (power ? short_number_text(power->value(), meter_digits) + " W" : "cannot be read");
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "board/sysfs_text.h"
 
+#include "flyball/runtime/text/number_text.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -102,9 +104,7 @@ std::string khz_of(Hertz clock) {
 }
 
 std::string mhz_of(Hertz clock) {
-  char text[32];  // NOLINT(modernize-avoid-c-arrays): snprintf's
-  std::snprintf(static_cast<char*>(text), sizeof text, "%.6g MHz", clock.value() * 1e-6);
-  return static_cast<const char*>(text);
+  return short_number_text(clock.value() * 1e-6) + " MHz";
 }
 
 }  // namespace flyball

@@ -3,6 +3,7 @@
 
 #include "flyball/runtime/assert.h"
 #include "flyball/runtime/realtime/cpus.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "realtime/realtime_engine.h"
 #include <algorithm>
@@ -130,7 +131,7 @@ void RealtimeEngine::tell_news() {
       case News::Kind::stuck:
         if (settings.tell) {
           settings.tell("the job of node " + spec(one.index).name + " has run for " +
-                        std::to_string(to_seconds(one.running)) + " s and has not ended");
+                        short_number_text(to_seconds(one.running)) + " s and has not ended");
         }
         tell(stuck_listeners, one.index, one.running);
         break;

@@ -2,6 +2,7 @@
 #include "flyball/runtime/realtime/replay_executor.h"
 
 #include "flyball/runtime/assert.h"
+#include "flyball/runtime/text/number_text.h"
 
 #include "message_exchange.h"
 #include "node_job.h"
@@ -20,7 +21,7 @@ std::size_t index(int i) {
 
 Error differs(const NodeSpec& spec, MissionTime at, const std::string& how) {
   return {ErrorCode::failed, "the job of node " + spec.name + " that began at " +
-                                 std::to_string(to_seconds(at)) + " s " + how +
+                                 short_number_text(to_seconds(at)) + " s " + how +
                                  ": does it use something beside its messages?"};
 }
 

@@ -11,8 +11,7 @@ std::string number_text(double value) {
   return {text.begin(), std::to_chars(text.begin(), text.end(), value).ptr};
 }
 
-std::string short_number_text(double value) {
-  constexpr int digits = 6;
+std::string short_number_text(double value, int digits) {
   std::array<char, 32> text{};
   return {text.begin(),
           std::to_chars(text.begin(), text.end(), value, std::chars_format::general, digits).ptr};
