@@ -23,6 +23,7 @@ Exits with 1 where a cell misses a bar, with 2 where one could not be flown.
 """
 
 import argparse
+import datetime
 import json
 import math
 import pathlib
@@ -206,10 +207,10 @@ def judged(cell, table, options):
 
 
 HEADS = ["cell", "pairs", "over the best", "95 %", "floor", "best opponent", "success", "its",
-         "collisions", "misses", "flown with"]
+         "collisions", "misses", "flown"]
 
 
-def row(told, version):
+def row(told, day):
     has = told["ratio"] is not None
     best = told["best"]
     if best == "fixed_best":
@@ -218,7 +219,7 @@ def row(told, version):
             "[{:.3f}, {:.3f}]".format(*told["interval"]) if has else "-",
             f"{told['floor']:.3f}" if told.get("floor") else "-", best,
             f"{told['successes']}/{told['n']}", f"{told['best_successes']}/{told['n']}",
-            str(told["collisions"]), ", ".join(told["missed"]) or "-", version]
+            str(told["collisions"]), ", ".join(told["missed"]) or "-", day]
 
 
 def report(rows):
@@ -280,13 +281,6 @@ def names(known):
     return read
 
 
-def commit():
-    """Of the sources beside this file."""
-    asked = ["git", "-C", pathlib.Path(__file__).parent, "rev-parse", "--short=8", "HEAD"]
-    said = subprocess.run(asked, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
-    return said.stdout.strip() or "unknown"
-
-
 def parsed():
     source = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__,
@@ -308,8 +302,6 @@ def parsed():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("flights/matrix"))
     parser.add_argument("--update", type=pathlib.Path, metavar="FILE",
                         help="puts the cells into this page (policies/MATRIX.md), too")
-    parser.add_argument("--flown-with", metavar="COMMIT",
-                        help="what each row says of its program (default: the sources' commit)")
     parser.add_argument("--list", action="store_true", help="prints the cells' commands and ends")
     return parser.parse_args()
 
@@ -332,7 +324,7 @@ def fly_all(options, cells):
         table = cell.fly(options)
         if table is not None:
             done.append(judged(cell, table, options))
-            rows.append(row(done[-1], options.flown_with or commit()))
+            rows.append(row(done[-1], datetime.date.today().isoformat()))
             print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
             if options.update:
                 options.update.write_text(updated(options.update.read_text(), rows[-1:]))
