@@ -134,9 +134,7 @@ void OffboardControl::obey(const FlightCommand& command, Duration now) {
       take_off(command.height_m, now);
       break;
     case FlightCommand::Kind::land:
-      if (is_in_charge()) {
-        land(now);
-      }
+      come_down(now);
       break;
     case FlightCommand::Kind::hold:
       if (leg_ == Leg::climbing || leg_ == Leg::flying) {

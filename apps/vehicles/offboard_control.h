@@ -110,6 +110,7 @@ class OffboardControl {
   void climb(Duration now);
   void await_landing(Duration now);
   void take_off(double height_m, Duration now);
+  void come_down(Duration now);
   void land(Duration now);
   void watch_hands();
   [[nodiscard]] bool waited(Duration limit, Duration now) const { return now - since_ > limit; }

@@ -44,17 +44,18 @@ void OffboardControl::step_flight(Duration now) {
   }
 }
 
-/// From the moment in which the autopilot was ours and armed, another mode, or none, is somebody
-/// else's decision: a pilot's, a ground station's or a fail-safe's.
+/// From the moment in which the autopilot was in our mode, another one, or none, is somebody else's
+/// decision: a pilot's, a ground station's or a fail-safe's.
 void OffboardControl::watch_hands() {
+  const bool is_arming = leg_ == Leg::arming;
   const bool is_up = leg_ == Leg::climbing || leg_ == Leg::flying;
-  if (!is_up && (leg_ != Leg::landing || !telemetry_.is_armed())) {
+  if (!is_arming && !is_up && (leg_ != Leg::landing || !telemetry_.is_armed())) {
     return;
   }
   const std::uint32_t mode = telemetry_.mode();
   const bool is_ours =
       mode == commanded_mode(kind()) || (leg_ == Leg::landing && mode == landing_mode(kind()));
-  if (is_ours && telemetry_.is_armed()) {
+  if (is_ours && (is_arming || telemetry_.is_armed())) {
     return;
   }
   fail(is_ours ? std::string{"the autopilot was disarmed in flight"}
@@ -113,6 +114,9 @@ void OffboardControl::await_arming(Duration now) {
 }
 
 void OffboardControl::climb(Duration now) {
+  if (!telemetry_.is_on_ground().value_or(true)) {
+    commands_.forget();  // ArduPilot denies a vehicle in the air what an answer was lost of.
+  }
   const VehicleMotion motion = telemetry_.motion(now);
   const double left_m = goal_height_m_ - motion.X_WB.translation().z();
   if (std::abs(left_m) < near_m && motion.v_WB.norm() < hovering_m_s) {
@@ -153,7 +157,16 @@ void OffboardControl::take_off(double height_m, Duration now) {
 
 void OffboardControl::give_up(std::string sentence, Duration now) {
   fail(std::move(sentence));
-  if (is_in_charge()) {
+  come_down(now);
+}
+
+/// Where nothing is armed yet, nothing will be.
+void OffboardControl::come_down(Duration now) {
+  if (leg_ == Leg::streaming || leg_ == Leg::switching) {
+    stream_.end();
+    commands_.forget();
+    enter(Leg::standing, now);
+  } else if (is_in_charge()) {
     land(now);
   }
 }

@@ -46,14 +46,64 @@ TEST(OffboardFlight, streams_to_px4_before_it_asks_for_the_mode_and_before_it_ar
 }
 
 TEST(OffboardFlight, goes_by_what_the_autopilot_shows_where_its_answers_are_lost) {
-  kit::OffboardRig rig;
-  ASSERT_TRUE(rig.connect());
-  rig.autopilot.rules().loses_answers = true;
-  ASSERT_TRUE(rig.take_off(2.0)) << rig.control.failure();
-  rig.run(5s);  // Nothing is repeated any more.
-  const std::size_t asked = rig.autopilot.commands().size();
-  ASSERT_TRUE(rig.land()) << rig.control.failure();
-  EXPECT_LE(rig.autopilot.commands().size() - asked, 3U);  // Until a heartbeat shows the mode.
+  for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
+    kit::OffboardRig rig{kit::safe_rules(kind)};
+    ASSERT_TRUE(rig.connect());
+    rig.autopilot.rules().loses_answers = true;
+    rig.control.obey({FlightCommand::Kind::take_off, 2.0}, rig.now);
+    ASSERT_TRUE(rig.run(30s, [&] { return rig.autopilot.moved_m().z() > 0.3; }));
+    rig.autopilot.rules().loses_answers = false;  // It denies what is asked once more in the air.
+    ASSERT_TRUE(rig.run(30s, [&] { return rig.is_done(); }));
+    EXPECT_EQ(rig.control.failure(), "");
+    rig.autopilot.rules().loses_answers = true;
+    rig.run(5s);  // Nothing is repeated any more.
+    const std::size_t asked = rig.autopilot.commands().size();
+    ASSERT_TRUE(rig.land()) << rig.control.failure();
+    EXPECT_LE(rig.autopilot.commands().size() - asked, 3U);  // Until a heartbeat shows the mode.
+  }
+}
+
+TEST(OffboardFlight, arms_and_takes_off_no_more_once_somebody_has_taken_over) {
+  for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
+    kit::StandInRules rules = kit::safe_rules(kind);
+    rules.deaf_to = mav::command_arm;
+    kit::OffboardRig rig{rules};
+    ASSERT_TRUE(rig.connect());
+    rig.control.obey({FlightCommand::Kind::take_off, 2.0}, rig.now);
+    const auto last = [&rig] { return rig.autopilot.commands().back().command; };
+    ASSERT_TRUE(rig.run(10s, [&] { return last() == mav::command_arm; }));
+    rig.autopilot.switch_mode(kind == AutopilotKind::px4 ? kit::StandInAutopilot::px4_position
+                                                         : kit::StandInAutopilot::copter_loiter);
+    ASSERT_TRUE(rig.run(2s, [&] { return !rig.control.failure().empty(); }));
+    EXPECT_NE(rig.control.failure().find("somebody took over"), std::string::npos);
+    rig.autopilot.rules().deaf_to = 0;
+    const std::size_t asked = rig.autopilot.commands().size();
+    rig.run(5s);
+    EXPECT_EQ(rig.autopilot.commands().size(), asked);
+    EXPECT_NEAR(rig.autopilot.moved_m().z(), 0.0, 0.1);
+    EXPECT_FALSE(rig.control.is_in_charge());
+  }
+}
+
+TEST(OffboardFlight, that_ends_before_it_is_armed_does_not_take_off) {
+  for (const AutopilotKind kind : {AutopilotKind::px4, AutopilotKind::ardupilot}) {
+    for (const bool gives_up : {false, true}) {
+      kit::OffboardRig rig{kit::safe_rules(kind)};
+      ASSERT_TRUE(rig.connect());
+      rig.autopilot.rules().deaf_to = mav::command_set_mode;  // ArduPilot would arm at once.
+      rig.control.obey({FlightCommand::Kind::take_off, 2.0}, rig.now);
+      rig.run(500ms);
+      if (gives_up) {
+        rig.control.give_up("the flight is off", rig.now);
+      } else {
+        rig.control.obey({FlightCommand::Kind::land, 0.0}, rig.now);
+      }
+      rig.autopilot.rules().deaf_to = 0;
+      rig.run(8s);
+      EXPECT_FALSE(rig.autopilot.is_armed());
+      EXPECT_TRUE(rig.control.status(rig.now).manoeuvre_done);
+    }
+  }
 }
 
 TEST(OffboardFlight, ends_before_the_flight_when_arming_is_denied) {
