@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
 #include <zstd.h>
 
 namespace flyball {
@@ -254,7 +255,8 @@ Result<McapRecovery> recover_mcap(const std::string& broken, const std::string& 
     return Error{ErrorCode::invalid_input,
                  "\"" + broken + "\" is no MCAP file: it does not begin like one"};
   }
-  const std::string part = out + ".part";
+  // Of this process: the broken file may have the name that such a file has.
+  const std::string part = out + "." + std::to_string(getpid()) + ".part";
   auto to = McapOutput::open(part);
   if (!to) {
     return to.error();

@@ -128,7 +128,7 @@ Message SoftErrors::pass(int topic, const Message& message) {
   Message passed = message;
   for (Flip& flip : flips_) {
     const bool is_due = flip.topic == topic && !flip.is_done &&
-                        queue_.now() >= begin_of(scenario_.events[flip.event]);
+                        is_active(scenario_.events[flip.event], queue_.now());
     if (is_due && passed) {
       passed = flipped(flip, spec, passed);
     }

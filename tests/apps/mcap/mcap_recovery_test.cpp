@@ -48,6 +48,13 @@ struct McapRecoveryTest : testing::Test {
   std::string whole{};
 };
 
+TEST_F(McapRecoveryTest, leaves_a_broken_file_alone_whatever_its_name_is) {
+  const std::string broken = folder.file("out.mcap.part", whole.substr(0, whole.size() / 2));
+  const auto done = recover_mcap(broken, out);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(folder.content("out.mcap.part"), whole.substr(0, whole.size() / 2));
+}
+
 TEST_F(McapRecoveryTest, brings_back_every_closed_chunk_wherever_the_file_is_cut) {
   const McapReader original{path};
   ASSERT_EQ(original.chunks.size(), 13U);

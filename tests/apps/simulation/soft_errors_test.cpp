@@ -51,6 +51,14 @@ TEST(SoftErrors, one_bit_of_one_number_flips_and_the_record_says_which) {
   EXPECT_NE(what.find(" became "), std::string::npos) << what;
 }
 
+TEST(SoftErrors, that_end_before_a_message_comes_hit_none) {
+  Scenario scenario = hit("setpoint", 1.0);
+  scenario.events.front().topic = "plan.response";  // None so early.
+  scenario.events.front().at_s = 0.0;
+  scenario.events.front().until_s = 0.5;
+  EXPECT_EQ(kit::flown(scenario).summary.quality.at("bit_flips"), 0.0);
+}
+
 TEST(SoftErrors, draws_differ_and_the_same_draw_repeats) {
   const MissionRecord one = kit::flown(hit("setpoint", 1.0));
   const MissionRecord same = kit::flown(hit("setpoint", 1.0));
