@@ -18,6 +18,7 @@
 #include "commands.h"
 #include "console.h"
 #include "flight_batch.h"
+#include "record_place.h"
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -148,50 +149,6 @@ Result<std::unique_ptr<OnboardRecord>> open_record(const RunOptions& options,
                                 {"seed", std::to_string(scenario.seed)},
                                 {"version", version()}}}});
 }
-
-/// Where a record is written: what was there before is back when nothing flies. Leaves a device or
-/// a pipe where it is.
-class RecordPlace {
- public:
-  explicit RecordPlace(const std::string& path) {
-    std::error_code failed;
-    path_ = fs::weakly_canonical(fs::absolute(path, failed), failed);  // What a link names.
-    if (fs::is_regular_file(path_, failed)) {
-      before_ = unused_beside(path_);
-      fs::rename(path_, before_, failed);
-      has_before_ = !failed;
-    }
-  }
-  RecordPlace(const RecordPlace&) = delete;
-  RecordPlace& operator=(const RecordPlace&) = delete;
-  ~RecordPlace() {
-    std::error_code ignored;
-    if (!has_flown_ && fs::is_regular_file(path_, ignored)) {
-      fs::remove(path_, ignored);
-    }
-    if (has_before_ && has_flown_) {
-      fs::remove(before_, ignored);
-    } else if (has_before_) {
-      fs::rename(before_, path_, ignored);
-    }
-  }
-  void keep() { has_flown_ = true; }
-
- private:
-  /// FILE.before, unless that is somebody's own, or what was there before a flight that was killed.
-  static fs::path unused_beside(const fs::path& file) {
-    fs::path before{file.string() + ".before"};
-    for (int i = 2; fs::exists(before); ++i) {
-      before = file.string() + ".before" + std::to_string(i);
-    }
-    return before;
-  }
-
-  fs::path path_;
-  fs::path before_;
-  bool has_before_{};
-  bool has_flown_{};
-};
 
 /// One thing that is written may not be another one.
 Status keep_outputs_apart(const RunOptions& options, const std::string& folder) {

@@ -157,13 +157,10 @@ std::vector<std::string> point_commands(const SweepRequest& request) {
 
 std::vector<std::string> sweep_words(const SweepRequest& request) {
   const bool is_sweep = !request.plan.axes.empty();  // The command wants a setting to vary.
-  std::vector<std::string> words{"flyball",
-                                 is_sweep ? "sweep" : "compare",
-                                 request.flight.scenario,
-                                 "--policies",
-                                 joined(request.plan.policies),
-                                 "--seeds",
-                                 seeds_word(request)};
+  std::vector<std::string> words{
+      "flyball",          is_sweep ? "sweep" : "compare", request.flight.scenario,
+      "--policies",       joined(request.plan.policies),  "--seeds",
+      seeds_word(request)};
   for (const SweepAxis& axis : request.plan.axes) {
     words.insert(words.end(), {"--over", axis.key + "=" + joined(axis.values)});
   }

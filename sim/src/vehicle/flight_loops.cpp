@@ -103,8 +103,8 @@ RotorSpeeds FlightController::mix(double thrust_n, const Vec3& torque_B) const {
   const double spread = tilt.maxCoeff() - tilt.minCoeff();
   tilt *= spread > top_n - bottom_n ? (top_n - bottom_n) / spread : 1.0;
   // Not std::clamp: where the tilt takes all the room, rounding may put the bounds the wrong way.
-  const double collective = std::min(std::max(0.25 * thrust_n, bottom_n - tilt.minCoeff()),
-                                     top_n - tilt.maxCoeff());
+  const double collective =
+      std::min(std::max(0.25 * thrust_n, bottom_n - tilt.minCoeff()), top_n - tilt.maxCoeff());
   const Eigen::Array4d base = collective + tilt;
   double share = 1.0;
   for (int i = 0; i < 4; ++i) {

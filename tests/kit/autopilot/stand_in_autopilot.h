@@ -186,10 +186,6 @@ class StandInAutopilot {
     }
   }
 
-  [[nodiscard]] bool is_in_air() const {
-    return vehicle_.state().X_WB.translation().z() > stand_m_ + 0.1;
-  }
-
   std::uint8_t obey(const MavCommandLong& command) {
     constexpr std::uint8_t denied = 2;
     switch (command.command) {
@@ -210,7 +206,7 @@ class StandInAutopilot {
         armed_height_m_ = vehicle_.state().X_WB.translation().z();
         return mav::result_accepted;
       case mav::command_take_off:
-        if (!is_armed_ || is_px4() || rules_.denies_take_off || is_in_air()) {
+        if (!is_armed_ || is_px4() || rules_.denies_take_off || moved_m().z() > 0.1) {
           return denied;
         }
         controller_.take_off(vehicle_.state(),

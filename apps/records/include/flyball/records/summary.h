@@ -40,7 +40,7 @@ struct Summary {
   double distance_m{};
   double mean_speed_m_s{};
   double max_speed_m_s{};  ///< Between take-off and landing, whose speeds no latency bounds.
-  double hover_time_s{};  ///< Airborne below .1 m/s.
+  double hover_time_s{};   ///< Airborne below .1 m/s.
   int replans{};
   std::uint64_t deadline_misses{};  ///< Of jobs on board, late maps not counted.
   std::uint64_t decisions{};
