@@ -114,11 +114,12 @@ TEST(ClosedLoop, shakes_every_airframe_as_was_measured_in_hover) {
     scenario.kernels.localizer = "visual_inertial";
     scenario.camera.width_px = 32;
     scenario.camera.height_px = 18;
-    scenario.mission.time_limit_s = 4.0;
+    scenario.mission.time_limit_s = 6.0;
     double sum_m2_s4 = 0.0;
     int samples = 0;
     fly_and_hear<ImuSample>(scenario, "imu", [&](const ImuSample& felt) {
-      const bool is_flying = felt.stamp > MissionTime{std::chrono::seconds{2}};
+      // With so few pixels it is lost in the climb, and stands by then to search for its place.
+      const bool is_flying = felt.stamp > MissionTime{std::chrono::seconds{4}};
       sum_m2_s4 += is_flying ? felt.f_B.y() * felt.f_B.y() : 0.0;
       samples += is_flying ? 1 : 0;
     });
